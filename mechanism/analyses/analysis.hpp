@@ -1,7 +1,7 @@
-// An analysis: what a session is to do, with what it records and says.
+// An analysis: a computation of a session, with its records and its summary.
 //
-// A new one is a class of this kind in a file of its own, with the reader of its keys, and a line in
-// analysis_table.cpp. Reading, running, the results file and the summary take it from there.
+// A new analysis is a class derived from this one in its own file, with the reader of its keys, and a line in
+// analysis_table.cpp. Reading, running, the results file and the summary then include it.
 #pragma once
 
 #include <map>
@@ -14,9 +14,9 @@
 namespace bielle::mechanism {
 
 struct AnalysisSummary {
-  std::string text;  ///< what the program says of it: a heading, and lines below it
-  long records = 0;  ///< rows
-  /// Results in numbers, by name: "limit_points".
+  std::string text;  ///< text for the user: a heading, and lines below it
+  long records = 0;  ///< number of rows
+  /// Numerical results, by name: "limit_points".
   std::map<std::string, std::vector<double>> numbers;
 };
 
@@ -29,20 +29,21 @@ class Analysis {
   Analysis& operator=(const Analysis&) = delete;
 
   const std::string& type() const { return type_; }
-  /// Does it, from where the session stands. Rows and arrays go to the session's sinks.
+  /// Runs the analysis from the present state of the session. Rows and arrays go to the session's sinks.
   /// @throws InputError, ComputationError
   AnalysisSummary run(Session& session) const;
-  /// Goes on with it from what a sink keeps, whose rows of it are there. @throws InputError when it cannot
+  /// Continues the analysis from the checkpoint of a sink, which has the earlier rows. @throws InputError if this is
+  /// not possible
   AnalysisSummary go_on(Session& session, const std::vector<double>& checkpoint, ResultSink& sink) const;
 
-  /// How the model that it will run on is made anew with another parameter, for those that sweep one.
+  /// Sets the function that creates the model with another parameter, for analyses that sweep a parameter.
   virtual void set_maker(const ModelMaker& /*maker*/) {}
 
-  virtual bool can_go_on() const { return false; }  ///< whether sinks get points to go on from
-  /// What it keeps as drawn while it brings parts together, for `--check`.
+  virtual bool can_go_on() const { return false; }  ///< whether sinks receive checkpoints
+  /// Nodes and coordinates that keep their values during the assembly, for `--check`.
   virtual AssemblyOptions kept() const { return {}; }
-  virtual double duration() const { return 0; }  ///< by which time goes on [s]
-  /// How many rows will be recorded; 0: unknown, or none.
+  virtual double duration() const { return 0; }  ///< increase of the time [s]
+  /// Expected number of rows; 0: unknown, or none.
   virtual std::size_t expected_rows(const Recording& /*recording*/) const { return 0; }
 
  private:

@@ -2,7 +2,7 @@
 
 namespace bielle::mechanism {
 
-// Each stands in the file of its analysis.
+// Each reader is defined in the file of its analysis.
 AnalysisReader read_assembly, read_static, read_dynamic, read_kinematic, read_inverse_dynamics, read_eigen,
     read_campbell, read_frequency_response, read_state_space_analysis;
 
@@ -29,7 +29,7 @@ std::unique_ptr<Analysis> read_analysis(const YamlValue& entry, const Model& mod
     names.emplace_back(known.name);
   }
   type.word(names, "a type of analysis");
-  return nullptr;  // never: no such word
+  return nullptr;  // not reached: the word is checked above
 }
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// All types of analysis by name: the one place where a new one is registered.
+// Table of all types of analysis by name: the only place where a new one is registered.
 #pragma once
 
 #include <memory>
@@ -9,17 +9,17 @@
 
 namespace bielle::mechanism {
 
-/// Reads the keys of an entry. @throws InputError
+/// Reads the keys of an entry of the section `analysis`. @throws InputError
 using AnalysisReader = std::unique_ptr<Analysis>(const YamlValue& entry, const Model& model);
 
 struct AnalysisType {
-  const char* name;  ///< the entry's `type`
+  const char* name;  ///< value of the entry's `type`
   AnalysisReader* read;
 };
 
 const std::vector<AnalysisType>& analysis_table();
 
-/// Reads an entry of the section `analysis`. @throws InputError for an unknown type, with the nearest name
+/// Reads an entry of the section `analysis`. @throws InputError for an unknown type, naming the nearest name
 std::unique_ptr<Analysis> read_analysis(const YamlValue& entry, const Model& model);
 
 }  // namespace bielle::mechanism

@@ -1,9 +1,9 @@
 // `assembly`: positions and velocities are made consistent, and recorded.
 //
-// `keep`: nodes that stay where they are, and coordinates of joints that keep their value:
+// `keep`: nodes that keep their positions, and coordinates of joints that keep their values:
 //     keep: [base, crank.angle, {joint: 'left arm', coordinate: angle}]
-// A word is the name of a node; otherwise that of a joint, with its coordinate behind the last dot. A map may leave the
-// coordinate out where there is one only.
+// A word is the name of a node; otherwise it is the name of a joint, followed by a dot and the coordinate. A map may
+// omit the coordinate if the joint has only one.
 #include <algorithm>
 #include <set>
 

@@ -12,16 +12,16 @@
 namespace bielle::mechanism {
 namespace {
 
-/// States of a rotor at values of what is swept.
+/// Computes the states of a rotor at values of the swept parameter.
 class CampbellStates {
  public:
   CampbellStates(Session& session, const CampbellOptions& options) : session_(session), options_(options) {}
 
-  /// Axes and setting are those of the last value, and its motion steady in them if any is.
+  /// Axes and setting are those of the last value: if any motion is steady in the axes, this one is.
   void begin(Campbell& found) {
     const double last = options_.values.back();
     with_modes(last, 1, [&](const System& /*system*/, const ModesReport& report) {
-      // Frequencies of whirl are seen in inertial axes where these are good to a thousandth.
+      // Frequencies of whirl are taken in inertial axes if the motion is steady in these to a thousandth.
       const bool inertial = report.steadiness && report.steadiness->steady_in(ModeAxes::inertial);
       axes_ = inertial ? ModeAxes::inertial : report.axes;
       axis_ = options_.axis.isZero(0) ? fastest(report.about.state, last) : Vector3(options_.axis);
@@ -45,7 +45,7 @@ class CampbellStates {
         if (!(mode.s.imag() > 0)) continue;
         const auto whirl = whirl_of(system, state, sample.modes.M, mode, axis_);
         sample.modes.modes.push_back(mode);
-        // Forwards is in the sense of the speed, and nothing is where nothing turns.
+        // Forward whirl has the sense of the speed; without rotation there is neither forward nor backward whirl.
         sample.modes.whirl.push_back(whirl && sample.speed != 0 ? std::copysign(1, sample.speed) * *whirl : NAN);
       }
       if (report.steadiness && !report.steadiness->steady_in(*axes_) &&
@@ -126,7 +126,7 @@ class CampbellStates {
     return most(state);
   }
 
-  /// About the axis, of the node that turns fastest [rad/s].
+  /// Component about the axis of the largest angular velocity of a node [rad/s].
   double most(const State& state) const {
     double most = 0;
     for (const NodeState& node : state.nodes)

@@ -15,7 +15,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// `{from: 0, to: 300, count: 61}`, or a list.
+/// Reads `{from: 0, to: 300, count: 61}`, or a list.
 std::vector<double> read_speeds(const YamlValue& entry) {
   std::vector<double> values;
   if (entry.is_sequence()) {
@@ -44,7 +44,7 @@ std::string read_swept_parameter(const YamlValue& entry, const Model& model) {
   return name;
 }
 
-/// `{axis: [0, 0, 1], position: [0, 0, 0], rate: "rpm*pi/30"}`.
+/// Reads `{axis: [0, 0, 1], position: [0, 0, 0], rate: "rpm*pi/30"}`.
 void read_swept_rotation(const YamlValue& entry, const Model& model, CampbellOptions& options) {
   entry.check_keys({"axis", "position", "rate"}, "`rotation` of a sweep");
   options.rotation = true;

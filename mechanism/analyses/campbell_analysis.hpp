@@ -1,4 +1,4 @@
-// `campbell`: frequencies over the speed of a rotor, each mode followed by its shape, with critical speeds.
+// `campbell`: frequencies over the speed of a rotor, with modes tracked by their shapes, and critical speeds.
 #pragma once
 
 #include "mechanism/analyses/analysis.hpp"

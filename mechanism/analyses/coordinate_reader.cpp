@@ -31,7 +31,7 @@ AssemblyOptions::Coordinate read_coordinate(const YamlValue& item, const Compone
   return {&joint, static_cast<std::size_t>(found - names.begin())};
 }
 
-/// The joint of a word "joint.coordinate", or nullptr.
+/// Returns the joint of a word "joint.coordinate", or nullptr.
 const Component* joint_before_dot(const std::string& word, const Model& model) {
   const std::size_t dot = word.rfind('.');
   if (dot == std::string::npos) return nullptr;

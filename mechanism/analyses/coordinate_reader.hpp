@@ -1,4 +1,5 @@
-// Coordinates of joints by their names in an analysis: `crank.angle`, `{joint: 'left arm', coordinate: angle}`.
+// Readers of coordinates of joints by their names in an analysis: `crank.angle`, `{joint: 'left arm', coordinate:
+// angle}`.
 #pragma once
 
 #include <optional>
@@ -13,18 +14,19 @@ namespace bielle::mechanism {
 
 std::vector<std::string> names_of_coordinates(const Component& joint);
 
-/// @param name  of the coordinate; none: it is the only one. @throws InputError at `item`, with the nearest name
+/// @param name  name of the coordinate; may be empty if the joint has only one. @throws InputError at `item`, naming
+///              the nearest name
 AssemblyOptions::Coordinate read_coordinate(const YamlValue& item, const Component& joint,
                                             const std::optional<std::string>& name);
 
-/// `{joint: .., coordinate: ..}`, the coordinate left out where there is one only.
+/// Reads `{joint: .., coordinate: ..}`; the coordinate may be omitted if there is only one.
 AssemblyOptions::Coordinate read_coordinate_map(const YamlValue& item, const std::string& key, const Model& model);
 
-/// The joint of a word "joint.coordinate", or nullptr.
+/// Returns the joint of a word "joint.coordinate", or nullptr.
 const Component* joint_before_dot(const std::string& word, const Model& model);
 
-/// `hold: [shaft, crank.angle]`: all coordinates of a joint, or one. @throws InputError for what is none, or stands
-/// twice
+/// Reads `hold: [shaft, crank.angle]`: all coordinates of a joint, or one. @throws InputError for a word that is no
+/// coordinate, or occurs twice
 std::vector<AssemblyOptions::Coordinate> read_held_coordinates(const YamlValue& hold, const Model& model);
 
 }  // namespace bielle::mechanism

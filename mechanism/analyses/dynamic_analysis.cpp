@@ -48,7 +48,7 @@ Scheme read_scheme(const YamlValue& entry, std::string& description) {
   return Scheme::newmark();
 }
 
-/// `step` alone: fixed steps. With `tolerance`: adaptive ones, of which `step` is the first.
+/// Reads `step`: steps are fixed if it is given alone. With `tolerance` they are adaptive, and `step` is the first.
 StepOptions read_stepping(const YamlValue& entry, double duration) {
   StepOptions options;
   if (entry.has("tolerance")) {
@@ -68,14 +68,15 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
   return options;
 }
 
-/// Parts of the largest energy that errors, or the scheme's dissipation, may make of the balance before results are not
-/// to be trusted unseen.
+/// Fractions of the largest energy: if errors, or the scheme's dissipation, exceed them in the energy balance, the
+/// summary warns of the results.
 constexpr double doubtful = 0.05;
-/// No scheme adds energy to a motion that its steps resolve: from this share on a gain is worth a word.
+/// No scheme adds energy to a motion that its steps resolve: the summary mentions a gain above this fraction.
 constexpr double gained = 0.01;
 
-/// Newton's method knows positions to some 1e-9 of the model's size; energies below the work of the largest forces
-/// along that mean nothing [J]. Reactions do no work: those of joints that fight each other may be of any size.
+/// Newton's method determines positions to some 1e-9 of the model's size; energies below the work of the largest forces
+/// along this length are not significant [J]. Reactions do no work: they may have any size if joints act against each
+/// other.
 double energy_noise(const Session& session) {
   constexpr double positions = 1e-9;
   State state = session.state();
@@ -86,7 +87,7 @@ double energy_noise(const Session& session) {
   return positions * (scale[Kind::translation] * model_length(state) + scale[Kind::rotation]);
 }
 
-/// How hard the steps were, and what was refused or cut short.
+/// Describes sizes and iterations of the steps, and steps that were rejected or shortened.
 std::string format_march(const MarchLog& log, const System& system) {
   std::string text;
   if (log.most_iterations > 0)
@@ -113,15 +114,15 @@ std::string format_events(const Motion& motion) {
                      motion.stopped_by_event() ? ", which stopped the run" : "");
 }
 
-/// Energy that goes in and is dissipated in the same step cancels, and leaves no error: if more energy flows through in
-/// a step than is stored, a part of the flow is the measure.
+/// Energy that is supplied and dissipated in the same step cancels, and leaves no error: if more energy flows through
+/// in a step than is stored, the error is compared with this fraction of the flow.
 constexpr double part_of_turnover = 0.1;
 
-/// The gap is the surplus of the balance, relative to the largest energy, stored or flowed through. Energy is missing
-/// if it is negative.
+/// The surplus of the energy balance, relative to the largest energy, stored or flowed through. A negative gap means
+/// missing energy.
 struct Gap {
-  double whole, scheme;  ///< of it what the scheme's own damping has taken
-  double turnover;       ///< largest error while the stored energy is turned over once, by what is stored then
+  double whole, scheme;  ///< part of it that the scheme's own damping has removed
+  double turnover;       ///< largest error of one turnover of the stored energy, relative to that energy
   double errors() const { return whole - scheme; }
 };
 
@@ -133,7 +134,7 @@ std::string explain_gap(const Gap& gap, const Scheme& scheme) {
                        : "lost by errors of the steps; this scheme does not dissipate";
 }
 
-/// @param tolerance  of adaptive steps; 0: they are fixed
+/// @param tolerance  tolerance of adaptive steps; 0: fixed steps
 std::string judge_gap(const Gap& gap, double tolerance) {
   const char* const advice = tolerance > 0 ? "give a smaller `tolerance`" : "take smaller steps, or give a `tolerance`";
   std::string text;
@@ -151,9 +152,9 @@ std::string judge_gap(const Gap& gap, double tolerance) {
   return text;
 }
 
-/// Much stored energy does not make little input or dissipation better known.
+/// A large stored energy does not make a small input or dissipation more accurate.
 std::string judge_flow(double balance, double stored, double through) {
-  constexpr double least = 1e-3;  // of the stored energy: less is a motion without losses
+  constexpr double least = 1e-3;  // fraction of the stored energy: smaller flows mean a motion without losses
   if (through >= stored || through < least * stored || std::abs(balance) <= doubtful * through) return {};
   return fmt::format("  that is {:.2g} of the {:.3g} J that went in or were dissipated: these are not known better\n",
                      std::abs(balance) / through, through);
@@ -179,7 +180,7 @@ std::string format_energy(const Session& session, const Motion& motion, const Dy
 
 namespace {
 
-/// `start: as_given`, `start: equilibrium`, or `start: {equilibrium: true, hold: [shaft]}`.
+/// Reads `start: as_given`, `start: equilibrium`, or `start: {equilibrium: true, hold: [shaft]}`.
 void read_start(const YamlValue& start, const Model& model, DynamicsOptions& options) {
   if (!start.is_map()) {
     options.equilibrium = start.word({"as_given", "equilibrium"}, "a start") == "equilibrium";
@@ -224,7 +225,7 @@ std::size_t DynamicAnalysis::expected_rows(const Recording& recording) const {
   if (!recording.times.empty()) return recording.times.size() + 1;
   if (options_.stepping.tolerance > 0) return 0;
   return static_cast<std::size_t>(grid_steps(options_.duration, options_.stepping.size) / recording.every) +
-         2;  // and the first, and the last
+         2;  // the first and the last row
 }
 
 void DynamicAnalysis::solve(Session& session, AnalysisSummary& summary) const {

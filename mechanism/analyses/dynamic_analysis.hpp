@@ -1,4 +1,4 @@
-// `dynamic`: the motion over a span of time.
+// `dynamic`: the motion over an interval of time.
 #pragma once
 
 #include "mechanism/analyses/analysis.hpp"
@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 /// Its summary has the numbers "end_time" [s], "steps" and "balance" of energy [J].
 class DynamicAnalysis : public Analysis {
  public:
-  /// @param scheme  in words, for the summary
+  /// @param scheme  the scheme in words, for the summary
   DynamicAnalysis(DynamicsOptions options, std::string scheme)
       : Analysis("dynamic"), options_(std::move(options)), scheme_(std::move(scheme)) {}
   const DynamicsOptions& options() const { return options_; }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_listed = 50;
 
-/// "element 'rod' 93 %, joint 'main' 6 %": what holds a twentieth of the energy or more, the largest first.
+/// Lists the parts with a twentieth of the energy or more, the largest first: "element 'rod' 93 %, joint 'main' 6 %".
 std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
   std::vector<std::pair<double, std::string>> shares;
   for (Eigen::Index k = 0; k < parts.share.rows(); ++k)
@@ -33,14 +33,14 @@ std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// The damping ratio, 0 where it cannot be told from that.
+/// Returns the damping ratio, 0 if it cannot be distinguished from zero.
 double shown_damping(const Mode& mode) {
   constexpr double rounding = 1e-10;
   const bool nothing = std::abs(mode.s.real()) <= std::max(mode.uncertainty, rounding * std::abs(mode.s));
   return nothing ? 0 : mode.damping_ratio();
 }
 
-/// The text says how uncertain those eigenvalues are that rounding leaves hardly known.
+/// Describes the uncertainty of eigenvalues that rounding errors determine only roughly.
 std::string format_uncertain(const ModesReport& report) {
   const std::vector<Mode>& modes = report.found.modes;
   const double drift = report.steadiness ? report.steadiness->drift(report.axes) * report.steadiness->rate : 0;
@@ -78,7 +78,7 @@ std::string format_table(const ModesReport& report, const ModeParts& parts) {
   return text;
 }
 
-/// What a user should not overlook.
+/// Formats the warnings.
 std::string format_remarks(const ModesReport& report) {
   std::string text;
   std::vector<std::string> growing;

@@ -1,4 +1,4 @@
-// `eigen`: modes of small motions about the state that the analysis finds.
+// `eigen`: modes of small motions about the state of the session.
 #pragma once
 
 #include "mechanism/analyses/analysis.hpp"
@@ -12,7 +12,7 @@ class EigenAnalysis : public Analysis {
  public:
   EigenAnalysis(ModesOptions options, bool shapes) : Analysis("eigen"), options_(std::move(options)), shapes_(shapes) {}
   const ModesOptions& options() const { return options_; }
-  bool shapes() const { return shapes_; }  ///< whether they go to the sinks
+  bool shapes() const { return shapes_; }  ///< whether shapes are written to the sinks
 
  private:
   void solve(Session& session, AnalysisSummary& summary) const override;

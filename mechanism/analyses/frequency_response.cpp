@@ -21,7 +21,7 @@ using Complex = std::complex<double>;
                   frequency));
 }
 
-/// Answers by one factorisation each.
+/// Computes the response by one factorisation for each frequency.
 class DirectResponse {
  public:
   DirectResponse(const LinearResponse& response, const LinearisedEquations& equations,
@@ -51,7 +51,7 @@ class DirectResponse {
   std::vector<VectorX> rights_;
 };
 
-/// The sum over modes.
+/// Computes the response as a sum over modes.
 class SuperposedResponse {
  public:
   SuperposedResponse(const LinearResponse& response, const LinearisedEquations& equations,
@@ -90,7 +90,7 @@ class SuperposedResponse {
   }
 
  private:
-  /// What moves without any force answers with 1/s^2 and 1/s, which no smooth rest follows.
+  /// A rigid mode without any force has a response of 1/s^2 and 1/s, which the smooth remainder cannot represent.
   void check_rigid(const ModalAccuracy& accuracy, const std::vector<Mode>& modes,
                    const std::vector<ModalPole>& poles) const {
     for (const Mode& mode : modes)
@@ -101,7 +101,7 @@ class SuperposedResponse {
                         "sum differs from the direct answer by {:.2g} of it): hold the mechanism, or leave `modes` out",
                         accuracy.frequency, accuracy.deviation));
   }
-  /// Whether an input moves it, and an output sees it.
+  /// Whether an input excites the mode, and an output observes it.
   bool takes_part(const Mode& mode, const std::vector<ModalPole>& poles) const {
     constexpr double something = 1e-6;
     const int n = equations_.unknowns();

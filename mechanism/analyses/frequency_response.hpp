@@ -1,4 +1,4 @@
-// Harmonic responses of small motions about the present state of a session.
+// Frequency responses of small motions about the present state of a session.
 #pragma once
 
 #include <complex>
@@ -15,8 +15,8 @@ namespace bielle::mechanism {
 
 /// A force or moment on a node along an inertial direction, or the number of an input of the model.
 struct ResponseInput {
-  std::string name;  ///< of the model's input; of others as they are recorded: "force x at node 'tip'"
-  int node = -1;     ///< -1: an input of the model
+  std::string name;  ///< name of the model's input; otherwise as it is recorded: "force x at node 'tip'"
+  int node = -1;     ///< node index; -1: an input of the model
   bool moment = false;
   Vector3 direction = Vector3::Zero();  ///< unit vector
 };
@@ -24,7 +24,7 @@ struct ResponseInput {
 /// A measure of the model, or the displacement (or rotation) of a node along an inertial direction.
 struct ResponseOutput {
   std::string name;
-  int node = -1;  ///< -1: a measure
+  int node = -1;  ///< node index; -1: a measure
   bool rotation = false;
   Vector3 direction = Vector3::Zero();
 };
@@ -34,28 +34,28 @@ struct FrequencyResponseOptions {
   std::vector<ResponseOutput> outputs;
   std::vector<double> frequencies;  ///< [Hz] >= 0
   std::optional<SteadyRotation> rotation = {};
-  int modes = 0;  ///< so many of the slowest are superposed, with the residual of the others; 0: one factorisation each
+  int modes = 0;  ///< number of slowest modes superposed, with the residual of the others; 0: one factorisation each
 };
 
-/// How a sum over modes was made, and how good it is.
+/// Properties and error of a sum over modes.
 struct ModalAccuracy {
-  int modes = 0;         ///< in the sum
-  double fastest = 0;    ///< of them [Hz]
-  int direct = 0;        ///< frequencies at which the answer was found directly
-  double deviation = 0;  ///< the largest from such an answer, relative to it, where it was not used
-  double frequency = 0;  ///< where that is [Hz]
+  int modes = 0;         ///< number of modes in the sum
+  double fastest = 0;    ///< frequency of the fastest of them [Hz]
+  int direct = 0;        ///< number of frequencies with a direct solution
+  double deviation = 0;  ///< largest relative deviation from a direct solution that was not used for the sum
+  double frequency = 0;  ///< its frequency [Hz]
 };
 
 struct FrequencyResponse : LinearisedSetting {
-  /// Of each frequency (outputs, inputs): the output's complex amplitude per unit of the input, both as Re(x exp(i w
+  /// For each frequency (outputs, inputs): the output's complex amplitude per unit of the input, both as Re(x exp(i w
   /// t)).
   std::vector<Eigen::MatrixXcd> response;
   std::vector<std::string> output_units;
-  std::optional<ModalAccuracy> modal;  ///< of a sum over modes
+  std::optional<ModalAccuracy> modal;  ///< set for a sum over modes
 };
 
-/// The present state stays. @throws InputError for names that the model does not have; ComputationError at a frequency
-/// of an undamped mode
+/// The present state of the session is kept. @throws InputError for names that the model does not have;
+/// ComputationError at a frequency of an undamped mode
 FrequencyResponse compute_frequency_response(Session& session, const FrequencyResponseOptions& options);
 
 }  // namespace bielle::mechanism

@@ -14,7 +14,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// `{from: 1, to: 100, count: 200, spacing: logarithmic}`, or a list.
+/// Reads `{from: 1, to: 100, count: 200, spacing: logarithmic}`, or a list.
 std::vector<double> read_frequencies(const YamlValue& entry) {
   std::vector<double> frequencies;
   if (entry.is_sequence()) {

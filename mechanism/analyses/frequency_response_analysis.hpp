@@ -1,4 +1,4 @@
-// `frequency_response`: harmonic answers of small motions between inputs and outputs.
+// `frequency_response`: frequency responses of small motions between inputs and outputs.
 #pragma once
 
 #include "mechanism/analyses/analysis.hpp"
@@ -6,8 +6,8 @@
 
 namespace bielle::mechanism {
 
-/// Its summary has the numbers "peak" (of each output to each input, outputs first) and "peak_frequency" [Hz], of a sum
-/// over modes "deviation".
+/// Its summary has the numbers "peak" (for each output to each input, outputs first) and "peak_frequency" [Hz], and for
+/// a sum over modes "deviation".
 class FrequencyResponseAnalysis : public Analysis {
  public:
   explicit FrequencyResponseAnalysis(FrequencyResponseOptions options)

@@ -1,4 +1,4 @@
-// `kinematic` and `inverse_dynamics`: a mechanism whose every motion is driven, time after time.
+// `kinematic` and `inverse_dynamics`: a mechanism whose motions are all driven, at a sequence of times.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,6 +1,6 @@
-// Mechanisms whose every motion is driven: positions, velocities and accelerations follow from the constraints alone,
-// time after time, and with them the forces of drives and joints that bring them about (inverse dynamics). Nothing is
-// integrated: each time stands for itself, exact to rounding.
+// Mechanisms whose motions are all driven: at each time, positions, velocities and accelerations follow from the
+// constraints alone, and from them the forces of drives and joints that cause the motion (inverse dynamics). Nothing is
+// integrated: each time is solved independently, exact to rounding.
 #include "mechanism/analyses/kinematics.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The largest translation of a vector over the dofs times a size, or other entry.
+/// Returns the largest absolute entry of a vector over the dofs, translations multiplied by a factor.
 double largest_entry(const System& system, const Eigen::Ref<const VectorX>& vector, double of_translations) {
   double largest = 0;
   for (int i = 0; i < system.dofs(); ++i)
@@ -41,7 +41,7 @@ double largest_entry(const System& system, const Eigen::Ref<const VectorX>& vect
 
 /// Whether gravity or loads act along some motions (dofs, motions).
 bool is_loaded(const System& system, const Environment& environment, const State& state, const MatrixX& motions) {
-  constexpr double nothing = 1e-7;  // of the largest force along the largest motion; the motions are exact to some 1e-9
+  constexpr double nothing = 1e-7;  // relative to the largest force along the largest motion; motions: some 1e-9
   Environment statics = environment;
   statics.statics = true;
   State still = state;
@@ -57,9 +57,9 @@ bool is_loaded(const System& system, const Environment& environment, const State
   return false;
 }
 
-/// Throws where a motion is free that has to be driven.
-/// @param elastic  elastic parts may deform, and motions that nothing loads or determines stay at rest
-/// @returns the coordinates that tell the latter
+/// Throws if a motion is free that has to be driven.
+/// @param elastic  whether elastic parts may deform, and motions that are not loaded or determined stay at rest
+/// @returns the coordinates that describe motions which stay at rest
 std::vector<std::string> check_driven(const System& system, const Environment& environment, const State& state,
                                       const Mobility& mobility, bool elastic) {
   std::vector<std::string> indifferent;
@@ -91,7 +91,7 @@ std::vector<std::string> check_driven(const System& system, const Environment& e
   return indifferent;
 }
 
-/// Whether a time is one of some, which ascend, but for rounding [s].
+/// Whether a time is in an ascending list, up to rounding [s].
 bool contains(const std::vector<double>& times, double time, double rounding) {
   const auto from = std::lower_bound(times.begin(), times.end(), time - rounding);
   return from != times.end() && *from <= time + rounding;
@@ -99,7 +99,8 @@ bool contains(const std::vector<double>& times, double time, double rounding) {
 
 constexpr double same_time = 1e-9;  // relative to the step
 
-/// Equal steps, the times to record, and those where laws of drives have kinks (where velocities jump).
+/// Returns the times of equal steps, the times to record, and the kinks of the laws of drives (at which velocities
+/// jump).
 std::vector<double> times_of(const System& system, const KinematicsOptions& options, const Recording& recording,
                              double begin) {
   const long steps = grid_steps(options.duration, options.step);
@@ -110,25 +111,25 @@ std::vector<double> times_of(const System& system, const KinematicsOptions& opti
     for (const double time : more)
       if (time > begin && time < end) times.push_back(time);
   std::sort(times.begin(), times.end());
-  // A time of the grid that is met but for rounding is met.
+  // Times that agree with a time of the grid up to rounding are removed.
   const auto same = [&](double a, double b) { return b - a < same_time * h; };
   times.erase(std::unique(times.begin(), times.end(), same), times.end());
   return times;
 }
 
-/// Positions, velocities, accelerations and reactions of driven rigid parts.
+/// Computes positions, velocities, accelerations and reactions of driven rigid parts.
 class RigidPositions {
  public:
   RigidPositions(const System& system, const Environment& environment, const SoughtEfforts& efforts)
       : system_(system), environment_(environment), efforts_(efforts), saddle_(system) {}
-  /// Finds efforts that are sought at a state that is consistent with none.
+  /// Finds the sought efforts at a state that is not yet consistent with any.
   void begin(State& state) { find_sought_efforts(efforts_, environment_, state, saddle_); }
   State operator()(const State& from, double time) {
     State next = predicted(system_, from, time);
     StartReport unused;
     assemble_positions(system_, environment_, next, unused);
     make_velocities_consistent(system_, environment_, next, unused, saddle_);
-    system_.begin_branch(next, environment_);  // stops, contacts
+    system_.begin_branch(next, environment_);  // updates stops and contacts
     make_accelerations_consistent(system_, environment_, next, saddle_);
     find_sought_efforts(efforts_, environment_, next, saddle_);
     return next;
@@ -141,7 +142,7 @@ class RigidPositions {
   MassSaddle saddle_;
 };
 
-/// A prescribed motion from point to point, and from crossing to crossing.
+/// A prescribed motion from time to time, and from event to event.
 class CrossedMotion {
  public:
   CrossedMotion(const System& system, const Environment& environment, ContinuousMotion::Position position)
@@ -154,12 +155,12 @@ class CrossedMotion {
   CrossedMotion(const CrossedMotion&) = delete;
   CrossedMotion& operator=(const CrossedMotion&) = delete;
 
-  /// To be called before each step. @returns crossings that are met where velocities or forces have jumped
+  /// Call it before each step. @returns the events that occur because velocities or forces have jumped
   std::vector<int> begin(const State& state) { return watch_.begin(state, environment_, passed_); }
-  /// Takes a state to a time or, where a crossing that ends steps lies before it, just behind that: by at most a
+  /// Advances a state to a time or, if an event that ends steps occurs before, to just after the event: by at most a
   /// billionth of the step.
-  /// @param jumps  velocities may jump at that time
-  /// @returns the crossings that are met, in their order
+  /// @param jumps  whether velocities may jump at that time
+  /// @returns the events that occur, in their order
   std::vector<CrossingWatch::Noted> advance(State& state, double time, bool jumps) {
     State next = motion_.advance(state, time, jumps);
     const double h = time - state.time;
@@ -190,10 +191,10 @@ class CrossedMotion {
   BranchSign sign_;
   ContinuousMotion motion_;
   CrossingWatch watch_;
-  std::vector<int> passed_;  ///< at the end of the last step
+  std::vector<int> passed_;  ///< sides of the event functions at the end of the last step
 };
 
-/// @returns whether one of them ends the analysis
+/// @returns whether one of the events ends the analysis
 bool note_crossings(const System& system, const std::vector<CrossingWatch::Noted>& crossed, Computation& computation,
                     KinematicsReport& report) {
   bool stops = false;
@@ -279,7 +280,7 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
     }
     books.advance(state.time, system.energy(state, environment));
     const bool ends = report.stopped_by_event;
-    if (state.time < times[k] && !ends) continue;  // a crossing between two points
+    if (state.time < times[k] && !ends) continue;  // an event between two times
     ++k;
     const bool asked_for = recording.times.empty()
                                ? k % static_cast<std::size_t>(recording.every) == 0 || k == times.size()

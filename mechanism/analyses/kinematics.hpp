@@ -11,28 +11,29 @@
 namespace bielle::mechanism {
 
 struct KinematicsOptions {
-  double duration = 0;  ///< [s] > 0
-  double step = 0;      ///< between two positions [s] > 0; the last one may be made smaller to fit
-  /// Elastic parts follow in equilibrium under inertia forces (quasi_static_motion.hpp); otherwise they are refused.
+  double duration = 0;  ///< duration [s] > 0
+  double step = 0;      ///< time between two positions [s] > 0; it is reduced to fit a whole number of times
+  /// Elastic parts are in equilibrium under inertia forces (quasi_static_motion.hpp); if false, elastic parts are an
+  /// error.
   bool elastic = false;
 };
 
 struct KinematicsReport {
   StartReport start;
   long points = 0;
-  long events = 0;                       ///< crossings met
-  std::string last_event;                ///< its name; empty: there was none
-  bool stopped_by_event = false;         ///< before the end of the duration
-  Energy energy;                         ///< at the end; input and dissipation since the start [J]
-  double balance = 0;                    ///< what is missing in their balance [J]
-  bool elastic = false;                  ///< something deforms
-  double left_out = 0;                   ///< by then, see QuasiStaticMotion::left_out
-  std::vector<std::string> indifferent;  ///< coordinates that nothing drives or loads, and that stay at rest
+  long events = 0;                       ///< number of events
+  std::string last_event;                ///< name of the last event; empty: there was none
+  bool stopped_by_event = false;         ///< an event stopped the analysis before the end of the duration
+  Energy energy;                         ///< stored energies at the end; input and dissipation since the start [J]
+  double balance = 0;                    ///< missing energy in the energy balance [J]
+  bool elastic = false;                  ///< whether something deforms
+  double left_out = 0;                   ///< omitted part at the end, see QuasiStaticMotion::left_out
+  std::vector<std::string> indifferent;  ///< coordinates without drive or load, which stay at rest
 };
 
-/// A mechanism whose every motion is driven: positions, velocities, accelerations and the forces that belong to them,
-/// time after time, without integration; elastic parts follow in equilibrium, if asked for. @throws InputError naming
-/// what is free, ComputationError naming what cannot be satisfied
+/// Computes a mechanism whose motions are all driven: positions, velocities, accelerations and the corresponding
+/// forces, at a sequence of times, without integration; elastic parts are in equilibrium if requested. @throws
+/// InputError naming free motions, ComputationError naming conditions that cannot be satisfied
 KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& options);
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// Small motions about a state between inputs and outputs: right-hand sides and values.
+// Small motions about a state between inputs and outputs: right-hand sides and output values.
 #pragma once
 
 #include <complex>
@@ -15,29 +15,30 @@ namespace bielle::mechanism {
 class LinearResponse {
  public:
   using Complex = std::complex<double>;
-  /// All must outlive this.
+  /// All arguments must outlive this object.
   LinearResponse(const System& system, const StandingState& about, const LinearisedEquations& equations)
       : system_(system), state_(about.state), environment_(about.environment), equations_(equations) {}
 
-  /// Derivatives of the residual by each input (n + constraints). @throws InputError of an input that acts on nothing
+  /// Computes the derivatives of the residual by each input (n + constraints). @throws InputError for an input that
+  /// acts on nothing
   std::vector<VectorX> right_sides(const std::vector<ResponseInput>& inputs,
                                    const std::vector<ResponseOutput>& outputs) const;
-  /// The motion exp(shift t) of that right-hand side.
+  /// Solves for the motion exp(shift t) due to a right-hand side.
   Variation answer(const ShiftedOperator& D, const VectorX& right) const;
-  /// The motion exp(s t) of unknowns and multipliers (n + constraints).
+  /// Returns the motion exp(s t) with given unknowns and multipliers (n + constraints).
   Variation motion(Complex s, const Eigen::VectorXcd& solution) const;
-  /// Variation of an output by a motion.
+  /// Returns the variation of an output due to a motion.
   Complex value(const ResponseOutput& output, const Variation& variation) const;
-  /// Derivative of an output by an input of the model that it contains itself.
+  /// Returns the derivative of an output by an input of the model that it contains directly.
   double direct(const ResponseOutput& output, const ResponseInput& input) const;
   std::string units(const ResponseOutput& output) const;
 
  private:
   VectorX right_side(const ResponseInput& input) const;
-  /// Inputs of the model act through the forces that formulas make of them: central differences, exact where these are
-  /// linear in them.
+  /// Inputs of the model act through the forces that depend on them by formulas: the derivatives are central
+  /// differences, exact if the formulas are linear.
   struct InputStep {
-    int place;  ///< in the state's memory
+    int place;  ///< index in the state's memory
     double size;
   };
   InputStep step_of(const std::string& name) const;
@@ -49,7 +50,7 @@ class LinearResponse {
   const LinearisedEquations& equations_;
 };
 
-/// @throws InputError with the nearest name
+/// @throws InputError naming the nearest name
 void check_response_names(const Model& model, const std::vector<ResponseInput>& inputs,
                           const std::vector<ResponseOutput>& outputs);
 

@@ -1,4 +1,4 @@
-// In which axes small motions about a state are seen, and what may be wrong with the state.
+// Axes in which small motions about a state are described, and possible errors of the state.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@ namespace bielle::mechanism {
 
 struct LinearisedSetting {
   ModeAxes axes = ModeAxes::inertial;
-  std::optional<Steadiness> steadiness;  ///< nothing at rest
-  double unbalance = 0;                  ///< at rest: the largest missing force relative to the largest that acts
-  std::string unbalanced;                ///< its equation, with the force: "force y at node 'pin'"
+  std::optional<Steadiness> steadiness;  ///< empty at rest
+  double unbalance = 0;                  ///< at rest: largest residual force relative to the largest acting force
+  std::string unbalanced;                ///< equation of this residual force: "force y at node 'pin'"
 };
 
 LinearisedSetting linearised_setting(const System& system, const Environment& environment, const State& state);

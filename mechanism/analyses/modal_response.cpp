@@ -12,7 +12,7 @@ using MatrixXc = ModalResponse::MatrixXc;
 
 constexpr int reference_points = 4;
 
-/// Outputs of a motion exp(s t) by its unknowns and multipliers.
+/// Outputs of a motion exp(s t), given by its unknowns and multipliers.
 Eigen::VectorXcd outputs_of(const LinearResponse& response, const FrequencyResponseOptions& options,
                             const ModalPole& pole) {
   const Variation variation = response.motion(pole.s, pole.right);
@@ -54,7 +54,7 @@ ModalResponse::ModalResponse(const LinearResponse& response, const std::vector<M
 void ModalResponse::add_nodes(double most) {
   for (int k = 0; k < reference_points; ++k) {
     double rate = most * std::cos((2 * k + 1) * std::numbers::pi / (4 * reference_points));
-    // Next to a mode the small difference of large numbers is lost.
+    // Close to a mode, cancellation makes the small difference of two large numbers inaccurate.
     constexpr double too_near = 1e-2, aside = 1.03;
     for (int tries = 0; tries < 20; ++tries) {
       const bool near = std::any_of(poles_.begin(), poles_.end(),
@@ -82,8 +82,9 @@ MatrixXc ModalResponse::of_modes(Complex s) const {
   return H;
 }
 
-/// What counts as zero: a millionth of the answer, if the mode that moves the output most were the one that the input
-/// moves most. Symmetry makes such answers, and rounding their digits.
+/// Returns the size below which a response counts as zero: a millionth of the response that would result if the mode
+/// with the largest effect on the output were the mode with the largest excitation by the input. Symmetric models have
+/// such responses, whose digits are rounding errors.
 MatrixX ModalResponse::rounding(Complex s) const {
   constexpr double digits = 1e-6;
   VectorX outputs = VectorX::Zero(outputs_), inputs = VectorX::Zero(inputs_);

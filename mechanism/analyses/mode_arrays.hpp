@@ -1,4 +1,4 @@
-// Modes as results: arrays for the sinks, shares of energy by part.
+// Modes as results: arrays for the sinks, and energies by part.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace bielle::mechanism {
 
-/// Energies of modes by the entries of the model file.
+/// Energies of modes, by the entries of the model file.
 struct ModeParts {
-  std::vector<std::string> names;     ///< "element 'rod'"
-  MatrixX kinetic, potential, share;  ///< (parts, modes); share: of the sum of T + |V|
+  std::vector<std::string> names;     ///< names of the parts: "element 'rod'"
+  MatrixX kinetic, potential, share;  ///< (parts, modes); share: fraction of the sum of T + |V|
 };
 ModeParts mode_parts(const Model& model, const ModesReport& report);
 
-/// The datasets `eigen/...` of the open analysis (mechanism/io/README.md).
+/// Writes the datasets `eigen/...` of the open analysis (mechanism/io/README.md).
 void write_modes(Session& session, const ModesReport& report, const ModeParts& parts, bool shapes);
 
 }  // namespace bielle::mechanism

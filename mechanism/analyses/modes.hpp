@@ -14,20 +14,20 @@ namespace bielle::mechanism {
 struct ModesOptions {
   ModeOptions search;
   std::optional<SteadyRotation> rotation = {};  ///< modes about the steady rotation that begins at the state
-  std::optional<ModeAxes> axes = {};            ///< in which to see them; nothing: those that suit the motion
-  bool energies = true;                         ///< whether they are computed
+  std::optional<ModeAxes> axes = {};            ///< axes of the modes; empty: those that suit the motion
+  bool energies = true;                         ///< whether energies are computed
 };
 
 struct ModesReport : LinearisedSetting {
   StandingState about;
-  Modes found;  ///< shapes of unit size (unit_factor)
+  Modes found;  ///< shapes have unit size (unit_factor)
   MemberEnergies energies;
-  std::shared_ptr<const LinearisedEquations> equations;  ///< whose modes they are
-  /// In steady rotation: motions along which centrifugal forces outweigh what holds them (count_outweighed).
+  std::shared_ptr<const LinearisedEquations> equations;  ///< the linearised equations of the modes
+  /// In steady rotation: number of motions for which centrifugal forces exceed the stiffness (count_outweighed).
   std::optional<int> outweighed;
 };
 
-/// The state of the session stays. @throws ComputationError
+/// The state of the session is kept. @throws ComputationError
 ModesReport compute_modes(Session& session, const ModesOptions& options);
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// The key `newton` of analyses: how the equations of a step are solved.
+// Reader of the key `newton` of analyses: options for solving the equations of a step.
 #pragma once
 
 #include "mechanism/solvers/newton/convergence.hpp"
@@ -6,8 +6,8 @@
 
 namespace bielle::mechanism {
 
-/// `newton: {tolerance, iterations, line_search, tangent}` of an analysis, or the defaults where it has none.
-/// @param dynamic  there is a `tangent`. @throws InputError
+/// Reads `newton: {tolerance, iterations, line_search, tangent}` of an analysis; defaults apply if it is missing.
+/// @param dynamic  whether the key `tangent` is allowed. @throws InputError
 NewtonOptions read_newton(const YamlValue& analysis, bool dynamic);
 
 }  // namespace bielle::mechanism

@@ -10,7 +10,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Names of entries that are read as measures.
+/// Returns the name of an entry that is read as a measure.
 template <class Kind>
 std::string named_measure(const YamlValue& item, const Model& model, const char* of) {
   const std::string name = item.text();
@@ -31,7 +31,7 @@ struct Directed {
   std::string name;
 };
 
-/// `{node: tip, direction: z}`. @param straight,turning  words of `quantity`
+/// Reads `{node: tip, direction: z}`. @param straight,turning  permitted values of `quantity`
 Directed read_directed(const YamlValue& item, const Model& model, const char* straight, const char* turning,
                        const char* what) {
   item.check_keys({"node", "direction", "quantity"}, what);

@@ -1,4 +1,4 @@
-// `inputs` and `outputs` of analyses of small motions.
+// Readers of `inputs` and `outputs` of analyses of small motions.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace bielle::mechanism {
 
-/// `inputs: [push, {node: tip, direction: z, quantity: moment}]` of an analysis; at least one.
+/// Reads `inputs: [push, {node: tip, direction: z, quantity: moment}]` of an analysis; at least one.
 std::vector<ResponseInput> read_response_inputs(const YamlValue& entry, const Model& model);
-/// `outputs: [error, {node: tip, direction: z, quantity: rotation}]` of an analysis; at least one.
+/// Reads `outputs: [error, {node: tip, direction: z, quantity: rotation}]` of an analysis; at least one.
 std::vector<ResponseOutput> read_response_outputs(const YamlValue& entry, const Model& model);
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// The key `rotation` of analyses of small motions.
+// Reader of the key `rotation` of analyses of small motions.
 #pragma once
 
 #include "mechanism/solvers/linearised/steady_rotation.hpp"
@@ -6,7 +6,7 @@
 
 namespace bielle::mechanism {
 
-/// `rotation: {rate: 12, axis: [0, 0, 1], position: [0, 0, 0]}`. @throws InputError
+/// Reads `rotation: {rate: 12, axis: [0, 0, 1], position: [0, 0, 0]}`. @throws InputError
 SteadyRotation read_rotation(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

@@ -17,7 +17,7 @@ StandingState present_state(const Session& session) {
   environment.statics = false;
   state.held.clear();
   if (of_statics) {
-    // At rest, whatever prescribed motions do at that time.
+    // The state is at rest, even if prescribed motions have a velocity at that time.
     system.begin_motion(state, environment, false);
     system.begin_branch(state, environment);
     set_redundant_aside(system, environment, state);

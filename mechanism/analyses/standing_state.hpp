@@ -1,4 +1,4 @@
-// The state that small motions are about.
+// The reference state of small motions.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,17 @@
 
 namespace bielle::mechanism {
 
-/// The state as a motion would begin with it, and the environment there.
+/// The state with which a motion would begin, and its environment.
 struct StandingState {
   State state;
   Environment environment;
-  StartReport start;  ///< what had to be made consistent
+  StartReport start;  ///< changes made by the consistent start
 };
 
-/// The present state of a session, which stays: a start made consistent, an equilibrium under the part of the load that
-/// it stands under, the end of a motion.
-/// @param rotation  into which it is brought from there; components gather there. @throws ComputationError
+/// Returns the present state of a session, which is kept: a start made consistent, an equilibrium under its fraction of
+/// the load, or the end of a motion.
+/// @param rotation  steady rotation into which the state is brought; gatherers then receive it. @throws
+///                  ComputationError
 StandingState standing_state(Session& session, const std::optional<SteadyRotation>& rotation);
 
 }  // namespace bielle::mechanism

@@ -54,7 +54,8 @@ class StateSpaceBuilder {
   }
 
  private:
-  /// C: displacements and velocities by the states as they are, multipliers and rates of first-order unknowns by T_f.
+  /// Returns C: displacements and velocities follow from the states directly, multipliers and rates of first-order
+  /// unknowns from T_f.
   MatrixX outputs_of_states(Eigen::Index outputs) const {
     const int n = e_.unknowns(), m = e_.constraints();
     const auto states = finite_.size();
@@ -76,7 +77,7 @@ class StateSpaceBuilder {
     return C;
   }
 
-  /// The response of the equations as they were.
+  /// Computes the response from the original equations.
   MatrixXc exact(const ShiftedOperator& D) const {
     MatrixXc H(options_.outputs.size(), options_.inputs.size());
     for (std::size_t j = 0; j < options_.inputs.size(); ++j) {
@@ -88,7 +89,7 @@ class StateSpaceBuilder {
     return H;
   }
 
-  /// A second point tells an output that follows derivatives of an input.
+  /// Compares the response at a second point: it differs if an output depends on derivatives of an input.
   void check(const StateSpace& found) const {
     const double s = 2.3 * T_.shift().real();
     const ShiftedOperator D(e_, s);
@@ -120,7 +121,7 @@ class StateSpaceBuilder {
   std::vector<VectorX> rights_;
 };
 
-/// |s| of the slowest mode that is not rigid.
+/// Returns |s| of the slowest mode that is not rigid.
 double slowest_motion(const LinearisedEquations& equations) {
   ModeOptions few;
   few.count = 1;
@@ -137,12 +138,12 @@ StateSpace compute_state_space(Session& session, const StateSpaceOptions& option
   const StandingState about = standing_state(session, options.rotation);
   const LinearisedSetting setting = linearised_setting(system, about.environment, about.state);
   const LinearisedEquations equations = linearised_equations(system, about.environment, about.state, setting.axes);
-  constexpr int most = 4000;  // dense matrices of that size
+  constexpr int most = 4000;  // largest number of states, because the matrices are dense
   if (equations.states() > most)
     throw ComputationError(fmt::format(
         "a state space of {} states is too large (at most {}): reduce the bodies, or ask for a frequency response",
         equations.states(), most));
-  // Between the slowest and the fastest: both keep digits.
+  // The shift is between the slowest and the fastest mode, so that both are accurate.
   const double slowest = slowest_motion(equations), fastest = std::max(slowest, fastest_rate(equations));
   constexpr double factors[] = {1, 1.0137, 13.7};
   for (const double factor : factors) {

@@ -1,4 +1,4 @@
-// Small motions about the present state of a session as a state space.
+// Small motions about the present state of a session as a state-space model.
 #pragma once
 
 #include <optional>
@@ -16,17 +16,17 @@ struct StateSpaceOptions {
 };
 
 /// E x' = A x + B u, y = C x + D u: u and y are deviations of inputs and outputs from their values in the state. E is
-/// regular. There are as many states as finite eigenvalues: constraints, massless directions and algebraic unknowns are
-/// eliminated.
+/// regular. The number of states is the number of finite eigenvalues: constraints, massless directions and algebraic
+/// unknowns are eliminated.
 struct StateSpace : LinearisedSetting {
   MatrixX E, A, B, C, D;
-  /// (unknowns, states): increments of dofs and first-order unknowns, in their units, of a unit of each state
+  /// (unknowns, states): increments of dofs and first-order unknowns, in their units, per unit of each state
   MatrixX unknowns;
   std::vector<std::string> output_units;
 };
 
-/// Constraints are eliminated; the present state stays. @throws InputError for names that the model does not have;
-/// ComputationError where an output follows the derivative of an input, or nothing can move
+/// Constraints are eliminated; the present state of the session is kept. @throws InputError for names that the model
+/// does not have; ComputationError if an output depends on the derivative of an input, or nothing can move
 StateSpace compute_state_space(Session& session, const StateSpaceOptions& options);
 
 }  // namespace bielle::mechanism

@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// `until: {load_factor: s}` or `{node: tip, displacement: d, direction: x}`.
+/// Reads `until: {load_factor: s}` or `{node: tip, displacement: d, direction: x}`.
 PathEnd read_path_end(const YamlValue& entry, const Model& model) {
   entry.check_keys({"load_factor", "node", "displacement", "direction"}, "`until`");
   PathEnd end;
@@ -41,7 +41,7 @@ PathEnd read_path_end(const YamlValue& entry, const Model& model) {
   return end;
 }
 
-/// `arc_length: {until: {..}, points: 1000}`.
+/// Reads `arc_length: {until: {..}, points: 1000}`.
 PathOptions read_path(const YamlValue& entry, int steps, const Model& model) {
   entry.check_keys({"until", "points"}, "`arc_length`");
   PathOptions path;
@@ -52,7 +52,7 @@ PathOptions read_path(const YamlValue& entry, int steps, const Model& model) {
   return path;
 }
 
-/// Where stability changed, and what is left of it.
+/// Describes changes of stability, and the final stability.
 std::string format_stability(const StaticsLog& log, bool path, bool hint) {
   std::string text;
   for (const CriticalPoint& point : log.critical)

@@ -1,4 +1,4 @@
-// How statics begin, the points that are recorded, and what is said of them.
+// Start of statics, the recorded points, and their reports.
 #include "mechanism/analyses/statics.hpp"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ namespace {
 
 struct Stopped {};
 
-/// An equilibrium on the way to the whole load.
+/// An equilibrium before the whole load is reached.
 struct StaticPoint {
-  double factor;   ///< of the load
-  int iterations;  ///< that led to it
-  double done;     ///< part of the way
-  bool limit;      ///< a limit point of the load
+  double factor;   ///< load factor
+  int iterations;  ///< iterations that led to it
+  double done;     ///< completed fraction of the analysis
+  bool limit;      ///< it is a limit point of the load
 };
 
 using UsePoint = std::function<void(const State& state, const StaticPoint& point)>;
@@ -47,13 +47,14 @@ void show_point(const Session& session, const State& state, const StaticPoint& p
   acting.gravity *= point.factor;
   StepRecord report;
   report.energy = session.system().energy(state, acting);
-  report.energy.input = report.energy.dissipation = 0;  // no rates in statics: there is no power to integrate
+  report.energy.input = report.energy.dissipation = 0;  // statics have no rates, and therefore no power to integrate
   report.newton_iterations = point.iterations;
   report.time = point.factor;
   computation.show(state, acting, report, recorded);
 }
 
-/// By load steps or along a path, point after point. @param statics  the environment of statics under the whole load
+/// Computes the points one after the other, by load steps or along a path. @param statics  environment of statics under
+/// the whole load
 void follow_loads(const Session& session, const StaticsOptions& options, const Environment& statics,
                   Computation& computation, StaticsReport& report, const UsePoint& use) {
   const System& system = session.system();
@@ -97,7 +98,7 @@ StaticsReport compute_statics(Session& session, const StaticsOptions& options) {
   const LoadRamp ramp(system, statics, session.loaded());
   system.begin_motion(state, statics, false);
   if (!computation.started()) {
-    ramp.set_off(state);  // drives and supports stand where the load factor begins
+    ramp.set_off(state);  // drives and supports start at the position at which the load factor begins
     assemble_positions(system, session.environment(), state, report.start, conditions);
     computation.set_started();
   }

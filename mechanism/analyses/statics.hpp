@@ -12,23 +12,23 @@
 namespace bielle::mechanism {
 
 struct StaticsOptions {
-  int steps = 1;                    ///< equal increments of the load factor; 0: chosen by the program
+  int steps = 1;                    ///< number of equal increments of the load factor; 0: chosen automatically
   double branch = 0;                ///< follows branches of load steps, see LoadSteps
-  std::optional<PathOptions> path;  ///< follows a path past limit points in place of load steps
+  std::optional<PathOptions> path;  ///< if set, follows a path past limit points instead of load steps
   NewtonOptions newton;
 };
 
 struct StaticsReport {
-  StartReport start;  ///< what had to be brought together first
+  StartReport start;  ///< changes made by the initial assembly
   long points = 0;
-  long iterations = 0;               ///< linear solves that led to the points
-  StaticsLog log;                    ///< of load steps: stability, what was refused, and what all of it cost
-  double load_factor = 0;            ///< at the end
+  long iterations = 0;               ///< number of linear solutions for the points
+  StaticsLog log;                    ///< log of the load steps: stability, rejected steps, and total cost
+  double load_factor = 0;            ///< load factor at the end
   std::vector<double> limit_points;  ///< load factors at the maxima and minima of a path
 };
 
-/// Equilibrium under the whole load, or along a path. The state is at rest afterwards.
-/// @throws ComputationError when there is none near; the state is then the last equilibrium
+/// Finds the equilibrium under the whole load, or along a path. The state is at rest afterwards.
+/// @throws ComputationError if there is none nearby; the state is then the last equilibrium
 StaticsReport compute_statics(Session& session, const StaticsOptions& options = {});
 
 }  // namespace bielle::mechanism

@@ -5,7 +5,7 @@
 namespace bielle::mechanism {
 
 void check_step(const YamlValue& entry, const std::string& key, double step, double duration) {
-  constexpr double most_steps = 1e9;  // years
+  constexpr double most_steps = 1e9;  // this number of steps would take years
   if (!(duration / step <= most_steps))
     entry.at(key).fail(fmt::format("{:.3g} s in steps of {:.3g} s are {:.3g} steps; expected at most {:.0e}", duration,
                                    step, duration / step, most_steps));

@@ -1,4 +1,4 @@
-// Durations and steps of analyses.
+// Checks of durations and steps of analyses.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace bielle::mechanism {
 
-/// Refuses a step longer than the duration, and more steps than anyone waits for. @param step  [s] > 0
-/// @param key  of the entry, where the step comes from
+/// Rejects a step longer than the duration, and too many steps. @param step  [s] > 0
+/// @param key  key of the entry that the step was read from
 void check_step(const YamlValue& entry, const std::string& key, double step, double duration);
 
 }  // namespace bielle::mechanism

@@ -18,7 +18,7 @@ constexpr std::size_t most_moved = 10;  // rows of a list
 
 std::string with_degrees(double angle) { return fmt::format("{:.3g} rad ({:.3g} degrees)", angle, angle * 180 / M_PI); }
 
-/// What the assembly has moved, the farthest first. A single node says nothing new.
+/// Describes the movements made by the assembly, the largest first. A list with a single node would add no information.
 std::string format_moved(const StartReport& start) {
   std::string text;
   const auto rest = [](std::size_t count, const char* of) {
@@ -164,7 +164,7 @@ std::string format_steps(long steps, long iterations, long records) {
 }
 
 std::string format_setting(const LinearisedSetting& setting, const char* what) {
-  constexpr double balanced = 1e-6;  // of the largest force: equilibria are found to 1e-9
+  constexpr double balanced = 1e-6;  // fraction of the largest force: equilibria are found to 1e-9
   if (!setting.steadiness)
     return setting.unbalance <= balanced
                ? ""

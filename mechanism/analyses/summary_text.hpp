@@ -1,4 +1,4 @@
-// Lines that summaries of several analyses have in common. Each ends with a new line.
+// Lines of text that the summaries of several analyses have in common. Each line ends with a line break.
 #pragma once
 
 #include <string>
@@ -11,23 +11,24 @@
 
 namespace bielle::mechanism {
 
-/// What the start had to change; nothing, where that is nothing.
+/// Describes the changes made by the start; empty if there are none.
 std::string format_start(const StartReport& start);
-/// That an unknown, which nothing holds or loads, stays as drawn.
+/// Says that an unknown without support or load keeps its initial value.
 std::string format_loose(const std::string& unknown);
-/// How many ways there are to move, constraints set aside or nearly so, joints whose reactions they leave open.
+/// Describes the degrees of freedom, constraints that are redundant or nearly so, and joints with undetermined
+/// reactions.
 std::string format_mobility(const Session& session);
-/// "the reactions of joints 'a', 'b' and the force of drive 'c' are not unique: the smallest are reported"; nothing
-/// where all are.
+/// Returns "the reactions of joints 'a', 'b' and the force of drive 'c' are not unique: the smallest are reported";
+/// empty if all are unique.
 std::string describe_not_unique(const NotUnique& found);
-/// "joined to nothing that is held: the part of node 'lost'"; nothing where all parts are.
+/// Returns "joined to nothing that is held: the part of node 'lost'"; empty if all parts are connected.
 std::string describe_loose(const System& system);
-/// "energy at the end [J]: kinetic .., .."
+/// Returns "energy at the end [J]: kinetic .., .."
 std::string format_energies(const Energy& energy);
-/// What a user should know of the state that small motions are about, and of their axes.
-/// @param what  "modes": what belongs to the equations as they are there
+/// Describes the reference state of small motions and its axes, with warnings.
+/// @param what  results of the linearised equations, for the text: "modes"
 std::string format_setting(const LinearisedSetting& setting, const char* what);
-/// @param records  rows
+/// @param records  number of rows
 std::string format_steps(long steps, long iterations, long records);
 
 }  // namespace bielle::mechanism

@@ -13,7 +13,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double apart = -1;  ///< in place of a damping
+constexpr double apart = -1;  ///< value in place of a damping
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Contact::Contact(std::string name, std::vector<ContactShape> shapes, std::vector
   std::vector<bool> is_first(shapes_.size(), false), is_second(shapes_.size(), false);
   for (const auto& [a, b] : pairs_)
     is_first[static_cast<std::size_t>(a)] = is_second[static_cast<std::size_t>(b)] = true;
-  // Of a heap each touches some ten others; two boxes touch in up to 16 corners, and edges.
+  // In a heap, each body touches about ten others; two boxes may touch at up to 16 corners, and at edges.
   if (has_bristles()) most_bristles_ = 32 * static_cast<Eigen::Index>(std::min(pairs_.size(), 2 * shapes_.size()));
   for (std::size_t k = 0; k < shapes_.size(); ++k) divided_ = divided_ && !(is_first[k] && is_second[k]);
   for (const auto& [a, b] : pairs_) thinnest_ = std::min(thinnest_, passage(a, b));
@@ -73,7 +73,7 @@ PairForce Contact::force_of(const LocalState& state, int pair) const {
   return {shape(a), shape(b), state.node(local_node(a)), state.node(local_node(b))};
 }
 
-/// What act(force of the pair) gives. What it throws says which pair, and when.
+/// Returns the result of act(force of the pair). Errors are rethrown with the pair and the time.
 template <class Act>
 auto Contact::of_pair(const LocalState& state, int pair, const Act& act) const {
   try {
@@ -183,7 +183,7 @@ Vector3 Contact::middle(const LocalState& state, int k) const {
   return node.x + node.R * shape(k).frame.x;
 }
 
-/// Valid until it is asked for again in the same thread.
+/// The reference is valid until the next call in the same thread.
 const std::vector<NearPairs::Bound>& Contact::bounds(const LocalState& state) const {
   thread_local std::vector<NearPairs::Bound> bounds;
   bounds.resize(shapes_.size());
@@ -238,7 +238,7 @@ void Contact::add_energy(const LocalState& state, Energy& energy) const {
   }
 }
 
-/// Pairs that bounding balls say are farther than the nearest so far are not looked at.
+/// Pairs whose bounding spheres are farther apart than the smallest gap so far are skipped.
 Contact::NearestPair Contact::nearest_of_all(const LocalState& state, bool apart_only) const {
   const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   NearestPair all{-1, {1e300, 0, nowhere, nowhere}};
@@ -253,7 +253,7 @@ Contact::NearestPair Contact::nearest_of_all(const LocalState& state, bool apart
   return all;
 }
 
-/// Of a pair how far; of a group the shapes that touch nothing.
+/// For a single pair the text gives the gap; for a group, the shapes that touch nothing.
 std::string Contact::what_is_open(const LocalState& state) const {
   std::vector<bool> touches(shapes_.size(), false);
   bool any = false;
@@ -313,7 +313,7 @@ void Contact::begin_branch(const LocalState& state, std::span<const int> /*cross
   remember(state, memory);
 }
 
-/// The height is that of the middle of a shape over a plane [m].
+/// Height of the middle of a shape over a plane [m].
 double Contact::height_of_middle(const LocalState& state, int plane, int other) const {
   const NodeState &of_plane = state.node(local_node(plane)), &of_other = state.node(local_node(other));
   const Frame &P = shape(plane).frame, &O = shape(other).frame;
@@ -321,10 +321,10 @@ double Contact::height_of_middle(const LocalState& state, int plane, int other) 
   return normal.dot(of_other.x + of_other.R * (O.x + O.R * shape(other).middle()) - of_plane.x - of_plane.R * P.x);
 }
 
-/// @throws ComputationError where what presses does not know the way out any more
+/// @throws ComputationError if the penetration does not determine the outward direction any more
 void Contact::check_depth(const LocalState& state, int pair, const PairForce::Nearest& found) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-  // A plane always knows where out is; a shape whose middle is behind it has gone through it.
+  // A plane always has an outward direction; a shape whose middle is behind it has passed through it.
   for (const auto& [plane, other] : {std::pair(a, b), std::pair(b, a)}) {
     if (shape(plane).kind != ContactShape::Kind::plane) continue;
     const double behind = -height_of_middle(state, plane, other);
@@ -348,8 +348,8 @@ void Contact::check_depth(const LocalState& state, int pair, const PairForce::Ne
         name(), state.time(), pair_name(pair), most));
 }
 
-/// Whether the normal points the other way since the last accepted step: lines and points have no inside in which they
-/// would be found.
+/// Whether the normal has reversed since the last accepted step: lines and points have no interior in which they could
+/// be found.
 bool Contact::has_turned_over(const LocalState& state, int pair, const PairForce::Nearest& found) const {
   const auto memory = state.memory();
   if (!(state.time() > memory[0])) return false;

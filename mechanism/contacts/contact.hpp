@@ -1,17 +1,18 @@
-// Interference between links: shapes on nodes that push each other apart where they touch.
+// Contact between shapes that are fixed on nodes: they repel each other if they touch.
 //
-// One component holds all pairs of a group of shapes. Each pair is a penalty contact (pair_force.hpp); only those whose
-// bounding balls overlap are looked at (near_pairs.hpp), and only those that touch are in the factors of the tangent
-// (LocalPattern::add_passing_block). With a `restitution`, the damping of a pair follows from the
-// speed at which it has touched: steps end where pairs touch (a crossing, the smallest gap of those that are apart),
-// and the damping stands in the memory until they part. With a `damping`, touches end no steps: the forces are
-// continuous.
+// One component contains all pairs of a group of shapes. Each pair is a penalty contact (pair_force.hpp); only pairs
+// whose bounding spheres overlap are evaluated (near_pairs.hpp), and only pairs that touch have entries in the factors
+// of the tangent (LocalPattern::add_passing_block). With a `restitution`, the damping of a pair follows from its
+// approach speed at the beginning of contact: steps end at this event (the event function is the smallest gap of the
+// separated pairs), and the damping is kept in the memory until the pair separates. With a `damping`, steps do not end
+// at the beginning of contact: the forces are continuous.
 //
-// What is thinner than the way of a step might pass through another shape unseen. A trial in which this happens, by the
-// straight way from where the shapes were at the step's start, is refused: the step is made shorter. So is one in which
-// shapes that touch at either end of it move by more than half their thickness. What presses deeper than the skins of
-// both does not know the way out any more, nor does what has gone through the other's middle: the run ends, and so
-// it does where the middle of a shape has gone through a plane.
+// A shape that is thinner than its displacement in a step might pass through another shape undetected. A trial state in
+// which this happens, along the straight line from the position at the step's start, is rejected: the step is
+// shortened. A trial state is also rejected if shapes that touch at either end of the step move by more than half their
+// thickness. A penetration deeper than the skins of both shapes does not determine the outward direction any more, nor
+// does a shape that has passed the middle of the other: the run then ends; it also ends if the middle of a shape has
+// passed a plane.
 //
 // Memory: [time and middles of the shapes at the last accepted step | with a restitution: damping of each pair, -1
 // while apart | with bristles: x and R of the nodes; the number of bristles, and pair,
@@ -37,13 +38,14 @@ class Contact final : public Component, public OpenContact {
   /// @param pairs  numbers of the shapes that may touch, the smaller first
   Contact(std::string name, std::vector<ContactShape> shapes, std::vector<std::pair<int, int>> pairs, SurfaceLaw law);
 
-  /// How deep shapes are drawn into each other, the deepest pair: a clause and the depth over their size; or nothing.
-  /// @throws InputError  where nothing tells in which direction they are
+  /// Finds the pair with the deepest initial penetration: returns a clause and the depth relative to the size; empty if
+  /// there is none.
+  /// @throws InputError if the direction of the penetration is undetermined
   std::pair<std::string, double> drawn_into_each_other(const Model& model) const;
   void set_remark(std::string remark) { remark_ = std::move(remark); }
 
-  /// The pair of shapes that are nearest to each other; -1: none. Where `apart_only`, of those that do not touch by the
-  /// memory.
+  /// The pair of shapes with the smallest gap; -1: none. With `apart_only`, only pairs that do not touch according to
+  /// the memory are considered.
   struct NearestPair {
     int pair;
     PairForce::Nearest found;
@@ -57,7 +59,7 @@ class Contact final : public Component, public OpenContact {
     for (const int pair : near)
       if (const PairForce::Result result = acting(state, pair); result.depth > 0) act(pair, result.force);
   }
-  /// Derivatives of a pair's residual by positions and by rates of its two nodes.
+  /// Computes the derivatives of a pair's residual by positions and by rates of its two nodes.
   void calc_tangent_of(const LocalState& state, int pair, Matrix12& K, Matrix12& C) const {
     force_of(state, pair).calc_tangent(law_of(state), damping(state, pair), bristles(state, pair), K, C);
   }
@@ -75,7 +77,7 @@ class Contact final : public Component, public OpenContact {
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   std::string remark() const override { return remark_; }
-  /// gap, touching, force; force.x, y, z where each shape is the first of all its pairs, or the second.
+  /// gap, touching, force; and force.x, y, z if each shape is always the first of its pairs, or always the second.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
   std::string what_is_open(const LocalState& state) const override;
@@ -95,9 +97,10 @@ class Contact final : public Component, public OpenContact {
   PairForce::Nearest nearest(const LocalState& state, int pair) const;
   double damping(const LocalState& state, int pair) const;
   bool has_bristles() const { return law_.friction && law_.friction->model == FrictionLaw::Model::lugre; }
-  /// Nothing slides in statics, and bristles stay as they are.
+  /// There is no sliding in statics, and bristles keep their values.
   const SurfaceLaw& law_of(const LocalState& state) const { return state.environment().statics ? frictionless_ : law_; }
-  /// Of the last accepted step. Valid until it is asked for again in the same thread.
+  /// Returns the bristles of a pair at the last accepted step. The reference is valid until the next call in the same
+  /// thread.
   const Bristles& bristles(const LocalState& state, int pair) const;
   void remember_bristles(const LocalState& state, const std::vector<int>& near, Eigen::Ref<VectorX> memory) const;
   Eigen::Index dampings_begin() const { return 1 + 3 * static_cast<Eigen::Index>(shapes_.size()); }
@@ -115,11 +118,11 @@ class Contact final : public Component, public OpenContact {
   void check_passage(const LocalState& state) const;
   void check_passage_of(const LocalState& state, int pair, const Vector3& way, double turn) const;
   void check_passage_of_surface(const LocalState& state, int pair, const Vector3& way) const;
-  /// With the second shape of the pair moved back by `way`.
+  /// Nearest places with the second shape of the pair moved back by `way`.
   PairForce::Nearest nearest_before(const LocalState& state, int pair, const Vector3& way) const;
   [[noreturn]] void fail_passage(const LocalState& state, int pair, const Vector3& way) const;
-  bool has_surface(int a, int b) const;  ///< with something else than a plane
-  double passage(int a, int b) const;    ///< twice as far as a pair may move in a step without a look [m]
+  bool has_surface(int a, int b) const;  ///< whether one of them is a triangulated surface and the other no plane
+  double passage(int a, int b) const;    ///< twice the distance that a pair may move in a step without a check [m]
   double height_of_middle(const LocalState& state, int plane, int other) const;
   std::string shape_name(int k) const;
   std::string pair_name(int pair) const;
@@ -130,12 +133,12 @@ class Contact final : public Component, public OpenContact {
   Eigen::Index most_bristles_ = 0;
   std::vector<int> nodes_, local_node_;
   NearPairs near_pairs_;
-  bool divided_ = true;  ///< no shape is the first of one pair and the second of another
+  bool divided_ = true;  ///< whether no shape is the first of one pair and the second of another
   double thinnest_ = 0;  ///< smallest passage of a pair [m]
   std::string remark_;
 };
 
-/// `{shapes: [..] | between: [[..], [..]], stiffness, exponent, restitution | damping, friction: {..}}`
+/// Reads `{shapes: [..] | between: [[..], [..]], stiffness, exponent, restitution | damping, friction: {..}}`.
 void read_contact(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -2,7 +2,7 @@
 
 namespace bielle::mechanism {
 
-/// d gap = n . (v_2 - v_1) of the material at the place: moving it along n changes nothing.
+/// d gap = n . (v_2 - v_1) of the material at the place: moving the place along n changes nothing.
 double GapMeasure::calc(const LocalState& state, MeasureGradient& gradient) const {
   gradient.prepare(state.slots().size());
   const LocalState local = state.of(0);

@@ -1,4 +1,4 @@
-// Measures of contacts: the smallest gap, the forces, how many pairs touch.
+// Measures of contacts: the smallest gap, the forces, the number of touching pairs.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace bielle::mechanism {
 
-/// "floor.gap": its gradient is that of the pair, and of the place, that is nearest.
+/// "floor.gap": its gradient is that of the pair and the place with the smallest gap.
 class GapMeasure final : public Measure {
  public:
   GapMeasure(std::string name, const Contact& contact) : Measure(std::move(name)), contact_(contact) {}
@@ -24,10 +24,10 @@ class GapMeasure final : public Measure {
 };
 
 /// "floor.force.x", the force on the second shapes of all pairs along an inertial axis, or "floor.force", the sum of
-/// its sizes in each pair. No derivative where a pair begins to touch.
+/// the magnitudes of all pairs. It has no derivative at the beginning of contact.
 class ContactForceMeasure final : public Measure {
  public:
-  /// @param direction  0, 1, 2; 3: the size
+  /// @param direction  0, 1, 2 for an axis; 3 for the magnitude
   ContactForceMeasure(std::string name, const Contact& contact, int direction)
       : Measure(std::move(name)), contact_(contact), direction_(direction) {}
   std::string units() const override { return "N"; }
@@ -35,14 +35,14 @@ class ContactForceMeasure final : public Measure {
   double calc(const LocalState& state, MeasureGradient& gradient) const override;
 
  private:
-  /// One of the force, and the direction along which its changes count.
+  /// Returns the component or magnitude of a force, and the direction of its derivative.
   double part(const Vector3& force, Vector3& along) const;
   void declare_subjects(Declaration& declaration) const override { declaration.references = {&contact_}; }
   const Contact& contact_;
   int direction_;
 };
 
-/// "floor.touching": a number of pairs, without derivative.
+/// "floor.touching": the number of touching pairs, without derivative.
 class TouchingMeasure final : public Measure {
  public:
   TouchingMeasure(std::string name, const Contact& contact) : Measure(std::move(name)), contact_(contact) {}

@@ -1,5 +1,5 @@
-// Pairs that pass through each other between two accepted steps, felt by neither: the way of one shape relative to the
-// other since the last accepted step is looked along, in parts of a quarter of what they are thick.
+// Detects pairs that pass through each other between two accepted steps without touching at either: the displacement of
+// one shape relative to the other since the last accepted step is checked in parts of a quarter of their thickness.
 #include <algorithm>
 #include <cmath>
 
@@ -20,10 +20,10 @@ PairForce::Nearest Contact::nearest_before(const LocalState& state, int pair, co
 void Contact::check_passage(const LocalState& state) const {
   if (state.environment().statics || std::isinf(thinnest_)) return;
   const auto memory = state.memory();
-  if (!(state.time() > memory[0])) return;  // not known, too
+  if (!(state.time() > memory[0])) return;  // also true if the time is NaN
   double farthest = 0;
   const double passed = state.time() - memory[0];
-  // How far the surface of a shape may have turned about its middle; a ball's turns into itself.
+  // Upper bound of the displacement of a shape's surface by rotation about its middle; a sphere is invariant.
   const auto turned = [&](int k) {
     const double lever = shape(k).reach() - shape(k).thickness() / 2;
     return std::isfinite(lever) ? passed * std::max(0.0, lever) * state.node(local_node(k)).Omega.norm() : 0.0;
@@ -45,7 +45,7 @@ void Contact::check_passage(const LocalState& state) const {
 }
 
 bool Contact::has_surface(int a, int b) const {
-  if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness())) return false;  // a plane is solid all below
+  if (std::isinf(shape(a).thickness()) || std::isinf(shape(b).thickness())) return false;  // solid everywhere below
   return shape(a).kind == ContactShape::Kind::surface || shape(b).kind == ContactShape::Kind::surface;
 }
 
@@ -54,13 +54,13 @@ double Contact::passage(int a, int b) const {
   return shape(a).thickness() + shape(b).thickness();
 }
 
-/// Of a surface only the skin is known to be solid: what is deeper in a trial state would feel nothing.
-/// @param way  as below
+/// Only the skin of a surface is known to be solid: a deeper shape in a trial state would not touch it.
+/// @param way  displacement, as in check_passage_of
 void Contact::check_passage_of_surface(const LocalState& state, int pair, const Vector3& way) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
   const PairForce::Nearest now = nearest_before(state, pair, Vector3::Zero());
   check_depth(state, pair, now);
-  if (now.gap < 0) return;  // it presses, and is felt
+  if (now.gap < 0) return;  // the pair touches, and has a force
   const double parts = std::min(1000.0, std::ceil(4 * way.norm() / passage(a, b)));
   for (double k = 1; k <= parts; ++k)
     if (nearest_before(state, pair, k / parts * way).gap < 0) fail_passage(state, pair, way);
@@ -72,14 +72,14 @@ void Contact::fail_passage(const LocalState& state, int pair, const Vector3& way
                   name(), state.time(), pair_name(pair), way.norm(), state.time() - state.memory()[0]));
 }
 
-/// @param way  of the second shape relative to the first, since the last accepted step
-/// @param turn  how far their surfaces may have turned since then [m]
+/// @param way  displacement of the second shape relative to the first, since the last accepted step
+/// @param turn  largest displacement of their surfaces by rotation since then [m]
 void Contact::check_passage_of(const LocalState& state, int pair, const Vector3& way, double turn) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
   const auto gap = [&](double share) { return nearest_before(state, pair, share * way).gap; };
   const auto presses = [&](double share) { return gap(share) < 0; };
   const double thickness = shape(a).thickness() + shape(b).thickness();
-  // From within they might leave on the other side; turning they might sweep over each other.
+  // Shapes that touch might separate on the other side; rotating shapes might pass over each other.
   const bool may_turn_over = turn > 0.25 * thickness && std::min(gap(0), gap(1)) < turn;
   if (presses(0) || presses(1) || may_turn_over)
     throw ComputationError(

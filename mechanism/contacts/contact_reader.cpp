@@ -1,4 +1,4 @@
-// `contact`: its shapes, which of them may touch, and the laws of their surfaces.
+// Reader of `contact`: its shapes, the pairs that may touch, and the laws of their surfaces.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -16,7 +16,7 @@ namespace {
 
 const std::vector<std::string> shape_words = {"sphere", "plane", "capsule", "cylinder", "box", "surface"};
 
-/// Of box and cylinder: how much their edges are rounded. @param thinnest  of their dimensions
+/// Reads the rounding radius of the edges of a box or cylinder. @param thinnest  the smallest of their dimensions
 double read_rounding(const YamlValue& entry, double thinnest) {
   const auto given = entry.find("rounding");
   if (!given) return 0.05 * thinnest;
@@ -96,7 +96,7 @@ ContactShape read_shape(const YamlValue& entry, const Model& model) {
   return shape;
 }
 
-/// The node that a node moves with, and whether that one never moves.
+/// Returns the node that carries a node, and whether it is fixed.
 std::pair<int, bool> moves_with(int node, const Model& model) {
   while (const auto carrier = model.node(node).carrier) node = *carrier;
   const auto& freedom = model.node(node).freedom;
@@ -106,7 +106,7 @@ std::pair<int, bool> moves_with(int node, const Model& model) {
 struct ReadShapes {
   std::vector<ContactShape> shapes;
   std::vector<YamlValue> entries;
-  std::vector<int> group;  ///< shapes of one group do not touch; -1: of none
+  std::vector<int> group;  ///< shapes of one group do not touch; -1: in no group
 };
 
 ReadShapes read_shapes(const YamlValue& entry, const Model& model) {

@@ -9,7 +9,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Halves of the segments that a core is the sum of.
+/// Halves of the segments whose sum is a core.
 struct Segments {
   std::array<Vector3, 6> half;
   std::size_t count = 0;
@@ -22,7 +22,7 @@ struct Segments {
   }
 };
 
-/// The point of a core that is nearest to another. @param begin,end  of its segments
+/// Returns the point of a core that is nearest to another point. @param begin,end  range of its segments
 Vector3 nearest_of_core(const Segments& segments, std::size_t begin, std::size_t end, const Vector3& middle,
                         const Vector3& point) {
   Vector3 nearest = middle;
@@ -40,7 +40,7 @@ std::optional<CoreOverlap> overlap_of_cores(const PlacedShape<double>& first, co
   segments.add(first);
   const std::size_t of_first = segments.count;
   segments.add(second);
-  // One without segments is neither box nor capsule; two lines have no inside.
+  // A shape without segments is neither box nor capsule; two lines have no interior.
   if (of_first == 0 || segments.count == of_first || segments.count < 3) return {};
   const Vector3 a = value_of(first.origin), b = value_of(second.origin), d = b - a;
   CoreOverlap overlap{std::numeric_limits<double>::infinity(), Vector3::Zero(), Vector3::Zero()};
@@ -48,7 +48,7 @@ std::optional<CoreOverlap> overlap_of_cores(const PlacedShape<double>& first, co
     for (std::size_t j = i + 1; j < segments.count; ++j) {
       Vector3 n = segments.half[i].cross(segments.half[j]);
       const double length = n.norm();
-      // Parallel ones span no face.
+      // Parallel segments span no face.
       if (length <= 1e-9 * segments.half[i].norm() * segments.half[j].norm()) continue;
       n /= d.dot(n) < 0 ? -length : length;
       double way = -n.dot(d);
@@ -68,7 +68,7 @@ Touch<double> deepest_of_edge(const Triple<double>& a, const Triple<double>& b, 
                               const PlacedShape<double>& core, bool edge_on_second) {
   const auto at = [&](double t) { return distance_to_core(a + t * (b - a), core); };
   double low = 0, high = 1;
-  constexpr int thirds = 60;  // of 1e-10 of the length
+  constexpr int thirds = 60;  // relative width of 1e-10 of the length
   for (int k = 0; k < thirds; ++k) {
     const double one = low + (high - low) / 3, other = high - (high - low) / 3;
     if (at(one).distance < at(other).distance)

@@ -1,11 +1,12 @@
-// How far the cores of two shapes have gone into each other: boxes without their rounding, the line of a capsule.
+// Penetration depth of the cores of two shapes: boxes without their rounding, lines of capsules.
 //
-// Both cores are sums of line segments around a middle (a box of three, a capsule of one), and so is what one has to be
-// moved by, in any direction, to touch the other: a zonotope around the difference of the middles, whose faces are
-// normal to the products g_i x g_j of the segments of both. The shortest way that parts them is
+// Both cores are Minkowski sums of line segments around a middle (three for a box, one for a capsule). The set of
+// translations of one core that make it touch the other is therefore a zonotope around the difference of the middles,
+// whose faces are normal to the products g_i x g_j of the segments of both. The shortest translation that separates
+// them is
 //     min over faces n of  sum_k |n . g_k| - |n . d|,       d from the first middle to the second,
-// exactly, and they are apart if it is negative (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree, SIGGRAPH 1996, for
-// boxes). Two capsules are no more than two lines, which have no inside.
+// exactly, and the cores are apart if it is negative (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree, SIGGRAPH 1996, for
+// boxes). Two capsules are only two lines, which have no interior.
 #pragma once
 
 #include <optional>
@@ -15,17 +16,17 @@
 namespace bielle::mechanism {
 
 struct CoreOverlap {
-  double depth;    ///< the shortest way that parts the cores [m]
-  Vector3 normal;  ///< along which the second has to go
-  Vector3 place;   ///< within both, or nearly so
+  double depth;    ///< length of the shortest translation that separates the cores [m]
+  Vector3 normal;  ///< direction in which the second core has to move
+  Vector3 place;   ///< a point within both, or nearly so
 };
 
-/// Nothing where the cores are apart, or are not both of boxes and capsules.
+/// Returns nothing if the cores are apart, or are not both of boxes and capsules.
 std::optional<CoreOverlap> overlap_of_cores(const PlacedShape<double>& first, const PlacedShape<double>& second);
 
-/// The place of an edge from a to b that is nearest to a core, or deepest within it: its distance is a convex function
-/// along the edge, searched by thirds.
-/// @param skin  around the edge [m] @param edge_on_second  the core belongs to the first shape
+/// Finds the point of an edge from a to b that is nearest to a core, or deepest within it: its distance is a convex
+/// function along the edge, and ternary search is used.
+/// @param skin  skin around the edge [m] @param edge_on_second  the core belongs to the first shape
 Touch<double> deepest_of_edge(const Triple<double>& a, const Triple<double>& b, double skin,
                               const PlacedShape<double>& core, bool edge_on_second);
 

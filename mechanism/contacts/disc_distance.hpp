@@ -1,14 +1,14 @@
-// The place of a cylinder's end that is nearest to something convex.
+// Nearest point of a cylinder's end to a convex target.
 //
-// A cylinder's end is the half of a very flat spheroid, x = c + M w, |w| = 1: M = [R a_1, R a_2, h a_3] with the
-// cylinder's axes a, its core's radius R and h = 0.01 R (less where the core is thinner). As this is strictly convex,
-// one place of it is the nearest, and moves smoothly, also where the end lies flat on a face: from its middle to its
-// rim, within 0.02 rad of tilt. It is within the exact end by at most h.
+// A cylinder's end is one half of a very flat spheroid, x = c + M w, |w| = 1: M = [R a_1, R a_2, h a_3] with the
+// cylinder's axes a, its core's radius R and h = 0.01 R (less if the core is thinner). Because it is strictly convex,
+// the nearest point is unique and moves continuously, even if the end lies flat on a face: from its middle to its rim,
+// within 0.02 rad of tilt. The spheroid is within the exact end by at most h.
 //
-// With d(x) the distance from something convex and n its direction, w is the minimum of d on the sphere,
+// With the distance d(x) from the target and its direction n, w is the minimum of d on the sphere,
 //     M^T n + lambda w = 0,   lambda > 0,
-// found by Newton's method on the sphere with a line search: of d, which is convex, no other place is stationary with
-// lambda > 0. Derivatives follow from one more step of it in numbers that carry them.
+// found by Newton's method on the sphere with a line search: because d is convex, no other point is stationary with
+// lambda > 0. Derivatives follow from one more Newton step in numbers that carry derivatives.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ PlacedDisc<T> disc_of(const PlacedShape<T>& cylinder, std::size_t end) {
            T(shape.dome_height()) * cylinder.axes[2]}};
 }
 
-/// The equation of the nearest place at w, in values.
+/// The equation of the nearest point at w, as values without derivatives.
 struct DiscEquation {
   Vector3 g;     ///< M^T n
   Matrix3 bend;  ///< M^T (dn/dx) M
@@ -61,7 +61,7 @@ DiscEquation disc_equation(const PlacedDisc<T>& disc, const Vector3& w, const Ta
   return {M.transpose() * value_of(n), M.transpose() * dn_M};
 }
 
-/// Newton's step along the sphere.
+/// Returns Newton's step along the sphere.
 inline Vector3 step_on_disc(const DiscEquation& at, const Vector3& w) {
   const Matrix3 across = Matrix3::Identity() - w * w.transpose();
   const double against = -at.g.dot(w), lambda = against > 0 ? against : at.g.norm();
@@ -72,7 +72,7 @@ inline Vector3 step_on_disc(const DiscEquation& at, const Vector3& w) {
   return -(A.inverse() * slope);
 }
 
-/// @param target  `from(x)`: the PointDistance of x from it; `still<U>()`: itself at rest, in numbers U
+/// @param target  object with `from(x)`: the PointDistance of x from it; `still<U>()`: the object at rest, in numbers U
 template <class T, class Target>
 Triple<T> nearest_of_disc(const PlacedDisc<T>& disc, const Target& target) {
   const auto still = target.template still<double>();
@@ -91,7 +91,7 @@ Triple<T> nearest_of_disc(const PlacedDisc<T>& disc, const Target& target) {
     double share = 1;
     Vector3 next = (w + step).normalized();
     double now = distance(next);
-    // Near the end, what a step brings is below rounding: whole steps are right there.
+    // Near the solution the decrease in a step is below rounding: full steps are correct there.
     while (now > least + 1e-4 * share * slope && share * step.norm() > 1e-7) {
       share *= 0.5;
       next = (w + share * step).normalized();

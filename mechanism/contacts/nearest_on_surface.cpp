@@ -17,7 +17,7 @@ Touch<double> nowhere() {
   return touch;
 }
 
-/// Of a point of the shape's core, however far it is.
+/// Returns the touch of a point of the shape's core, at any distance.
 Touch<double> nearest_of_point(const OnSurface<double>& on, const Triple<double>& point, double skin) {
   const TriangleSurface& triangles = on.triangles();
   const Vector3 q = on.along_axes(point);
@@ -41,18 +41,18 @@ Touch<double> nearest_of_point(const OnSurface<double>& on, const Triple<double>
   return nearest;
 }
 
-/// Of an end of a cylinder.
+/// Returns the touch of an end of a cylinder.
 Touch<double> nearest_of_disc_on(const OnSurface<double>& on, std::size_t corner, double skin) {
   const PlacedDisc<double> disc = disc_of(on.body(), corner);
   const Touch<double> of_middle = nearest_of_point(on, disc.middle, skin);
-  if (of_middle.depth > skin) return of_middle;  // within
+  if (of_middle.depth > skin) return of_middle;  // the middle is within the surface
   std::vector<Place> places;
   std::vector<Vector3> from;
   Touch<double> nearest = of_middle;
   try {
     // The disc is nearer than its middle.
     on.find_places_of_disc(corner, (1 + 1e-9) * (skin - of_middle.depth), places, from);
-  } catch (const ComputationError&) {  // it cuts the surface, which is nearer to its middle than its rim is
+  } catch (const ComputationError&) {  // it cuts the surface, which is nearer to its middle than to its rim
     nearest.depth = of_middle.depth + on.body().shape->dome_radius();
     return nearest;
   }
@@ -69,7 +69,7 @@ Touch<double> nearest_of_disc_on(const OnSurface<double>& on, std::size_t corner
   return nearest;
 }
 
-/// Where an edge of the shape goes through a triangle: as deep as its end that is farther behind.
+/// Finds edges of the shape that go through a triangle: the depth is that of the end farther behind.
 Touch<double> deepest_piercing(const OnSurface<double>& on, const Ends<double>& edge, double skin) {
   const TriangleSurface& surface = on.triangles();
   const Vector3 a = on.along_axes(edge[0]), b = on.along_axes(edge[1]), low = a.cwiseMin(b), high = a.cwiseMax(b);
@@ -112,13 +112,13 @@ Touch<double> nearest_on_surface(const PairOfShapes<double>& pair) {
     for (const int tip : on.triangles().tips()) take(on.tip_on_body(tip));
     return nearest;
   }
-  // What sticks out of the surface may be nearer than the corners are.
+  // Tips and ridges of the surface may be nearer than the corners.
   const TriangleSurface::Outstanding near = on.outstanding(std::max(0.0, -nearest.depth));
   for (const int tip : near.tips) take(on.tip_on_body(tip));
   for (const int ridge : near.ridges) {
     for (std::size_t edge = 0; edge < body.edges().size(); ++edge)
       if (on.crosses(ridge, edge, std::numeric_limits<double>::infinity())) take(on.crossing(ridge, edge));
-    if (body.kind == Kind::capsule) continue;  // a line has no inside
+    if (body.kind == Kind::capsule) continue;  // a line has no interior
     const Ends<double> ends = on.ridge(ridge);
     const Touch<double> deepest = deepest_of_edge(ends[0], ends[1], 0, on.body(), on.side() == 0);
     if (deepest.depth > body.skin()) take(deepest);

@@ -1,13 +1,13 @@
-// The smallest gap of a shape and a surface of triangles, and whether they go through each other.
+// Computes the smallest gap of a shape and a surface of triangles, and detects whether they penetrate each other.
 #pragma once
 
 #include "mechanism/contacts/on_surface.hpp"
 
 namespace bielle::mechanism {
 
-/// What is within a closed surface is deeper than its skin; behind an open one nothing is within. Where an edge of the
-/// shape pierces the surface, or a ridge of the surface the shape's core, the depth is beyond the skin, too.
-/// @param pair  of which one is a surface
+/// A point within a closed surface is deeper than its skin; an open surface has no interior. If an edge of the shape
+/// pierces the surface, or a ridge of the surface the shape's core, the depth is also beyond the skin.
+/// @param pair  a pair in which one shape is a surface
 Touch<double> nearest_on_surface(const PairOfShapes<double>& pair);
 
 }  // namespace bielle::mechanism

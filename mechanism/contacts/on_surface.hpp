@@ -1,8 +1,8 @@
-// A shape on a surface of triangles: its corners on the surface, and what sticks out of the surface (its tips and
+// A shape on a surface of triangles: corners of the shape on the surface, and convex features of the surface (tips and
 // ridges) on the shape.
 //
-// A corner touches the surface wherever that is nearer to it than all around, as a ball does (triangle_surface.hpp). So
-// does the end of a cylinder, of which one place is the nearest to each triangle.
+// A corner touches the surface at every point that is nearer to it than all neighbouring points, as a ball does
+// (triangle_surface.hpp). The end of a cylinder does the same: it has one nearest point to each triangle.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace bielle::mechanism {
 
-/// A triangle of a placed surface, on the side on which a point is.
+/// A triangle of a placed surface, on the side of a given point.
 template <class T>
 struct TriangleTarget {
   PlacedShape<T> surface;
@@ -48,13 +48,13 @@ template <class T>
 class OnSurface {
  public:
   using Place = TriangleSurface::Place;
-  /// @param pair  of which one is a surface
+  /// @param pair  a pair in which one shape is a surface
   explicit OnSurface(const PairOfShapes<T>& pair)
       : pair_(pair), side_(pair.shape(0).kind == ContactShape::Kind::surface ? 1 : 0) {
     for (int k = 0; k < 3; ++k) axes_.col(k) = value_of(surface().axes[static_cast<std::size_t>(k)]);
   }
 
-  std::size_t side() const { return side_; }  ///< of the shape
+  std::size_t side() const { return side_; }  ///< index of the shape that is no surface
   const PlacedShape<T>& surface() const { return pair_.placed(1 - side_); }
   const PlacedShape<T>& body() const { return pair_.placed(side_); }
   const TriangleSurface& triangles() const { return *surface().shape->surface; }
@@ -66,13 +66,14 @@ class OnSurface {
     return point_of(surface(), triangles().points()[static_cast<std::size_t>(number)]);
   }
 
-  /// Calls act(touch) for each place at which a corner of the shape is nearest to the surface, nearer than its skin.
+  /// Calls act(touch) for each local minimum of the distance from a corner of the shape to the surface that is smaller
+  /// than its skin.
   template <class Act>
   void for_each_place(std::size_t corner, const Act& act) const {
     const bool disc = body().shape->kind == ContactShape::Kind::cylinder;
     const double skin = body().shape->skin();
     std::vector<Place> places;
-    std::vector<Vector3> from;  // of each place, the nearest of the corner
+    std::vector<Vector3> from;  // nearest point of the corner, for each place
     if (disc) {
       find_places_of_disc(corner, skin, places, from);
     } else {
@@ -84,7 +85,7 @@ class OnSurface {
       const Vector3 way = from[disc ? k : 0] - place.foot;
       const bool behind = place.normal.dot(way) < 0;
       if (place.kind == Place::Kind::face) {
-        // What has gone through wholly is on the other side.
+        // A corner that has passed through completely is on the other side.
         if (behind && way.norm() > skin) continue;
         act(pair_.corner_on(side_, corner, PlaneTarget<T>{point_of(surface(), place.foot), turned(place.normal)}, 0));
       } else if (behind) {
@@ -98,7 +99,7 @@ class OnSurface {
     }
   }
 
-  /// Adds places where an end of a cylinder is nearer than `within`, and the nearest places of the end.
+  /// Adds places at which an end of a cylinder is nearer than `within`, and the nearest points of the end.
   void find_places_of_disc(std::size_t corner, double within, std::vector<Place>& places,
                            std::vector<Vector3>& from) const {
     const PlacedDisc<T> disc = disc_of(body(), corner);
@@ -123,7 +124,7 @@ class OnSurface {
     }
   }
 
-  /// Tips and ridges that may be nearer to the shape than `within`.
+  /// Returns tips and ridges that may be nearer to the shape than `within`.
   TriangleSurface::Outstanding outstanding(double within) const {
     TriangleSurface::Outstanding found;
     const Vector3 middle = along_axes(body().origin);
@@ -149,7 +150,7 @@ class OnSurface {
     const CoreTarget<double> still = CoreTarget<T>{body()}.template still<double>();
     return still.from(at_rest<double>(point(number))).distance < body().shape->skin();
   }
-  /// A point of the surface against the shape as a whole.
+  /// Touch of a point of the surface with the shape as a whole.
   Touch<T> tip_on_body(int number) const {
     return touch_of(distance_to_core(point(number), body()), 0, body().shape->skin(), side_ == 0);
   }
@@ -165,12 +166,12 @@ class OnSurface {
     const double skin = body().shape->edge_skin();
     return side_ == 1 ? crossing_of(along, 0, other, skin) : crossing_of(other, skin, along, 0);
   }
-  /// A corner of the shape against a ridge.
+  /// Touch of a corner of the shape with a ridge.
   Touch<T> corner_on_ridge(std::size_t corner, int ridge_number) const {
     const Ends<T> along = ridge(ridge_number);
     return pair_.corner_on(side_, corner, SegmentTarget<T>{along[0], along[1]}, 0);
   }
-  /// An end of a ridge against an edge of the shape; a cylinder is compared as a whole.
+  /// Touch of an end of a ridge with an edge of the shape; a cylinder is compared as a whole.
   Touch<T> tip_on_edge(int number, std::size_t edge) const {
     if (body().shape->kind == ContactShape::Kind::cylinder) return tip_on_body(number);
     const Ends<T> ends = pair_.edge(side_, edge);
@@ -199,7 +200,7 @@ class OnSurface {
                 foot, triangles().outward(t, feature), foot, foot};
     if (feature >= 0) place.from = triangles().corner(t, feature);
     if (place.kind == Place::Kind::edge) place.to = triangles().corner(t, feature + 1);
-    // The edge between triangles of one plane is a place of that plane.
+    // The edge between coplanar triangles is a place of their plane.
     const std::vector<int> around = triangles().sharing(t, feature);
     const Vector3 &n = triangles().normal(t), at = target.along_axes(value_of(from)), way = at - foot;
     const bool flat = std::all_of(around.begin(), around.end(),
@@ -211,7 +212,7 @@ class OnSurface {
     return {t, feature, place, at};
   }
 
-  /// Whether the triangles that share the edge or corner are nearest there, too.
+  /// Whether the nearest point is also that of the triangles that share the edge or corner.
   bool is_local(const Found& each, const std::vector<Found>& all, double same) const {
     const std::vector<int> around = triangles().sharing(each.triangle, each.feature);
     return std::all_of(around.begin(), around.end(), [&](int t) {

@@ -22,7 +22,7 @@ Triple<Twelve> number_of(const Vector3& v, const Eigen::Matrix<double, 3, 12>* g
   return result;
 }
 
-/// Of `coulomb`: h of |v|^2.
+/// For `coulomb`: h as a function of |v|^2.
 template <class T>
 T friction_slope(const FrictionLaw& law, const T& squared) {
   const FrictionLaw::Sliding sliding = law.sliding(std::sqrt(std::max(0.0, value_of(squared))));
@@ -35,7 +35,7 @@ template <class T>
 struct SeenFromFirst {
   using Gradient = Eigen::Matrix<double, 3, 12>;
   PlacedShape<T> first, second;
-  std::array<Triple<T>, 3> node_axes;  ///< of the second node
+  std::array<Triple<T>, 3> node_axes;  ///< axes of the second node
   Triple<T> s, s_rate, turning;
 
   static PlacedShape<T> place(const ContactShape& shape, const Vector3& s, const Matrix3& R, bool moves) {
@@ -65,7 +65,7 @@ struct SeenFromFirst {
         s(variable(at, 0)),
         s_rate(variable(at_rate, 6)),
         turning(variable(turn, 9)) {
-    ContactShape at_node;  // its frame is the node's
+    ContactShape at_node;  // its frame is that of the node
     node_axes = place(at_node, at, R_12, true).axes;
   }
 };
@@ -87,13 +87,13 @@ Triple<T> velocity_at(const SeenFromFirst<T>& seen, const Triple<T>& place) {
   return seen.s_rate + cross(seen.turning, place - seen.s);
 }
 
-/// The step from the last accepted state to this one, seen from the first body.
+/// The motion from the last accepted state to this one, seen from the first body.
 template <class T>
 class StepOfPair {
  public:
   StepOfPair(const SeenFromFirst<T>& seen, const Bristles& bristles) : seen_(seen), bristles_(bristles) {
     if (!bristles.known) return;
-    // The second body has turned by R_12 R_12_before^T; of its quaternion [w, q], 4 w^2 and 4 w q.
+    // The rotation of the second body is R_12 R_12_before^T; the sums are 4 w^2 and 4 w q of its quaternion [w, q].
     T trace(1);
     for (std::size_t k = 0; k < 3; ++k) {
       const Triple<T> before(column(k));
@@ -103,7 +103,7 @@ class StepOfPair {
     constexpr double half_a_turn = 1e-6;
     if (value_of(trace) > half_a_turn) turn_ = (T(1) / trace) * turn_;
   }
-  /// How far the second body's material at a place has moved.
+  /// Displacement of the second body's material at a place.
   Triple<T> way_to(const Triple<T>& place) const {
     if (!bristles_.known) return {};
     const Triple<T> arm = place - seen_.s;
@@ -111,9 +111,9 @@ class StepOfPair {
     for (std::size_t k = 0; k < 3; ++k) was += dot(seen_.node_axes[k], arm) * Triple<T>(column(k));
     return place - was;
   }
-  /// Turns a vector across n by half of what the second body has turned about n.
+  /// Rotates a vector normal to n by half of the second body's rotation about n.
   Triple<T> turned_by_half(const Triple<T>& across, const Triple<T>& n) const {
-    const T tangent = dot(n, turn_);  // of the half
+    const T tangent = dot(n, turn_);  // tangent of half the angle
     return (T(1) / sqrt(T(1) + tangent * tangent)) * (across + tangent * cross(n, across));
   }
 
@@ -124,7 +124,7 @@ class StepOfPair {
   Triple<T> turn_;  ///< q/w
 };
 
-/// |v|. It has no derivative at rest; nothing that depends on it changes there.
+/// The magnitude |v|. It has no derivative at rest; there nothing that depends on it changes.
 template <class T>
 T size_of(const Triple<T>& v) {
   const T squared = dot(v, v);
@@ -136,7 +136,7 @@ template <class T>
 struct MovedBristle {
   Triple<T> z, u;
   T speed{};
-  /// @param before  z at its beginning @param v  across the normal
+  /// @param before  z at the beginning of the step @param v  sliding velocity, normal to the contact normal
   MovedBristle(const Touch<T>& touch, const StepOfPair<T>& step, const FrictionLaw& law, const Vector3& before,
                const Triple<T>& v)
       : speed(size_of(v)) {
@@ -180,7 +180,7 @@ void add_touch(const Touch<T>& touch, const SeenFromFirst<T>& seen, const Surfac
   wrench.moment += cross(touch.place - seen.s, force);
 }
 
-/// @param before  of each touch, as PairForce::match gives it
+/// @param before  bristle of each touch, as PairForce::match gives it
 Vector3 bristle_before(const Bristles& bristles, const std::vector<int>& before, std::size_t touch) {
   const int known = before[touch];
   return known < 0 ? Vector3(Vector3::Zero()) : bristles.before[static_cast<std::size_t>(known)].z;
@@ -228,8 +228,8 @@ PairForce::Result PairForce::calc(const SurfaceLaw& law, double damping, const B
   return result;
 }
 
-// With J the derivatives of (s, phi) by the increments of the nodes and y = (f, m) the wrench, the residual is
-// r = -J^T y, and the wrench a function of (s, phi) and of the rates (sdot, turning) alone.
+// With the derivatives J of (s, phi) by the increments of the nodes and the wrench y = (f, m), the residual is r = -J^T
+// y; the wrench is a function of (s, phi) and of the rates (sdot, turning) only.
 void PairForce::calc_tangent(const SurfaceLaw& law, double damping, const Bristles& bristles, Matrix12& K,
                              Matrix12& C) const {
   const SeenFromFirst<Twelve> seen(first_, second_, s_, R_12_, s_rate_, turning_);
@@ -251,7 +251,7 @@ void PairForce::calc_tangent(const SurfaceLaw& law, double damping, const Bristl
   J.block<3, 3>(0, 6) = R_1.transpose();
   J.block<3, 3>(3, 3) = -one;
   J.block<3, 3>(3, 9) = R_12_;
-  // The rates (sdot, turning) by the increments of positions at fixed velocities of the nodes.
+  // Derivatives of the rates (sdot, turning) by the increments of positions at fixed velocities of the nodes.
   Eigen::Matrix<double, 6, 12> W;
   W.topRows<3>() = -skew(node_1_.Omega) * J.topRows<3>();
   W.block<3, 3>(0, 3) += skew(node_1_.R.transpose() * (node_2_.v - node_1_.v));
@@ -261,7 +261,7 @@ void PairForce::calc_tangent(const SurfaceLaw& law, double damping, const Bristl
                                      by_rate = G.rightCols<6>() * J;
   K.noalias() = -J.transpose() * by_position;
   C.noalias() = -J.transpose() * by_rate;
-  // The same wrench along axes and arms that turn.
+  // The same wrench along axes and lever arms that rotate.
   const Matrix3 turned = R_1 * skew(f);
   K.block<3, 3>(0, 3) -= turned;
   K.block<3, 3>(6, 3) += turned;
@@ -287,14 +287,14 @@ void PairForce::add_bristles(const SurfaceLaw& law, const Bristles& bristles, st
   }
 }
 
-/// Where a bristle is remembered to be: where it moves the least.
+/// Returns the place in the axes in which it is stored: those in which it moves the least.
 Vector3 PairForce::kept_place(const Vector3& place) const {
   const bool on_second = second_.kind == ContactShape::Kind::surface;
   return on_second ? Vector3(R_12_.transpose() * (place - s_)) : place;
 }
 
-/// Numbers of the bristles of before that go with touches, -1: none. Valid until it is asked for again in the same
-/// thread.
+/// Returns for each touch the number of its earlier bristle, -1: none. The reference is valid until the next call in
+/// the same thread.
 template <class T>
 const std::vector<int>& PairForce::match(const std::vector<Touch<T>>& touches, const Bristles& bristles) const {
   thread_local std::vector<int> result;
@@ -302,7 +302,8 @@ const std::vector<int>& PairForce::match(const std::vector<Touch<T>>& touches, c
   const std::vector<Bristle>& before = bristles.before;
   if (before.empty()) return result;
   const bool surface = first_.kind == ContactShape::Kind::surface || second_.kind == ContactShape::Kind::surface;
-  // What is farther away is another place: of a ball's, less than a sixth of the way around it.
+  // A bristle that is farther away belongs to another place: for a ball, the limit is less than a sixth of its
+  // circumference.
   const double skin = first_.skin() + second_.skin();
   const double most = surface ? skin * skin : std::numeric_limits<double>::infinity();
   const auto nearest_before = [&](std::size_t touch) {
@@ -317,7 +318,7 @@ const std::vector<int>& PairForce::match(const std::vector<Touch<T>>& touches, c
     }
     return std::pair(nearest, least);
   };
-  // Of several touches that are nearest to one bristle, the nearest has it.
+  // If one bristle is the nearest to several touches, the nearest touch takes it.
   thread_local std::vector<double> distance;
   thread_local std::vector<int> taken;
   distance.assign(before.size(), std::numeric_limits<double>::infinity());

@@ -1,22 +1,24 @@
-// The force of two shapes on each other: elastic forces where they press, damping along the normals, friction across.
+// The force of two shapes on each other: elastic contact forces, damping along the normals, tangential friction.
 //
-// At each place of contact c, normal n from the first body to the second, depth p,
+// At each place of contact c, with normal n from the first body to the second and penetration p,
 //     F = f_e n + L max(-1, d pdot) n - L max(0, 1 + d pdot) h(|v_t|) v_t    on the second body, -F on the first,
-// f_e and L of pair_touches.hpp, pdot = -n . v and v_t = v - n (n . v), v the velocity of the second body's material at
-// c relative to the first body's. h of friction_law.hpp. Everything is computed in the axes of the first node, where it
-// is a function of s = R_1^T (x_2 - x_1), R_12 = R_1^T R_2 and of the rates of both as the first node sees them.
-// Forces at one place, equal and opposite: momentum and angular momentum are exact. Derivatives are exact, too.
-// `lugre`: each place that presses has a bristle z, zero where it begins to touch, across the normal. Over a step in
-// which the second body's material at c has moved by d, seen from the first, and turned about n by psi,
+// Here f_e and L are defined in pair_touches.hpp and h in friction_law.hpp, pdot = -n . v, v_t = v - n (n . v), and v
+// is the velocity of the second body's material at c relative to the first body's. Everything is computed in the axes
+// of the first node, as a function of s = R_1^T (x_2 - x_1), R_12 = R_1^T R_2 and of the rates of both as seen from the
+// first node.
+// The forces act at one point, equal and opposite: momentum and angular momentum are exactly conserved. The derivatives
+// are exact, too. `lugre`: each place in contact has a bristle z, normal to n, which is zero at the beginning of
+// contact. In a step in which the second body's material at c has moved by d, seen from the first, and rotated about n
+// by psi,
 //     z = T P (z_before + d)/(1 + sigma_0 |P d|/mu),   P = I - n n^T,   T = exp(psi/2 n~),
 //     F_t = -L max(..) [sigma_0 z + sigma_1 u + sigma_2 v_t],   u = v_t - sigma_0 |v_t| z/mu:
-// the implicit Euler method, stable for bristles of any stiffness. T carries it by the mean of both bodies: which of
-// them is the first does not matter (exactly so where they spin on each other, to the order of the method where they
-// roll). d is found from the positions at both ends of the step, not from rates: what sticks stays at its place,
-// however it turns with the pair. What is lost is L [sigma_0^2 |v_t| z^2/mu + sigma_1 u . v_t + sigma_2 v_t^2] >= 0;
-// what bristles take and give back, L sigma_0 z . u, counts as input. Where a corner touches a surface in several
-// places, a place has the bristle of the place before that is nearest to it on the surface, if it is also the nearest
-// to that one.
+// This is the implicit Euler method, stable for bristles of any stiffness. T rotates the bristle by the mean rotation
+// of both bodies: the result does not depend on which of them is the first (exactly if they spin on each other, to the
+// order of the method if they roll). d is computed from the positions at both ends of the step, not from rates: a
+// sticking contact stays at its place, however it rotates with the pair. The dissipated power is L [sigma_0^2 |v_t|
+// z^2/mu + sigma_1 u . v_t + sigma_2 v_t^2] >= 0; the power stored and returned by bristles, L sigma_0 z . u, counts as
+// input. If a corner touches a surface at several places, each place takes over the bristle of the nearest earlier
+// place on the surface, provided that it is also the nearest place to that one.
 #pragma once
 
 #include <optional>
@@ -33,16 +35,16 @@ struct SurfaceLaw {
   std::optional<FrictionLaw> friction;
 };
 
-/// The bristle of a place of contact, as the last accepted step has left it.
+/// The bristle of a place of contact at the end of the last accepted step.
 struct Bristle {
   int id = 0;                       ///< Touch::id
-  Vector3 z = Vector3::Zero();      ///< in the axes of the first node [m]
-  Vector3 place = Vector3::Zero();  ///< as the node of the surface of triangles sees it; without one, the first node
+  Vector3 z = Vector3::Zero();      ///< deflection in the axes of the first node [m]
+  Vector3 place = Vector3::Zero();  ///< place in the axes of the surface's node; without a surface, of the first node
 };
 
-/// Of a pair: its bristles of the last accepted step, and where the second node was then, seen from the first.
+/// The bristles of a pair at the last accepted step, and the position of the second node then, seen from the first.
 struct Bristles {
-  bool known = false;  ///< there was such a step
+  bool known = false;  ///< whether there was an accepted step
   Vector3 s = Vector3::Zero();
   Matrix3 R_12 = Matrix3::Identity();
   std::vector<Bristle> before;
@@ -50,31 +52,31 @@ struct Bristles {
 
 class PairForce {
  public:
-  /// Both must outlive it.
+  /// Both shapes must outlive the object.
   PairForce(const ContactShape& first, const ContactShape& second, const NodeState& first_node,
             const NodeState& second_node);
 
-  /// What acts, without derivatives.
+  /// Forces and energies, without derivatives.
   struct Result {
     Vector12 r = Vector12::Zero();        ///< residual of the two nodes
-    Vector3 force = Vector3::Zero();      ///< on the second body, inertial [N]
-    Vector3 place = Vector3::Zero();      ///< of the deepest contact, inertial [m]
-    double depth = 0;                     ///< of the deepest contact [m]; 0: they do not touch
-    double approach = 0;                  ///< its rate [m/s]
-    double elastic = 0, dissipation = 0;  ///< [J], [W]
-    double input = 0;                     ///< what bristles give back [W]
+    Vector3 force = Vector3::Zero();      ///< force on the second body, inertial [N]
+    Vector3 place = Vector3::Zero();      ///< place of the deepest contact, inertial [m]
+    double depth = 0;                     ///< depth of the deepest contact [m]; 0: they do not touch
+    double approach = 0;                  ///< rate of the depth [m/s]
+    double elastic = 0, dissipation = 0;  ///< elastic energy [J], dissipation [W]
+    double input = 0;                     ///< power returned by bristles [W]
   };
-  /// @param damping  d [s/m] @param bristles  of `lugre`; its `before` may be empty
+  /// @param damping  d [s/m] @param bristles  for `lugre`; its `before` may be empty
   Result calc(const SurfaceLaw& law, double damping, const Bristles& bristles) const;
-  /// Derivatives of the residual by positions, and by rates.
+  /// Computes the derivatives of the residual by positions, and by rates.
   void calc_tangent(const SurfaceLaw& law, double damping, const Bristles& bristles, Matrix12& K, Matrix12& C) const;
-  /// Adds the bristles of the places that press, of `lugre`; without friction, as they were.
+  /// Adds the bristles of the places in contact, for `lugre`; without friction, they are unchanged.
   void add_bristles(const SurfaceLaw& law, const Bristles& bristles, std::vector<Bristle>& now) const;
 
-  /// The place at which the surfaces are nearest to each other.
+  /// The place with the smallest gap of the surfaces.
   struct Nearest {
-    double gap, rate;  ///< [m], [m/s]
-    Vector3 place;     ///< inertial
+    double gap, rate;  ///< gap [m], its rate [m/s]
+    Vector3 place;     ///< place, inertial
     Vector3 normal;    ///< from the first body to the second, inertial
   };
   Nearest nearest() const;
@@ -86,7 +88,7 @@ class PairForce {
   const ContactShape &first_, &second_;
   const NodeState &node_1_, &node_2_;
   Matrix3 R_12_;
-  Vector3 s_, s_rate_, turning_;  ///< turning: R_12 Omega_2 - Omega_1
+  Vector3 s_, s_rate_, turning_;  ///< turning_: R_12 Omega_2 - Omega_1
 };
 
 }  // namespace bielle::mechanism

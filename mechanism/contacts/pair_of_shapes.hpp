@@ -1,7 +1,7 @@
-// A pair of shapes, compared feature by feature: corners of one with the other as a whole, edges with each other.
+// A pair of shapes, compared by features: corners of one with the other as a whole, edges with each other.
 //
-// A corner is a point, or the end of a cylinder (disc_distance.hpp). The edge of a cylinder is its axis, with the skin
-// of its radius: where its side crosses another edge.
+// A corner is a point, or the end of a cylinder (disc_distance.hpp). The edge of a cylinder is its axis, with its
+// radius as the skin: it represents its side where that crosses another edge.
 #pragma once
 
 #include <limits>
@@ -23,7 +23,7 @@ Touch<T> touch_of(const PointDistance<T>& found, double point_skin, double core_
   return touch;
 }
 
-/// Whether the lines along u and v, the second beginning at d from the first, are nearest to each other inside of both.
+/// Whether the nearest points of the lines along u and v are inside of both; the second begins at d from the first.
 /// @param between  the square of their distance there
 inline bool crosses_inside(const Vector3& u, const Vector3& v, const Vector3& d, double& between) {
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), D = uu * vv - uv * uv;
@@ -33,7 +33,7 @@ inline bool crosses_inside(const Vector3& u, const Vector3& v, const Vector3& d,
   return s > 0 && s < 1 && t > 0 && t < 1;
 }
 
-/// Whether two edges cross, nearer to each other than `skins`.
+/// Whether two edges cross at a distance smaller than `skins`.
 template <class T>
 bool crosses_within(const Ends<T>& a, const Ends<T>& b, double skins) {
   const Vector3 from = value_of(a[0]), u = value_of(a[1]) - from, start = value_of(b[0]), v = value_of(b[1]) - start;
@@ -41,7 +41,8 @@ bool crosses_within(const Ends<T>& a, const Ends<T>& b, double skins) {
   return crosses_inside(u, v, start - from, between) && between < skins * skins;
 }
 
-/// Where the lines of two edges are nearest to each other. @param a  on the first shape @param b  on the second
+/// Returns the touch at the nearest points of the lines of two edges. @param a  on the first shape @param b  on the
+/// second
 template <class T>
 Touch<T> crossing_of(const Ends<T>& a, double skin_a, const Ends<T>& b, double skin_b) {
   const Triple<T> u = a[1] - a[0], v = b[1] - b[0], d = b[0] - a[0];
@@ -51,7 +52,7 @@ Touch<T> crossing_of(const Ends<T>& a, double skin_a, const Ends<T>& b, double s
   return touch_of(distance_to_point(on_second, on_first), skin_b, skin_a, true);
 }
 
-/// Which features of two shapes are looked at.
+/// Selects the features of two shapes that are evaluated.
 enum class Among { all, touching };
 
 template <class T>
@@ -72,7 +73,7 @@ class PairOfShapes {
     return {corner(side, static_cast<std::size_t>(ends[0])), corner(side, static_cast<std::size_t>(ends[1]))};
   }
 
-  /// Of a corner from what has the skin `core_skin`.
+  /// Touch of a corner with a target that has the skin `core_skin`.
   template <class Target>
   Touch<T> corner_on(std::size_t side, std::size_t k, const Target& target, double core_skin) const {
     const bool disc = shapes_[side]->kind == ContactShape::Kind::cylinder;
@@ -80,19 +81,20 @@ class PairOfShapes {
     return touch_of(target.from(point), shapes_[side]->skin(), core_skin, side == 1);
   }
 
-  /// Of a corner from the other shape as a whole, which is no surface.
+  /// Touch of a corner with the other shape as a whole, which is no surface.
   Touch<T> corner_on_other(std::size_t side, std::size_t k) const {
     return corner_on(side, k, CoreTarget<T>{*placed_[1 - side]}, shapes_[1 - side]->skin());
   }
 
-  /// An end of an edge of one shape against an edge of the other; a cylinder has one edge, and is compared as a whole.
+  /// Touch of an end of an edge of one shape with an edge of the other; a cylinder has one edge, and is compared as a
+  /// whole.
   Touch<T> end_on_edge(std::size_t side, std::size_t corner, std::size_t edge_of_other) const {
     if (shapes_[1 - side]->kind == ContactShape::Kind::cylinder) return corner_on_other(side, corner);
     const Ends<T> ends = edge(1 - side, edge_of_other);
     return corner_on(side, corner, SegmentTarget<T>{ends[0], ends[1]}, shapes_[1 - side]->skin());
   }
 
-  /// Whether an end of a cylinder is so near to the other shape, which is no surface, that it may touch.
+  /// Whether an end of a cylinder may touch the other shape, which is no surface.
   bool may_touch(std::size_t side, std::size_t k) const {
     const ContactShape &of = *shapes_[side], &other = *shapes_[1 - side];
     if (of.kind != ContactShape::Kind::cylinder) return true;
@@ -100,12 +102,12 @@ class PairOfShapes {
     return still.from(at_rest<double>(corner(side, k))).distance < of.dome_radius() + of.skin() + other.skin();
   }
 
-  /// Calls act(touch, side, corner) for each corner of either shape against the other; neither is a surface.
+  /// Calls act(touch, side, corner) for each corner of either shape with the other; neither is a surface.
   template <class Act>
   void for_each_corner(const Act& act, Among which) const {
     for (const std::size_t side : {0UL, 1UL}) {
       const ContactShape &of = *shapes_[side], &other = *shapes_[1 - side];
-      // Of a ball its middle is compared, not the corners of the other.
+      // For a sphere only its middle is compared, not the corners of the other shape.
       if (other.kind == ContactShape::Kind::sphere && (of.kind != ContactShape::Kind::sphere || side == 1)) continue;
       for (std::size_t k = 0; k < of.corners().size(); ++k)
         if (which == Among::all || may_touch(side, k)) act(corner_on_other(side, k), side, k);

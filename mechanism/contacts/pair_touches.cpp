@@ -12,10 +12,10 @@ namespace {
 using Kind = ContactShape::Kind;
 using Twelve = AutoDiff<12, 1>;
 
-// Numbers of touches: corners from 0, crossings and tips of surfaces from these on.
+// Numbers of touches: those of corners begin at 0, those of crossings and tips at these values.
 constexpr int crossings = 100000, tips = 1 << 29;
 
-/// V = k p^(n+1)/(n+1) and V'.
+/// The potential V = k p^(n+1)/(n+1) and its derivative V'.
 template <class T>
 struct Spring {
   T potential{}, force{};
@@ -26,13 +26,13 @@ struct Spring {
   }
 };
 
-/// Adds touches and their forces.
+/// Collects touches and their forces.
 template <class T>
 class Gathered {
  public:
   Gathered(const NormalLaw& law, PairTouches<T>& result) : law_(law), result_(result) {}
 
-  /// @returns its number, -1: it does not press
+  /// @returns its number, -1: no contact
   int add(Touch<T> touch, int id) {
     if (value_of(touch.depth) <= 0) return -1;
     const Spring<T> spring(law_, touch.depth);
@@ -43,8 +43,9 @@ class Gathered {
     return static_cast<int>(result_.touches.size()) - 1;
   }
 
-  /// Two edges that cross, of the potential, V(p) prod_i (1 - V(p_i)/V(p)).
-  /// @param ends  of the four ends i, against the other edge @param numbers  of the touches of these corners, -1: none
+  /// Adds two crossing edges with the potential V(p) prod_i (1 - V(p_i)/V(p)).
+  /// @param ends  touches of the four ends i with the other edge @param numbers  numbers of the touches of these
+  ///              corners, -1: none
   void add_crossing(Touch<T> crossing, std::array<Touch<T>, 4> ends, const std::array<int, 4>& numbers, int id) {
     if (value_of(crossing.depth) <= 0) return;
     const Spring<T> whole(law_, crossing.depth);
@@ -75,7 +76,7 @@ class Gathered {
     result_.touches.push_back(crossing);
   }
 
-  /// Of touches that one corner has in several places, the one that is nearest to a touch; -1: none.
+  /// Returns the nearest to a touch among the touches of one corner at several places; -1: none.
   int nearest_of(const std::vector<int>& numbers, const Touch<T>& touch) const {
     const auto away = [&](int k) {
       return value_of(result_.touches[static_cast<std::size_t>(k)].place - touch.place).squaredNorm();
@@ -86,7 +87,7 @@ class Gathered {
   }
 
  private:
-  /// What a crossing takes over from a corner is no load of it any more.
+  /// The force that a crossing takes over from a corner is no longer part of the corner's load.
   void unload(int number, const T& force) {
     if (number < 0) return;
     T& load = result_.touches[static_cast<std::size_t>(number)].load;
@@ -131,7 +132,7 @@ void gather_on_surface(const PairOfShapes<T>& pair, Gathered<T>& gathered) {
       const int number = gathered.add(touch, static_cast<int>(32 * on.side() + k));
       if (number >= 0) corner_touches[k].push_back(number);
     });
-  if (body.kind == Kind::sphere) return;  // its middle alone is compared
+  if (body.kind == Kind::sphere) return;  // only its middle is compared
   const TriangleSurface::Outstanding near = on.outstanding(0);
   std::vector<int> tip_touch;
   for (const int tip : near.tips)

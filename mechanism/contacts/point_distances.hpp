@@ -11,12 +11,12 @@ namespace bielle::mechanism {
 
 template <class T>
 struct PointDistance {
-  T distance{};      ///< from the core; negative inside of a box or cylinder, behind a plane
-  Triple<T> normal;  ///< from the core to the point
-  Triple<T> foot;    ///< the nearest place of the core
+  T distance{};      ///< distance from the core; negative inside of a box or cylinder, behind a plane
+  Triple<T> normal;  ///< direction from the core to the point
+  Triple<T> foot;    ///< nearest point of the core
 };
 
-/// A point of a shape, given along the shape's axes.
+/// Returns a point of a shape that is given in the shape's axes.
 template <class T>
 Triple<T> point_of(const PlacedShape<T>& placed, const Vector3& c) {
   return placed.origin + T(c.x()) * placed.axes[0] + T(c.y()) * placed.axes[1] + T(c.z()) * placed.axes[2];
@@ -102,7 +102,7 @@ PointDistance<T> distance_to_cylinder(const Triple<T>& p, const Triple<T>& q, co
                                   clamped(q.z, -half_length, half_length) * cylinder.axes[2]);
 }
 
-/// Of a point from the core of any shape but a surface.
+/// Distance of a point from the core of any shape except a surface.
 template <class T>
 PointDistance<T> distance_to_core(const Triple<T>& p, const PlacedShape<T>& placed) {
   const ContactShape& shape = *placed.shape;
@@ -117,13 +117,13 @@ PointDistance<T> distance_to_core(const Triple<T>& p, const PlacedShape<T>& plac
   return distance_to_cylinder(p, q, placed, shape.radius - shape.rounding, shape.half_length - shape.rounding);
 }
 
-/// The same values, which do not move.
+/// Returns the same values without derivatives.
 template <class U, class T>
 Triple<U> at_rest(const Triple<T>& a) {
   return Triple<U>(value_of(a));
 }
 
-/// What a distance can be taken from: `from(p)`, and itself at rest in other numbers.
+/// Targets of distances: `from(p)`, and the target itself at rest in other numbers.
 template <class T>
 struct CoreTarget {
   PlacedShape<T> placed;

@@ -1,9 +1,9 @@
-// What sticks out of a surface of triangles: ridges, where its two sides fall off (or where it ends), and tips, the
-// ends of ridges.
+// Finds the convex features of a surface of triangles: ridges, at which both sides fall off (or the surface ends), and
+// tips, the ends of ridges.
 //
-// Flat parts have none, however many triangles they are made of: they are touched by what sticks out of the other body.
-// Edges of triangles that follow each other in a straight line are one ridge. A side falls off if its slope against
-// the other is at least `least_slope`: the corners of STL files, single-precision numbers, are not exactly in a plane.
+// Flat parts have none, for any number of triangles: corners and edges of the other body touch them. Collinear edges of
+// consecutive triangles are one ridge. A side falls off if its slope relative to the other is at least `least_slope`:
+// the corners in STL files are single-precision numbers, and are not exactly in a plane.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -22,7 +22,7 @@ void sort_once(std::vector<int>& numbers) {
 
 }  // namespace
 
-/// @param edge  0 to 2 of a triangle
+/// @param edge  0 to 2, edge of a triangle
 bool TriangleSurface::sticks_out(int triangle, int edge) const {
   const int other = neighbours_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(edge)];
   if (other < 0) return true;
@@ -40,7 +40,7 @@ bool TriangleSurface::sticks_out(int triangle, int edge) const {
 void TriangleSurface::find_ridges() {
   using Edge = std::pair<int, int>;
   std::map<Edge, int> ridge_of_edge;                 // (smaller, larger point) -> its ridge, -1: not known yet
-  std::vector<std::vector<int>> at(points_.size());  // of each point: the other ends of edges that stick out
+  std::vector<std::vector<int>> at(points_.size());  // for each point: the other ends of convex edges
   for (int t = 0; t < static_cast<int>(triangles_.size()); ++t)
     for (int e = 0; e < 3; ++e) {
       const Triangle& corners = triangles_[static_cast<std::size_t>(t)];
@@ -63,7 +63,7 @@ void TriangleSurface::find_ridges() {
     if (ridge >= 0) continue;
     ridge = static_cast<int>(ridges_.size());
     const auto end_from = [&](int before, int here) {
-      const int begin = before;  // a ring that is straight everywhere comes back to it
+      const int begin = before;  // a ring without corners returns to its start
       while (!is_tip_[static_cast<std::size_t>(here)] && here != begin) {
         const std::vector<int>& ends = at[static_cast<std::size_t>(here)];
         const int next = ends[0] == before ? ends[1] : ends[0];

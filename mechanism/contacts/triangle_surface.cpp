@@ -28,7 +28,7 @@ void TriangleSurface::join_corners(const std::vector<Vector3>& corners) {
   }
   size_ = (high - low).norm();
   middle_ = 0.5 * (low + high);
-  // Cells of the size within which corners are joined: what is as near stands in the same cell or the next.
+  // Cells of the size within which corners are joined: near corners are in the same cell or a neighbouring one.
   const double cell = std::max(1e-6 * size_, std::numeric_limits<double>::min());
   std::map<std::array<long, 3>, std::vector<int>> known;
   const auto number = [&](const Vector3& p) {
@@ -47,7 +47,7 @@ void TriangleSurface::join_corners(const std::vector<Vector3>& corners) {
   for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
     const Vector3 normal = (corners[k + 1] - corners[k]).cross(corners[k + 2] - corners[k]);
     const double longest = std::max((corners[k + 1] - corners[k]).norm(), (corners[k + 2] - corners[k]).norm());
-    if (!(normal.norm() > 1e-12 * longest * longest)) continue;  // slivers have no side
+    if (!(normal.norm() > 1e-12 * longest * longest)) continue;  // slivers have no normal
     const Triangle triangle = {number(corners[k]), number(corners[k + 1]), number(corners[k + 2])};
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
     triangles_.push_back(triangle);
@@ -71,7 +71,7 @@ void TriangleSurface::find_neighbours() {
       }
       const auto [other, other_edge] = found->second;
       const Triangle& beyond = triangles_[static_cast<std::size_t>(other)];
-      if (beyond[static_cast<std::size_t>(other_edge)] == corners[e]) ++flipped_edges_;  // both run along it one way
+      if (beyond[static_cast<std::size_t>(other_edge)] == corners[e]) ++flipped_edges_;  // both have one direction
       neighbours_[static_cast<std::size_t>(t)][e] = other;
       neighbours_[static_cast<std::size_t>(other)][static_cast<std::size_t>(other_edge)] = t;
       open.erase(found);
@@ -113,7 +113,7 @@ int TriangleSurface::build_node(int begin, int end) {
   return static_cast<int>(index);
 }
 
-/// C. Ericson, Real-time collision detection (2005), 5.1.5: by the regions around the triangle.
+/// C. Ericson, Real-time collision detection (2005), 5.1.5: cases by the regions around the triangle.
 TriangleSurface::Nearest TriangleSurface::nearest(int triangle, const Vector3& p) const {
   const Triangle& corners = triangles_[static_cast<std::size_t>(triangle)];
   const Vector3 &a = points_[static_cast<std::size_t>(corners[0])], &b = points_[static_cast<std::size_t>(corners[1])],
@@ -156,7 +156,7 @@ Vector3 TriangleSurface::outward(int triangle, int feature) const {
   return sum;
 }
 
-/// Whether the neighbours that share the edge or corner are nearest there, too.
+/// Whether the nearest place is also that of the neighbours that share the edge or corner.
 bool TriangleSurface::is_local(int triangle, const Nearest& found, const Vector3& point) const {
   if (found.feature < 0) return true;
   const Triangle& corners = triangles_[static_cast<std::size_t>(triangle)];

@@ -1,9 +1,9 @@
-// A surface of triangles, as STL files hold it, and the places of it that are nearest to a point.
+// A surface of triangles, as in STL files, and its nearest places to a point.
 //
-// A ball touches the surface at every place that is nearer to its middle than all places around it: inside of a
-// triangle, on an edge whose two triangles are both nearest there, at a corner all of whose triangles are. A flat floor
-// of many triangles has one such place, as a plane has; a groove has two. Sides are told apart by the order of the
-// corners: anticlockwise seen from outside.
+// A ball touches the surface at every local minimum of the distance from its middle: inside of a triangle, on an edge
+// that is the nearest place of both its triangles, at a corner that is the nearest place of all its triangles. A flat
+// floor of many triangles has one such place, like a plane; a groove has two. The order of the corners defines the
+// outside: they are anticlockwise seen from outside.
 #pragma once
 
 #include <array>
@@ -16,52 +16,52 @@ namespace bielle::mechanism {
 
 class TriangleSurface {
  public:
-  using Triangle = std::array<int, 3>;  ///< its corners
-  /// @param corners  three of each triangle, one after the other [m]; those within a millionth of the surface's size
+  using Triangle = std::array<int, 3>;  ///< indices of its corners
+  /// @param corners  three for each triangle, one after the other [m]; corners within a millionth of the surface's size
   /// are joined
-  /// @throws InputError where no triangle has an area
+  /// @throws InputError if no triangle has an area
   explicit TriangleSurface(const std::vector<Vector3>& corners);
 
   const std::vector<Vector3>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  double reach() const { return reach_; }               ///< of the farthest point from the origin [m]
-  double size() const { return size_; }                 ///< of the box around it, from corner to corner [m]
-  const Vector3& middle() const { return middle_; }     ///< of that box [m]
-  int open_edges() const { return open_edges_; }        ///< of one triangle alone: the surface ends there
-  int flipped_edges() const { return flipped_edges_; }  ///< of triangles whose outsides are on different sides
+  double reach() const { return reach_; }               ///< distance of the farthest point from the origin [m]
+  double size() const { return size_; }                 ///< diagonal of the bounding box [m]
+  const Vector3& middle() const { return middle_; }     ///< middle of the bounding box [m]
+  int open_edges() const { return open_edges_; }        ///< edges of one triangle: the surface ends there
+  int flipped_edges() const { return flipped_edges_; }  ///< edges between opposite orientations
 
-  /// A place that is nearest to a point: inside of a triangle, on an edge, or at a corner.
+  /// A nearest place to a point: inside of a triangle, on an edge, or at a corner.
   struct Place {
     enum class Kind { face, edge, corner } kind;
     Vector3 foot;
-    /// Outwards. Of an edge the sum of its faces' normals; of a corner that of its faces weighted by their angles
-    /// there: a point is outside if it is on that side (J. A. Baerentzen, H. Aanaes, IEEE Trans. Visualization and
-    /// Computer Graphics 11 (2005) 243-253), however sharp they are.
+    /// Outward normal. For an edge it is the sum of its faces' normals; for a corner the sum of those of its faces
+    /// weighted by their angles there: a point is outside if it is on that side (J. A. Baerentzen, H. Aanaes, IEEE
+    /// Trans. Visualization and Computer Graphics 11 (2005) 243-253), however sharp they are.
     Vector3 normal;
-    Vector3 from, to;  ///< of the edge; `from` is the corner
+    Vector3 from, to;  ///< ends of the edge; `from` is the corner
   };
-  /// Adds those nearer than `radius` to a point; behind a face as well as before it.
+  /// Adds the places that are nearer than `radius` to a point, on both sides of a face.
   void find_nearest(const Vector3& point, double radius, std::vector<Place>& places) const;
 
-  /// What sticks out of the surface, and may touch what is flat: see surface_ridges.cpp.
+  /// Convex features of the surface, which may touch flat parts: see surface_ridges.cpp.
   struct Ridge {
     Vector3 from, to;
-    std::array<int, 2> ends;  ///< numbers of points
+    std::array<int, 2> ends;  ///< indices of points
   };
   const std::vector<Ridge>& ridges() const { return ridges_; }
-  const std::vector<int>& tips() const { return tips_; }  ///< numbers of points, ascending
-  /// Tips and ridges of the triangles that may reach into a region, ascending.
+  const std::vector<int>& tips() const { return tips_; }  ///< indices of points, ascending
+  /// Tips and ridges of the triangles that may be in a region, ascending.
   struct Outstanding {
     std::vector<int> tips, ridges;
   };
-  /// @param near(low, high)  whether a box with these corners may reach into it
+  /// @param near(low, whether a box with these corners may be in the region
   template <class Near>
   void find_outstanding(const Near& near, Outstanding& found) const {
     std::vector<int> triangles;
     find_triangles(near, triangles);
     collect(triangles, found);
   }
-  /// Numbers of the triangles whose boxes are near.
+  /// Finds the numbers of the triangles whose boxes are near.
   template <class Near>
   void find_triangles(const Near& near, std::vector<int>& triangles) const {
     std::vector<int> waiting = {0};
@@ -77,8 +77,8 @@ class TriangleSurface {
       waiting.push_back(branch.right);
     }
   }
-  /// The place of a triangle that is nearest to a point, with its feature: -1: inside; 0, 1, 2: the edge from that
-  /// corner; 3, 4, 5: the corner.
+  /// The nearest place of a triangle to a point, with its feature: -1: inside; 0, 1, 2: the edge from that corner; 3,
+  /// 4, 5: the corner.
   struct Nearest {
     Vector3 foot;
     int feature;
@@ -90,9 +90,9 @@ class TriangleSurface {
     return points_[static_cast<std::size_t>(
         triangles_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(number % 3)])];
   }
-  /// Those that share an edge or a corner of a triangle with it, itself among them.
+  /// Returns the triangles that share an edge or a corner with a triangle, including itself.
   std::vector<int> sharing(int triangle, int feature) const;
-  /// Outwards at a feature of a triangle, as in Place.
+  /// Outward normal at a feature of a triangle, as in Place.
   Vector3 outward(int triangle, int feature) const;
 
  private:
@@ -106,17 +106,17 @@ class TriangleSurface {
   bool is_local(int triangle, const Nearest& found, const Vector3& point) const;
   struct Branch {
     Vector3 low, high;
-    int begin, end;  ///< triangles in `order_`
+    int begin, end;  ///< range of triangles in `order_`
     int left = -1, right = -1;
   };
   std::vector<Vector3> points_, normals_;
   std::vector<Triangle> triangles_;
-  std::vector<std::array<int, 3>> neighbours_;   ///< across the edge from each corner; -1: none
-  std::vector<std::vector<int>> around_corner_;  ///< triangles
+  std::vector<std::array<int, 3>> neighbours_;   ///< neighbour across the edge from each corner; -1: none
+  std::vector<std::vector<int>> around_corner_;  ///< triangles around each corner
   std::vector<Ridge> ridges_;
   std::vector<int> tips_;
-  std::vector<bool> is_tip_;                  ///< of each point
-  std::vector<std::array<int, 3>> ridge_of_;  ///< of each triangle's edges; -1: none
+  std::vector<bool> is_tip_;                  ///< for each point
+  std::vector<std::array<int, 3>> ridge_of_;  ///< ridge of each triangle's edges; -1: none
   std::vector<int> order_;
   std::vector<Branch> tree_;
   double reach_ = 0, size_ = 0;

@@ -1,4 +1,5 @@
-// Turns that are counted from where a model is drawn, by components that know nothing of the joints which bear them.
+// Check for components that count turns from the initial positions without knowledge of the joints that carry their
+// nodes.
 #pragma once
 
 #include <cmath>
@@ -9,9 +10,9 @@
 
 namespace bielle::mechanism {
 
-/// Refuses joints of some nodes that start beyond half a turn from where they are drawn: meshes of teeth and ropes
-/// would not know of the turns. Looks when all entries are read.
-/// @param nodes  wheels, pulleys
+/// Rejects joints of some nodes that start beyond half a turn from their initial positions: meshes of teeth and ropes
+/// would miss the turns. The check runs after all entries have been read.
+/// @param nodes  nodes of wheels or pulleys
 inline void refuse_starts_beyond_half_a_turn(const YamlValue& entry, std::vector<int> nodes, Model& model) {
   model.when_read(Model::Stage::formulas, [entry, nodes = std::move(nodes), &model] {
     for (const Member& member : model.members()) {

@@ -61,7 +61,7 @@ double Joint::counted(std::size_t index, const LocalState& state, const Coordina
   const auto memory = state.memory();
   const auto at = 2 * static_cast<Eigen::Index>(index);
   const double time_before = memory[memory.size() - 1];
-  // A start value is where the coordinate is, whatever part of the motions statics have made.
+  // A start value is the value of the coordinate, for any fraction of the motions in statics.
   if (std::isnan(time_before) && !start_[index].by_motion) return unwrap_angle(principal.value, memory[at]);
   return counted_angle(principal, {memory[at], memory[at + 1]}, time_before, state);
 }
@@ -103,7 +103,7 @@ std::pair<double, double> Joint::calc_coordinate_rates(const LocalState& state, 
 void Joint::declare(Declaration& declaration) const {
   declaration.nodes = {frames_.first, frames_.second};
   for (const Start& start : start_) declaration.memory.insert(declaration.memory.end(), {start.value, 0.0});
-  declaration.memory.push_back(std::numeric_limits<double>::quiet_NaN());  // no step was accepted yet
+  declaration.memory.push_back(std::numeric_limits<double>::quiet_NaN());  // no step has been accepted yet
 }
 
 void Joint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
@@ -152,7 +152,7 @@ void Joint::write_output(const LocalState& state, double* values) const {
 }
 
 std::vector<SlidingSurface> Joint::sliding_surfaces() const {
-  // A joint that gives in all directions, or whose reaction follows from rates, is no pair of surfaces.
+  // A joint that is elastic in all directions, or whose reaction depends on rates, is no pair of surfaces.
   if (coordinates_.empty() || coordinates_.size() > 3 || reaction_has_rates()) return {};
   SlidingSurface all;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) all.coordinates.push_back(k);

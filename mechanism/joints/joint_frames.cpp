@@ -9,14 +9,14 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Something given on each of the two nodes, in inertial components as drawn.
+/// Vectors on the two nodes, in initial inertial components.
 using OnNodes = std::array<Vector3, 2>;
 
 bool is_pair_of_vectors(const YamlValue& value) {
   return value.is_sequence() && value.size() > 0 && value.at(std::size_t{0}).is_sequence();
 }
 
-/// A direction, or one in the axes of each node.
+/// Reads a direction, or one in the axes of each node.
 OnNodes read_directions(const YamlValue& value, const Frame& first, const Frame& second) {
   if (!is_pair_of_vectors(value)) {
     const Vector3 direction = value.direction();
@@ -27,14 +27,14 @@ OnNodes read_directions(const YamlValue& value, const Frame& first, const Frame&
   return {first.R * value.at(std::size_t{0}).direction(), second.R * value.at(std::size_t{1}).direction()};
 }
 
-/// The part of x normal to z. @throws InputError when there is none
+/// Returns the part of x normal to z. @throws InputError if there is none
 Vector3 normal_part(const Vector3& x, const Vector3& z, const YamlValue& given) {
   const Vector3 normal = x - z * z.dot(x);
   if (normal.norm() < 1e-6) given.fail("is parallel to the joint's axis");
   return normal;
 }
 
-/// x turned as the smallest rotation turns z to `to`; where they are opposite, about x.
+/// Returns x rotated by the smallest rotation from z to `to`; if they are opposite, rotated about x.
 Vector3 turned_along(const Vector3& x, const Vector3& z, const Vector3& to) {
   const double cosine = z.dot(to);
   if (cosine < -1 + 1e-12) return x;
@@ -49,7 +49,7 @@ Matrix3 axes_of(const Vector3& x_direction, const Vector3& z) {
   return R;
 }
 
-/// Axes of the joint's frame on each node, in inertial components as drawn.
+/// Reads the axes of the joint's frame on each node, in initial inertial components.
 std::array<Matrix3, 2> read_axes(const YamlValue& entry, const Frame& first, const Frame& second, AxisNeed need,
                                  const std::string& axis_key) {
   const std::optional<YamlValue> second_axis = entry.find("second_axis");
@@ -63,7 +63,7 @@ std::array<Matrix3, 2> read_axes(const YamlValue& entry, const Frame& first, con
     const OnNodes given = read_directions(*second_axis, first, second);
     for (std::size_t k = 0; k < 2; ++k) x[k] = normal_part(given[k], z[k], *second_axis);
   } else {
-    // The inertial axis that is most normal to z.
+    // x is the inertial axis that is most normal to z.
     Eigen::Index least = 0;
     z[0].cwiseAbs().minCoeff(&least);
     x[0] = Vector3::Unit(least) - z[0] * z[0][least];

@@ -6,7 +6,7 @@
 
 namespace bielle::mechanism {
 
-/// What the measures of joints share: their only reference is the joint.
+/// Common base of measures of joints: their only reference is the joint.
 class JointMeasure : public Measure {
  public:
   JointMeasure(std::string name, const Joint& joint) : Measure(std::move(name)), joint_(joint) {}

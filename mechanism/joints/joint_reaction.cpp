@@ -1,5 +1,5 @@
-// The reaction of a joint in the axes of its frame, from what the joint adds to the equations of its second node: its
-// multipliers, or, where it has none, its elastic and other forces.
+// The reaction of a joint in the axes of its frame, from the terms that the joint adds to the equations of its second
+// node: its multipliers, or, if it has none, its elastic and other forces.
 //
 // With f and m the rows that the joint adds to the force and moment equations of node 2 (inertial axes, node axes), the
 // joint exerts -f and -m. About the attachment point c on node 2, along the axes of the frame A on node 1:
@@ -12,9 +12,9 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr int second_node = 6;  ///< first local row
+constexpr int second_node = 6;  ///< its first local row
 
-/// The wrench of rows [f; m].
+/// The wrench from rows [f; m].
 struct Wrench {
   Matrix3 A, R_1, R_2, R_12;
   Vector3 c;
@@ -33,7 +33,7 @@ struct Wrench {
   }
 };
 
-/// The joint's K, in which columns of multipliers hold B^T; or its C.
+/// Computes the joint's K, whose columns of multipliers contain B^T; or its C.
 Eigen::Map<MatrixX> tangent_of(const Joint& joint, const LocalState& state, bool by_rates = false) {
   thread_local std::vector<double> buffer;
   const int n = state.slots().size();

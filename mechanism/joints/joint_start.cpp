@@ -1,4 +1,4 @@
-// What the start of a motion may prescribe, keep and report of a joint: its coordinates.
+// Coordinates of a joint that the start of a motion may prescribe, keep and report.
 #include <fmt/format.h>
 
 #include "mechanism/joints/joint.hpp"

@@ -1,11 +1,12 @@
-// Contacts that only push, held by a constraint that would pull as well.
+// Unilateral contacts that are modelled by a bilateral constraint.
 #pragma once
 
 #include "mechanism/model/component.hpp"
 
 namespace bielle::mechanism {
 
-/// Noted where the push, the crossing's value, becomes a pull; the contact stays closed.
+/// An event is recorded when the contact force, the value of the event function, changes its sign; the contact stays
+/// closed.
 inline Crossing lift_off() {
   Crossing crossing{"lifts off", Crossing::Direction::falling};
   crossing.restarts = false;

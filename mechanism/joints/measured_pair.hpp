@@ -1,8 +1,8 @@
 // Joints whose constraints are scalar measures of their two nodes.
 //
-// A type computes its rows as numbers with derivatives (reduce/common/autodiff.hpp); residual, tangent and rates of the
-// rows follow from them. Rows are holonomic, m = 0, or non-holonomic, w . v = 0: of those the gradient is w and the
-// second derivatives are dw, and the value does not count.
+// A type computes its rows as numbers with derivatives (reduce/common/autodiff.hpp); residual, tangent and rates of the rows follow from
+// them. Rows are holonomic, m = 0, or non-holonomic, w . v = 0: for the latter the gradient is w and the second
+// derivatives are dw, and the value is not used.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ namespace bielle::mechanism {
 class MeasuredPair : public Joint {
  public:
   struct Row {
-    const char* name;   ///< "x"
-    const char* units;  ///< of its multiplier: "N" or "N m"
+    const char* name;   ///< name: "x"
+    const char* units;  ///< units of its multiplier: "N" or "N m"
     ConstraintKind kind = ConstraintKind::holonomic;
   };
-  /// @param rows  at most six
+  /// @param rows  at most six rows
   MeasuredPair(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
                std::vector<Row> rows, const Model& model);
 
@@ -30,13 +30,13 @@ class MeasuredPair : public Joint {
                             Eigen::Ref<VectorX> acceleration) const override;
 
  protected:
-  /// @param rows  as many as declared
+  /// @param rows  as many rows as declared
   virtual void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const = 0;
 
-  // What rows are made of, besides positions.
-  /// d . d, with d the way from the origin of J_A to that of J_B.
+  // Terms of rows, in addition to positions.
+  /// The product d . d, with the vector d from the origin of J_A to that of J_B.
   PairMeasure squared_distance(const LocalState& state) const;
-  /// Alignment of an axis of J_A with one of J_B.
+  /// Alignment of an axis of J_A with an axis of J_B.
   PairMeasure alignment(int first_axis, int second_axis, const LocalState& state) const;
 
  private:

@@ -5,7 +5,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// "[1, 2, 3] N/m, [..] N m/rad" of a diagonal, "a full matrix" of another.
+/// Returns "[1, 2, 3] N/m, [..] N m/rad" for a diagonal matrix, "a full matrix" for another.
 std::string in_words(const Matrix6& A, const std::vector<bool>& turning, const char* per_length,
                      const char* per_angle) {
   const auto n = static_cast<Eigen::Index>(turning.size());

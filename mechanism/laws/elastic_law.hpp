@@ -1,13 +1,13 @@
-// The law of force of several measures m of the relative position of two nodes (up to six, in m and rad):
+// Force law of several measures m of the relative position of two nodes (up to six, in m and rad):
 //
 //     N = N_0 + K m + D mdot + n(m) + sum over branches K_b (m - z_b),    zdot_b = (m - z_b)/tau_b,
 //
-// N the forces and moments that resist growth, K symmetric and positive semidefinite, D with a symmetric part that is,
-// n curves of each direction alone. A branch is a spring K_b and a damper tau_b K_b in series (Maxwell),
-// z_b how far its damper has given way: unknowns of first order. It carries K_b m at first, nothing in the end, and K_b
-// i w tau/(1 + i w tau) in a vibration of circular frequency w. At rest (statics) all branches have given way.
-// Energies:  V = N_0 . m + m . K m/2 + integral of n dm + sum (m - z_b) . K_b (m - z_b)/2,
-// dissipation  mdot . D mdot + sum (m - z_b) . K_b (m - z_b)/tau_b.
+// The forces and moments N resist growth, K is symmetric and positive semidefinite, D has a positive semidefinite
+// symmetric part, and n are curves, each of one measure. A branch is a spring K_b and a damper tau_b K_b in series
+// (Maxwell), and z_b is the elongation of its damper, a first-order unknown. Its force is K_b m initially, zero
+// finally, and K_b i w tau/(1 + i w tau) in a vibration of circular frequency w. At rest (statics) all branches are
+// relaxed. Energies:  V = N_0 . m + m . K m/2 + integral of n dm + sum (m - z_b) . K_b (m - z_b)/2, dissipation  mdot .
+// D mdot + sum (m - z_b) . K_b (m - z_b)/tau_b.
 #pragma once
 
 #include <array>
@@ -23,37 +23,38 @@ namespace bielle::mechanism {
 
 struct MaxwellBranch {
   Matrix6 K = Matrix6::Zero();
-  double time = 0;  ///< tau [s]
+  double time = 0;  ///< relaxation time tau [s]
 };
 
 class ElasticLaw {
  public:
   static constexpr std::size_t most = 6;
   using Measures = std::array<PairMeasure, most>;
-  /// @param names  of the measures @param turning  whether each is in rad
+  /// @param names  names of the measures @param turning  whether each is in rad
   explicit ElasticLaw(std::vector<std::string> names, std::vector<bool> turning);
   std::size_t size() const { return names_.size(); }
   const std::string& measure_name(std::size_t k) const { return names_[k]; }
   bool is_turn(std::size_t k) const { return turning_[k]; }
 
-  Matrix6 K = Matrix6::Zero(), D = Matrix6::Zero();  ///< what lies beyond `size` is zero
+  Matrix6 K = Matrix6::Zero(), D = Matrix6::Zero();  ///< entries beyond `size` are zero
   Vector6 preload = Vector6::Zero();                 ///< N_0
   std::array<std::optional<ForceCurve>, most> curves;
   void add(MaxwellBranch branch);
   const std::vector<MaxwellBranch>& branches() const { return branches_; }
 
-  /// Stiffness, damping, first-order unknowns.
+  /// Declares stiffness, damping and first-order unknowns.
   void declare(Declaration& declaration) const;
   bool has_damping() const { return !D.isZero(0); }
 
-  /// N at a state of the component that owns the law. @param m  the measures; gradients are read only where rates count
+  /// Computes N at a state of the component that owns the law. @param m  the measures; gradients are only read if rates
+  /// matter
   Vector6 force(const LocalState& state, const Measures& m) const;
-  // Of a component whose first twelve local rows are those of the two nodes.
+  // Adds the forces to a component whose first twelve local rows are those of the two nodes.
   void add_residual(const LocalState& state, const Measures& m, Eigen::Ref<VectorX> r) const;
-  /// @param m  with second derivatives
+  /// @param m  measures with second derivatives
   void add_tangent(const LocalState& state, const Measures& m, LocalTangent& tangent) const;
   void add_energy(const LocalState& state, const Measures& m, Energy& energy) const;
-  /// Facts in words.
+  /// Describes the law in words.
   std::vector<std::string> describe() const;
 
  private:
@@ -63,12 +64,12 @@ class ElasticLaw {
   };
   Vector6 values(const Measures& m) const;
   Vector6 rates(const LocalState& state, const Measures& m) const;
-  /// m - z of a branch.
+  /// Returns m - z of a branch.
   Vector6 stretch(std::size_t branch, const LocalState& state, const Vector6& e) const;
   std::vector<std::string> names_;
   std::vector<bool> turning_;
   std::vector<MaxwellBranch> branches_;
-  std::vector<Unknown> unknowns_;  ///< directions in which a branch has a stiffness
+  std::vector<Unknown> unknowns_;  ///< one for each direction in which a branch has a stiffness
 };
 
 }  // namespace bielle::mechanism

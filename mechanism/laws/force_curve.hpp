@@ -1,7 +1,7 @@
-// A force over a displacement by the points of a file, joined by straight lines, and its exact energy.
+// A force as a function of a displacement, given by the points of a file joined by straight lines, and its exact
+// energy.
 //
-// Beyond its first and last point the curve goes on along its first and last line: with the stiffness that it has
-// there.
+// Beyond its first and last point the curve continues along its first and last line, with the stiffness of that line.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ namespace bielle::mechanism {
 
 class ForceCurve {
  public:
-  /// Two columns of a file, displacements ascending: at least two points.
+  /// Reads two columns of a file, with ascending displacements and at least two points.
   /// @throws InputError
   static ForceCurve from_file(const std::string& path);
 
   struct Values {
-    double force, slope;  ///< at a point the slope on its right
+    double force, slope;  ///< at a point, the slope to its right
   };
   Values operator()(double x) const;
   /// Integral of the force from 0 to x.
@@ -29,7 +29,7 @@ class ForceCurve {
  private:
   ForceCurve(std::vector<double> x, std::vector<double> force);
   std::size_t piece(double x) const;
-  double integral(double x) const;  ///< from the first point
+  double integral(double x) const;  ///< integral from the first point
   std::vector<double> x_, force_, slope_, area_;
   double at_zero_ = 0;
 };

@@ -29,7 +29,7 @@ double gauss5(const Function& N, double from, double to) {
   return half * sum;
 }
 
-/// Halves the interval until both halves agree with the whole: formulas may have kinks.
+/// Halves the interval until the sum of both halves agrees with the whole: formulas may have kinks.
 template <class Function>
 double integral(const Function& N, double from, double to, double whole, int depth) {
   const double middle = 0.5 * (from + to);

@@ -1,7 +1,7 @@
-// The law of a spring and damper along one coordinate: of a spring between two points, of a joint.
+// Force law of a spring and damper along one coordinate, either between two points or in a joint.
 //
-// With x the coordinate relative to where the spring is free, v its rate, the force that resists (positive against
-// growing x) is
+// With the coordinate x relative to the unloaded position of the spring and its rate v, the resisting force (positive
+// against growing x) is
 //     N = N_0 + k x + d v + sum of formulas N_i(x, v, t, measures).
 // A law of x and v alone stores V = integral of N(x, 0) dx and dissipates (N(x, v) - N(x, 0)) v; one that depends on t
 // or on measures is an actuator, whose power -N v is counted as input.
@@ -20,9 +20,9 @@ namespace bielle::mechanism {
 /// A force with its derivatives.
 struct LawForce {
   double N = 0;          ///< resisting force [N] or [N m]
-  double N_x = 0;        ///< by x
-  double N_v = 0;        ///< by v
-  double N_elastic = 0;  ///< N(x, 0); N itself of an actuator
+  double N_x = 0;        ///< derivative by x
+  double N_v = 0;        ///< derivative by v
+  double N_elastic = 0;  ///< N(x, 0); for an actuator N itself
   double N_elastic_x = 0;
 };
 
@@ -47,18 +47,19 @@ class ForceLaw {
   double stiffness() const { return stiffness_; }
   double damping() const { return damping_; }
 
-  /// @param state  of the component that owns the law
+  /// @param state  state of the component that owns the law
   double force(const LocalState& state, double x, double v) const;
-  /// @param split  whether the elastic part is wanted; otherwise it stays what it is
+  /// @param split  whether the elastic part is computed; otherwise it keeps its value
   LawForce calc(const LocalState& state, double x, double v, bool split) const;
-  /// Adds the derivatives of the force by way of measures, times the column `direction`, to rows of K and C from `row`
+  /// Adds the derivatives of the force through measures, times the column `direction`, to rows of K and C from `row`
   /// on.
   void add_measures(const LocalState& state, double x, double v, const Eigen::Ref<const VectorX>& direction, int row,
                     LocalTangent& tangent) const;
-  /// V(x) [J]; not of an actuator.
+  /// Returns V(x) [J]; not for an actuator.
   double elastic_energy(const LocalState& state, double x) const;
   void add_break_points(std::vector<double>& times) const;
-  /// Facts in words: "stiffness 10 N/m", "force 3*e + v N". @param turning  along an angle, not a displacement
+  /// Describes the law in words: "stiffness 10 N/m", "force 3*e + v N". @param turning  whether the coordinate is an
+  /// angle, not a displacement
   std::vector<std::string> describe(bool turning) const;
 
  private:
@@ -67,15 +68,16 @@ class ForceLaw {
   bool actuator_ = false;
 };
 
-/// The variables of a law's formulas: what the coordinate and its rate are called.
+/// Names of the variables in a law's formulas: the coordinate and its rate.
 struct LawVariables {
-  std::string coordinate;  ///< "q", or "e" of a spring_damper
+  std::string coordinate;  ///< "q", or "e" for a spring_damper
   std::string rate;        ///< "v"
 };
 
-/// Adds what one key says: a number (times x or v), `{table: file.csv}` of x or v, or a formula of coordinate, rate, t
-/// and measures. Formulas are looked up when the model is read: call within Model::when_read(Stage::formulas).
-/// @param of_rate  the key is `damping`
+/// Adds the term of one key: a number (times x or v), `{table: file.csv}` of x or v, or a formula of coordinate, rate,
+/// t and measures. Formulas are looked up when the model has been read: call this within
+/// Model::when_read(Stage::formulas).
+/// @param of_rate  whether the key is `damping`
 void read_law(const YamlValue& value, const LawVariables& variables, bool of_rate, Model& model, References& references,
               ForceLaw& law);
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr double usual_width = 1e-3;  // v_0 [m/s]
 
-/// tanh(x)/x and the derivative of that over x, even in x.
+/// Returns tanh(x)/x and the derivative of that divided by x, both even in x.
 FrictionLaw::Level tanh_over(double x) {
-  if (std::abs(x) < 0.02) {  // terms left out are below 1e-16
+  if (std::abs(x) < 0.02) {  // omitted terms are below 1e-16
     const double y = x * x;
     return {1 - y * (1. / 3 - y * (2. / 15 - y * (17. / 315 - y * 62. / 2835))),
             -2. / 3 + y * (8. / 15 - y * (34. / 105 - y * 496. / 2835))};

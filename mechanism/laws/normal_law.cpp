@@ -8,12 +8,12 @@
 namespace bielle::mechanism {
 namespace {
 
-/// ln((1 + x)/(1 - e x)) - x (1 + e), x in [0, 1/e): zero at 0 and at delta(e), negative between.
+/// ln((1 + x)/(1 - e x)) - x (1 + e), x in [0, 1/e): zero at 0 and at delta(e), negative between them.
 double imbalance(double x, double e) { return std::log1p(x) - std::log1p(-e * x) - x * (1 + e); }
 
 }  // namespace
 
-// Below 1/e, where the logarithm is infinite. Bisection, once for a touch.
+// The root is below 1/e, where the logarithm is infinite. It is found by bisection, once for a contact.
 double damping_for_restitution(double restitution) {
   if (restitution >= 1) return 0;
   // For e near 1 the imbalance is of third order in x: delta = (3/2)(1 - e) + .. .

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double rounding_of_files = 1e-6;  ///< matrices come from other programs with some seven digits
 
-/// Six numbers, the diagonal, or a matrix.
+/// Reads six numbers, the diagonal, or a matrix.
 MatrixX read_diagonal_or_matrix(const YamlValue& value) {
   if (value.is_map()) return read_square_matrix(value, 6);
   if (!value.is_sequence() || value.size() != 6)
@@ -43,7 +43,7 @@ Matrix6 read_damping(const YamlValue& value, const Matrix6& K) {
   return D;
 }
 
-/// File names end like tables; other text is a formula.
+/// Whether a text is a file name, with the ending of a table; other text is a formula.
 bool names_table(const YamlValue& value) {
   if (!value.is_scalar() || value.is_null()) return false;
   const std::string text = value.text();
@@ -52,7 +52,7 @@ bool names_table(const YamlValue& value) {
   return false;
 }
 
-/// @returns whether it is a table, which the law takes
+/// @returns whether it is a table, which is added to the law
 bool read_curve(const YamlValue& value, std::size_t k, ElasticLaw& law) {
   if (!value.is_map() && !names_table(value)) return false;
   if (value.is_map()) value.check_keys({"table"}, "a curve");
@@ -144,7 +144,7 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
   if (maxwell) {
     const auto branches = maxwell->items();
     if (branches.empty()) maxwell->fail("expected at least one branch {stiffness or factor, time}");
-    // A branch that relaxes in no time bears nothing.
+    // A branch with zero relaxation time has no force.
     for (const YamlValue& each : branches)
       if (const MaxwellBranch branch = read_branch(each, law.K); branch.time > 0) law.add(branch);
   }

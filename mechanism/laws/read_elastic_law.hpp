@@ -1,4 +1,4 @@
-// The keys of an ElasticLaw in input files.
+// Readers of the keys of an ElasticLaw in input files.
 #pragma once
 
 #include <string>
@@ -9,27 +9,26 @@
 
 namespace bielle::mechanism {
 
-/// `rows` x `rows` numbers, by rows, or `{file: k.csv}` with as many columns. @throws InputError
+/// Reads `rows` x `rows` numbers, by rows, or `{file: k.csv}` with as many columns. @throws InputError
 MatrixX read_square_matrix(const YamlValue& value, Eigen::Index rows);
 
-/// Refuses a matrix that is not symmetric, to 1e-6 of its entries, and makes it so.
+/// Rejects a matrix that is not symmetric, to 1e-6 of its entries, and makes it exactly symmetric.
 void make_symmetric(const YamlValue& value, MatrixX& A);
 
-/// Refuses a symmetric matrix with a negative eigenvalue (of the matrix that is scaled to a unit diagonal, beyond
-/// 1e-6).
+/// Rejects a symmetric matrix with a negative eigenvalue (of the matrix scaled to a unit diagonal, beyond 1e-6).
 /// @param what  a clause for the message: "a spring that gives energy away"
 void check_semidefinite(const YamlValue& value, const MatrixX& A, const char* what);
 
-/// The keys `stiffness`, `damping`, `preload`, `curves`, `maxwell`.
+/// Returns the keys `stiffness`, `damping`, `preload`, `curves`, `maxwell`.
 const std::vector<std::string>& elastic_law_keys();
 
-/// A formula of q, v, t and the state among the `curves`: of a measure, by its number.
+/// A formula of q, v, t and the state in `curves`: for a measure, by its number.
 struct CurveFormula {
   std::size_t measure;
   YamlValue formula;
 };
 
-/// Reads the keys into a law of six measures. @returns what stands as formulas, for the caller @throws InputError
+/// Reads the keys into a law of six measures. @returns the formulas, for the caller @throws InputError
 std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& law);
 
 }  // namespace bielle::mechanism

@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 
 /// Columns x, y, z: z as given, x normal to it in the plane of z and the inertial axis that is most normal to z.
-/// @param z  unit
+/// @param z  unit vector
 inline Matrix3 axes_along(const Vector3& z) {
   Eigen::Index least = 0;
   z.cwiseAbs().minCoeff(&least);

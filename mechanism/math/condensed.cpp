@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The entries by rows: column numbers of each row.
+/// Returns the pattern by rows: column numbers of each row.
 SparsePattern transposed(const SparsePattern& pattern) {
   std::vector<int> start(static_cast<std::size_t>(pattern.size()) + 1, 0);
   for (const int row : pattern.row()) ++start[static_cast<std::size_t>(row) + 1];
@@ -20,7 +20,7 @@ SparsePattern transposed(const SparsePattern& pattern) {
   return SparsePattern(std::move(start), std::move(column));
 }
 
-/// Values at the given places, zero where there is none.
+/// Copies the values at the given places, zero for a place of -1.
 void gather(const std::vector<int>& places, const std::vector<double>& values, MatrixX& to) {
   double* each = to.data();
   for (const int place : places) *each++ = place >= 0 ? values[static_cast<std::size_t>(place)] : 0.0;
@@ -45,7 +45,7 @@ void CondensedPattern::choose_blocks(const std::vector<std::vector<int>>& candid
     if (large(inner)) add_block(inner, rows, taken);
 }
 
-/// @param taken  unknowns of blocks and those that they couple to
+/// @param taken  unknowns of blocks, and unknowns that couple to them
 bool CondensedPattern::add_block(const std::vector<int>& inner, const SparsePattern& rows, std::vector<char>& taken) {
   constexpr char in_block = 1, coupled = 2;
   const auto mark = [&](int unknown) -> char& { return taken[static_cast<std::size_t>(unknown)]; };
@@ -67,7 +67,7 @@ bool CondensedPattern::add_block(const std::vector<int>& inner, const SparsePatt
         else
           block.outer.push_back(other);
       }
-  // Entries were counted by columns and by rows. A sparse block is not one to treat as dense.
+  // Entries were counted twice, by columns and by rows. A sparse block is not treated as dense.
   const bool dense = own >= inner.size() * inner.size();
   if (!alone || !dense) {
     for (const int unknown : inner) mark(unknown) = 0;
@@ -129,19 +129,19 @@ void CondensedPattern::find_places(Block& block) const {
   block.rest_place = find_all(rest_, block.outer, block.outer);
 }
 
-/// Factors of one block, and what they make of its neighbours.
+/// Factors of one block, and its contribution to the Schur complement.
 struct CondensedLU::Block {
   const CondensedPattern::Block* pattern;
-  LUFactors lu;          ///< of R A_aa
-  VectorX row_scale;     ///< R: rows are brought to entries of size one, whatever their units
+  LUFactors lu;          ///< LU factors of R A_aa
+  VectorX row_scale;     ///< R: scales rows to a largest entry of one, for any units
   MatrixX inner, right;  ///< R A_aa, R A_ab
   MatrixX below;         ///< A_ba
   MatrixX solved;        ///< A_aa^-1 A_ab
   MatrixX change;        ///< A_ba A_aa^-1 A_ab
   VectorX row_floor;     ///< largest entry of the outer rows of A
-  double condition = 0;  ///< smallest over largest pivot
+  double condition = 0;  ///< ratio of smallest to largest pivot
   bool good = false;
-  mutable VectorX part;  ///< of a right-hand side
+  mutable VectorX part;  ///< block's part of a right-hand side
   mutable VectorX permuted, outside;
 
   explicit Block(const CondensedPattern::Block& of) : pattern(&of) {
@@ -192,7 +192,7 @@ void CondensedLU::Block::set_row_floor(const std::vector<double>& rest_values, c
   }
 }
 
-/// Whether entries have not grown so much that rounding of the pivots counts.
+/// Whether entries have grown so little that rounding errors of the pivots are negligible.
 bool CondensedLU::Block::harmless(const VectorX& rest_scale) const {
   constexpr double most_growth = 1e4;
   for (Eigen::Index j = 0; j < change.cols(); ++j) {
@@ -215,7 +215,7 @@ CondensedLU::~CondensedLU() = default;
 
 FactorStatus CondensedLU::factor(const std::vector<double>& values, const VectorX& scale, Workers& workers) {
   condensed_ = !blocks_.empty() && condense(values, scale, workers);
-  // The whole finds pivots elsewhere, or says which unknown has none.
+  // The factorisation of the whole matrix finds pivots elsewhere, or reports an unknown without pivot.
   return condensed_ ? FactorStatus::good : whole_.factor(values, scale);
 }
 

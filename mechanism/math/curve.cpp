@@ -51,7 +51,7 @@ Curve::Place Curve::operator()(double u) const {
 }
 
 double Curve::length_within(double from, double to) const {
-  constexpr int parts = 16;  // a quadrature of sixth order: 1e-12 of a piece that bends by half a radian
+  constexpr int parts = 16;  // quadrature of sixth order: error of 1e-12 of a piece that bends by half a radian
   const double h = (to - from) / parts;
   double length = 0;
   for (int part = 0; part < parts; ++part)
@@ -70,7 +70,7 @@ double Curve::arc_length(double u) const {
 }
 
 double Curve::nearest(const Vector3& point) const {
-  // The best of some places on each piece, then Newton's method on (point - c) . c' = 0.
+  // The closest of some sample points on each piece is the initial guess of Newton's method on (point - c) . c' = 0.
   constexpr int samples = 8;
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 1 < knots_.size(); ++k)

@@ -1,8 +1,8 @@
 // A smooth curve through points.
 //
 // Each coordinate is a cubic spline of one parameter u, which grows by the distance of the points (chord length) and is
-// therefore close to the arc length. Closed curves are periodic: u may run round any number of times. Open ones go on
-// straight beyond their ends.
+// therefore close to the arc length. Closed curves are periodic: u may run round any number of times. Open curves
+// continue straight beyond their ends.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ namespace bielle::mechanism {
 
 class Curve {
  public:
-  /// @param points  (n, 3) with n >= 2; of a closed curve n >= 3, the first not repeated
-  /// @param name    stands for the points in messages
-  /// @throws InputError  where neighbours coincide or points are too few
+  /// @param points  points (n, 3) with n >= 2; n >= 3 for a closed curve, whose first point is not repeated
+  /// @param name    name of the points in messages
+  /// @throws InputError if neighbouring points coincide or points are too few
   Curve(const Eigen::Ref<const MatrixX>& points, bool closed, const std::string& name);
 
   struct Place {
@@ -25,10 +25,10 @@ class Curve {
   };
   Place operator()(double u) const;
   bool closed() const { return closed_; }
-  double end() const { return knots_.back(); }  ///< of u, which begins with 0; of a closed curve its period
+  double end() const { return knots_.back(); }  ///< largest u, which begins with 0; the period of a closed curve
   /// Arc length from u = 0, negative before it: Gauss quadrature on sixteen parts of each piece.
   double arc_length(double u) const;
-  /// The parameter of the place next to a point.
+  /// The parameter of the point of the curve that is closest to a given point.
   double nearest(const Vector3& point) const;
 
  private:

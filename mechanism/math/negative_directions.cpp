@@ -48,7 +48,7 @@ class GroupSizes {
     most = std::max(most, size);
   }
 
-  /// Groups next to known ones become known. @returns whether there were any
+  /// Sets the sizes of groups that rows of B couple to groups of known size. @returns whether any size was set
   bool spread() {
     if (sizes_.size() == 0 || sizes_.minCoeff() > 0) return false;
     VectorX compliance = VectorX::Zero(B_.rows());
@@ -70,10 +70,10 @@ class GroupSizes {
 };
 
 constexpr double stiff = 100, give = 1e-12, indifferent = 1e-15;  // see the head of negative_directions.hpp
-/// Unknowns without stiffness of their own, which B^T B mixes in oblique axes, are left with its rounding.
+/// Unknowns without stiffness of their own have only rounding errors left if B^T B mixes them in oblique axes.
 constexpr double hardly_own = 1e-10, of_none = 1e-12;
 
-/// The matrix that is factorised, of scaled unknowns and rows of B of length one.
+/// The matrix that is factorised, with scaled unknowns and with rows of B of length one.
 class Saddle {
  public:
   Saddle(const Sparse& K, const Sparse& B, const VectorX& sizes) {
@@ -89,7 +89,7 @@ class Saddle {
 
   int rows() const { return static_cast<int>(B_.rows()); }
 
-  /// By eigenvalues on a basis of the null space of B: for small ones, in which pivots grow.
+  /// Counts by eigenvalues on a basis of the null space of B: for small matrices whose pivots grow.
   int count_densely() const {
     constexpr double dependent = 1e-11, rounding = 1e-13;
     MatrixX allowed = MatrixX::Identity(K_.rows(), K_.rows());
@@ -100,7 +100,7 @@ class Saddle {
     return static_cast<int>((values.array() < -rounding * values.cwiseAbs().maxCoeff()).count());
   }
 
-  /// The lower triangle, in the order of elimination.
+  /// The lower triangle of the matrix, in the order of elimination.
   Sparse lower() const {
     std::vector<Eigen::Triplet<double>> entries;
     const auto add = [&](int i, int j, double value) { entries.emplace_back(std::max(i, j), std::min(i, j), value); };
@@ -118,7 +118,7 @@ class Saddle {
     return whole;
   }
 
-  /// Sizes that entries of L D L^T are compared with, in the same order.
+  /// Sizes with which entries of L D L^T are compared, in the same order.
   VectorX sizes() const {
     VectorX result = VectorX::Constant(place_.size(), 1 / stiff);
     const VectorX diagonal = A_.diagonal();
@@ -127,9 +127,9 @@ class Saddle {
   }
 
  private:
-  /// A row of B comes right after the last of its unknowns, which B^T B couples with each other: it adds no fill.
-  /// Unknowns that hardly resist themselves come last of all: as first pivots they would blow up what they are coupled
-  /// with.
+  /// A row of B comes immediately after the last of its unknowns, which B^T B couples with each other: it adds no fill.
+  /// Unknowns that have almost no stiffness of their own come last: as first pivots they would cause large element
+  /// growth.
   void order() {
     constexpr double hardly = 1e-6;
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
@@ -152,12 +152,12 @@ class Saddle {
   }
 
   Sparse K_, A_, B_;
-  Eigen::VectorXi place_;  ///< of unknowns, then of rows
+  Eigen::VectorXi place_;  ///< place of each unknown, then of each row, in the order of elimination
 };
 
 struct Signs {
-  int negative = 0;   ///< less one for each row of B
-  double growth = 0;  ///< of entries, in squares: infinite where a pivot is zero
+  int negative = 0;   ///< number of negative pivots, minus one for each row of B
+  double growth = 0;  ///< square of the element growth: infinite if a pivot is zero
 };
 
 Signs signs_of(const Saddle& saddle) {
@@ -180,8 +180,8 @@ VectorX group_sizes(const Sparse& K, const Sparse& B, const std::vector<int>& gr
 }
 
 std::optional<int> count_negative_directions(const Sparse& K, const Sparse& B, const VectorX& sizes) {
-  constexpr double harmless = 1e6, most_growth = 1e8;  // in squares of entries: ten digits are left, or half of them
-  constexpr Eigen::Index small = 600;                  // unknowns
+  constexpr double harmless = 1e6, most_growth = 1e8;  // squared element growth: ten digits are left, or half of them
+  constexpr Eigen::Index small = 600;                  // number of unknowns
   if (K.rows() == 0) return 0;
   const Saddle saddle(K, B, sizes);
   const Signs signs = signs_of(saddle);

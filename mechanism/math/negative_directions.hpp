@@ -1,16 +1,18 @@
-// How many eigenvalues of a symmetric matrix K are negative on the null space of another, B: by Sylvester's law as many
-// as those of
+// Counts the eigenvalues of a symmetric matrix K that are negative on the null space of another matrix B. By
+// Sylvester's law their number is that of
 //     [ K + c B^T B   B^T ]
 //     [ B             -d  ]
-// less one for each row of B (the Schur complement of the lower block is K + (c + 1/d) B^T B). The number is read off
-// the pivots of a symmetric factorisation. c = 100 relative to what is next to a row lets unknowns be eliminated first
-// that resist nothing themselves; d = 1e-12 is there for rows that repeat each other. With c alone rows would give, and
-// a direction without stiffness of its own that is coupled with one that gives would pass for negative. A direction
-// softer than 1e-15 is taken for indifferent: its sign is rounding. The sign of a determinant would miss two
-// eigenvalues that change sign together, as of a square column.
+// minus one for each row of B (the Schur complement of the lower block is K + (c + 1/d) B^T B). The number is read from
+// the pivots of a symmetric factorisation. The value c = 100, relative to the groups next to a row, allows unknowns
+// without stiffness of their own to be eliminated first; d = 1e-12 is necessary for redundant rows. With c alone the
+// rows would be elastic, and a direction without stiffness of its own that is coupled with an elastic direction would
+// be counted as negative. A direction with a stiffness below 1e-15 is considered indifferent: its sign is determined by
+// rounding. The sign of a determinant would miss two eigenvalues that change sign together, for example of a square
+// column.
 //
-// Unknowns have units. They come in groups of one unit (translations of a node, its turns), and each group has a size,
-// of the unit of its diagonal entries: nothing else is compared with each other, so that no unit decides.
+// Unknowns have units. They form groups of one unit (translations of a node, its rotations), and each group has a size,
+// in the unit of its diagonal entries: entries are only compared after division by these sizes, so that the result does
+// not depend on units.
 #pragma once
 
 #include <optional>
@@ -22,18 +24,18 @@
 
 namespace bielle::mechanism {
 
-/// Sizes (n) > 0 of the diagonal entries: the largest of the unknown's group. A group without any (a rigid body resists
-/// no displacement itself) has what its coupling K_ij^2/s_j to others amounts to, or else what it meets behind its rows
-/// of B, or else 1.
-/// @param group  of each unknown, ascending from 0
+/// Returns the sizes (n) > 0 of the diagonal entries: the largest in the unknown's group. A group without diagonal
+/// entries (a rigid body has no stiffness itself) takes its size from its coupling K_ij^2/s_j to other groups,
+/// otherwise from the groups that rows of B couple it to, otherwise 1.
+/// @param group  group of each unknown, ascending from 0
 VectorX group_sizes(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& B,
                     const std::vector<int>& group);
 
 /// @param K      both triangles (n, n)
-/// @param B      (any, n); rows may repeat each other
+/// @param B      (any, n); rows may be redundant
 /// @param sizes  see group_sizes
-/// @returns nothing for large matrices in which pivots are so small that rounding decides; small ones are solved for
-/// their eigenvalues then
+/// @returns no value for large matrices with pivots so small that rounding decides; small matrices are then solved for
+/// their eigenvalues
 std::optional<int> count_negative_directions(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& B,
                                              const VectorX& sizes);
 

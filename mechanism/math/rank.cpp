@@ -15,7 +15,7 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// What CHOLMOD and SPQR allocate, with its end.
+/// Owner of the memory that CHOLMOD and SPQR allocate.
 class Workspace {
  public:
   Workspace() { cholmod_l_start(&common); }
@@ -53,18 +53,18 @@ void copy(const Matrix& A, Workspace& work) {
   starts[A.cols()] = count;
 }
 
-/// R of a QR factorisation: a staircase with a step for each column that has a pivot.
+/// The factor R of a QR factorisation: a staircase with a step for each column that has a pivot.
 struct Staircase {
   struct Entry {
     int row;
     double value;
   };
   std::vector<std::vector<Entry>> live;       ///< columns with a pivot, by their steps; rows ascending, the pivot last
-  std::vector<std::vector<Entry>> dead;       ///< columns without
+  std::vector<std::vector<Entry>> dead;       ///< columns without a pivot
   std::vector<int> live_column, dead_column;  ///< their numbers in A
 };
 
-/// @param ordering  of SPQR
+/// @param ordering  ordering of SPQR
 Staircase eliminate(const Matrix& A, double tolerance, int ordering) {
   Staircase result;
   if (A.cols() == 0) return result;
@@ -90,7 +90,8 @@ Staircase eliminate(const Matrix& A, double tolerance, int ordering) {
   return result;
 }
 
-/// The circuits as rows, columns of A counted from the last. @param least  smaller coefficients count as zero
+/// Returns the circuits as rows, with the columns of A counted from the last. @param least  coefficients smaller than
+/// this count as zero
 Matrix circuits_reversed(const Staircase& R, Eigen::Index columns, double least) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> left(R.live.size(), 0.0);
@@ -100,7 +101,7 @@ Matrix circuits_reversed(const Staircase& R, Eigen::Index columns, double least)
       entries.emplace_back(static_cast<int>(circuit), static_cast<int>(columns) - 1 - column, coefficient);
     };
     add(R.dead_column[circuit], -1);
-    // Back substitution over the few rows that take part.
+    // Back substitution visits only the few rows that take part.
     std::priority_queue<int> rows;
     const auto subtract = [&](int row, double value) {
       const auto i = static_cast<std::size_t>(row);
@@ -127,7 +128,7 @@ Matrix circuits_reversed(const Staircase& R, Eigen::Index columns, double least)
   return circuits;
 }
 
-/// A without some of its columns. @param without  ascending
+/// Returns A without some of its columns. @param without  numbers of these columns, ascending
 Matrix remaining(const Matrix& A, const std::vector<int>& without) {
   std::vector<Eigen::Triplet<double>> entries;
   int kept = 0;
@@ -152,7 +153,7 @@ std::vector<int> dependent_columns(const Matrix& A, double tolerance) {
   for (const int column : dual.live_column) dependent.push_back(static_cast<int>(A.cols()) - 1 - column);
   std::sort(dependent.begin(), dependent.end());
   if (eliminate(remaining(A, dependent), tolerance, SPQR_ORDERING_COLAMD).dead.empty()) return dependent;
-  // So near the tolerance that the order of elimination decides: the given one.
+  // The remainder is so close to the tolerance that the order of elimination decides: the given order is used.
   dependent = eliminate(A, tolerance, SPQR_ORDERING_FIXED).dead_column;
   std::sort(dependent.begin(), dependent.end());
   return dependent;

@@ -2,8 +2,9 @@
 //
 //   z-x-z:  T = [sb sc, cc, 0; sb cc, -sc, 0; cb, 0, 1]        det T = -sb
 //   x-y-z:  T = [cb cc, sc, 0; -cb sc, cc, 0; sb, 0, 1]        det T =  cb
-// (s, c: sine and cosine of the angle that follows). Angles are found from R so that R comes back to rounding however
-// close to the singularity: the first one from R, the last one after R has been turned back by the first.
+// Here s and c are sine and cosine of the angle that follows. The angles computed from R reproduce R to rounding error
+// even near the singularity: the first angle is computed from R, the last one after R has been turned back by the
+// first.
 #include <cmath>
 #include <numbers>
 
@@ -15,9 +16,9 @@
 namespace bielle::mechanism {
 namespace {
 
-// Below this sine (cosine) of the middle angle nothing but rounding tells first and last angle apart.
+// Below this sine (cosine) of the middle angle, first and last angle cannot be distinguished.
 constexpr double smallest_sine = 4e-16;
-// Below this one less than half of the digits of T^-1 would be left.
+// Below this determinant, less than half of the digits of T^-1 would be left.
 constexpr double smallest_determinant = 1e-9;
 
 struct SineCosine {

@@ -6,11 +6,12 @@
 //   d1 = c1'/phi = (a3 - a2 - 4 c1)/phi^2,   d2 = c2'/phi = (c1 - 5 c2)/phi^2,
 //   b = (1 - (phi/2) cot(phi/2))/phi^2,   bp = b'/phi,   bpp = bp'/phi.
 //
-// The closed forms of the first seven lose digits at small angles: power series in phi^2 are summed below
-// `series_angle`. b is split into its poles nearest to zero and a rest whose series converges beyond the first pole,
+// The closed forms of the first seven functions lose digits at small angles: power series in phi^2 are summed below
+// `series_angle`. b is split into the terms of its nearest poles and a remainder whose series converges beyond the
+// first pole,
 //   b = sum_{k>=1} 2/(4 pi^2 k^2 - phi^2) = 2/(4 pi^2 - phi^2) + 2/(16 pi^2 - phi^2) + sum_j beta_j phi^2j,
 //   beta_j = 2 sum_{k>=3} (2 pi k)^(-2j-2),
-// all terms of one sign up to 2 pi: no threshold, no digits lost.
+// all terms have the same sign up to 2 pi: no threshold is necessary, and no digits are lost.
 #pragma once
 
 #include <array>
@@ -20,15 +21,15 @@
 
 namespace bielle::mechanism {
 
-/// Angle [rad] below which a1 ... d2 are summed as power series. Chosen by measured error: at this angle the closed
-/// form that loses most (d2) is good to 7e-15, all others to 1e-15, and the series to 4e-16.
+/// Angle [rad] below which a1 ... d2 are summed as power series. It was chosen by measured error: at this angle the
+/// closed form that loses most (d2) is accurate to 7e-15, all others to 1e-15, and the series to 4e-16.
 inline constexpr double series_angle = 3.0;
 
-/// Angle [rad] below which the first seven terms of a1 ... c2 are enough: the eighth is less than 1e-16 of the first.
-/// Rotations within a time step mostly are smaller.
+/// Angle [rad] below which the first seven terms of a1 ... c2 are sufficient: the eighth is less than 1e-16 of the
+/// first. Rotations within a time step are usually smaller.
 inline constexpr double short_series_angle = 0.5;
 
-/// And below which four are enough: the fifth is less than 2e-16 of the first.
+/// Angle [rad] below which four terms are sufficient: the fifth is less than 2e-16 of the first.
 inline constexpr double shortest_series_angle = 0.05;
 
 namespace coefficient_series {
@@ -71,7 +72,7 @@ constexpr ExpSeries difference_series(int p, double w) {
   return c;
 }
 
-/// Coefficients of f'/phi from those of f, both in powers of phi^2.
+/// Computes the coefficients of f'/phi from those of f, both in powers of phi^2.
 template <std::size_t N>
 constexpr std::array<double, N - 1> derivative_series(const std::array<double, N>& f) {
   std::array<double, N - 1> d{};
@@ -81,7 +82,7 @@ constexpr std::array<double, N - 1> derivative_series(const std::array<double, N
 
 inline constexpr std::size_t inverse_terms = 18;
 
-/// beta_j; the tail of the sum over k by Euler and Maclaurin's formula.
+/// The coefficients beta_j; the tail of the sum over k is computed by the Euler-Maclaurin formula.
 constexpr std::array<double, inverse_terms> beta_series() {
   std::array<double, inverse_terms> beta{};
   const double first = 3, last = 200;

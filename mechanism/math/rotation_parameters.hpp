@@ -1,4 +1,4 @@
-// Six ways to write a rotation in numbers, all with the same functions.
+// Six parametrisations of rotations with the same interface.
 //
 //   struct            parameters p                     singular                         there
 //   RotationVector    psi = phi e                      |psi| = 2 pi, 4 pi, ...: T^-1    throws; `principal` avoids it
@@ -7,7 +7,8 @@
 //   ConformalVector   4 tan(phi/4) e                   full turns have no p             `principal`: never
 //   EulerAngles       a, b, c: Rz(a) Rx(b) Rz(c)       sin b = 0: a and c alike         R -> p: c = 0; T^-1 throws
 //   BryantAngles      a, b, c: Rx(a) Ry(b) Rz(c)       cos b = 0: a and c alike         R -> p: c = 0; T^-1 throws
-// e is the axis and phi the angle of R = exp(phi e~). "Throws" is a ComputationError that names parameters and place.
+// The axis is e and the angle is phi: R = exp(phi e~). "Throws" means a ComputationError that names parameters and
+// singularity.
 //
 // Each struct offers
 //   rotation(p)                            R
@@ -20,7 +21,7 @@
 //   tangent_inverse(p)                     T^-1: pdot = T^-1 Omega
 //   tangent_derivative(p, u)               derivative of T along u
 //   tangent_inverse_derivative(p, u)       derivative of T^-1 along u
-// and the templates below take rates and accelerations both ways.
+// The templates below convert rates and accelerations in both directions.
 //
 // References: M. Geradin, A. Cardona, Flexible Multibody Dynamics (Wiley, 2001), ch. 4; O. A. Bauchau, L. Trainelli,
 // Nonlinear Dynamics 32 (2003) 71 (vectorial parametrisations, rescaling).
@@ -149,13 +150,13 @@ Vector3 angular_acceleration(const typename P::Parameters& p, const typename P::
   return P::tangent(p) * acceleration + P::tangent_derivative(p, rate) * rate;
 }
 
-/// pdot = T^-1 Omega. @throws ComputationError where T is singular
+/// pdot = T^-1 Omega. @throws ComputationError if T is singular
 template <class P>
 typename P::Parameters parameter_rate(const typename P::Parameters& p, const Vector3& Omega) {
   return P::tangent_inverse(p) * Omega;
 }
 
-/// pddot = T^-1 Omegadot + d(T^-1)/dt Omega. @throws ComputationError where T is singular
+/// pddot = T^-1 Omegadot + d(T^-1)/dt Omega. @throws ComputationError if T is singular
 template <class P>
 typename P::Parameters parameter_acceleration(const typename P::Parameters& p, const Vector3& Omega,
                                               const Vector3& Omegadot) {

@@ -1,5 +1,5 @@
-// Parameters along the axis of rotation: rotation vector, Rodrigues vector, conformal rotation vector. They go to and
-// from R, and are composed, through the unit quaternion, which loses no digits anywhere.
+// Parameters along the axis of rotation: rotation vector, Rodrigues vector, conformal rotation vector. They are
+// converted to and from R, and composed, through the unit quaternion, which loses no digits.
 #include <cmath>
 #include <numbers>
 
@@ -25,21 +25,21 @@ Quaternion quaternion_of_rotation_vector(const Vector3& psi) {
 }
 
 Vector3 rodrigues_of(const Quaternion& q) {
-  // Beyond this bound every digit of the result would be rounding of q.
+  // Beyond this bound all digits of the result would be rounding errors of q.
   constexpr double smallest_cosine = 4e-16;
   if (!(std::abs(q[0]) > smallest_cosine))
     throw ComputationError("a half turn has no Rodrigues vector: tan(phi/2) is infinite");
   return q.tail<3>() / q[0];
 }
 
-/// (cos(phi/2), sin(phi/2) e), from the larger of 1 and |g| so that no square overflows.
+/// (cos(phi/2), sin(phi/2) e), scaled by the larger of 1 and |g| so that no square overflows.
 Quaternion quaternion_of_rodrigues(const Vector3& g) {
   const double scale = std::max(1.0, g.cwiseAbs().maxCoeff());
   if (!std::isfinite(scale)) throw ComputationError("a Rodrigues vector must be finite");
   return with_parts(1 / scale, g / scale);
 }
 
-/// A multiple of the quaternion (2 - |c|^2/8, c), made small so that no square overflows.
+/// A multiple of the quaternion (2 - |c|^2/8, c), scaled so that no square overflows.
 Quaternion quaternion_of_conformal(const Vector3& c) {
   const double scale = std::max(1.0, c.stableNorm());
   if (!std::isfinite(scale)) throw ComputationError("a conformal rotation vector must be finite");
@@ -49,7 +49,7 @@ Quaternion quaternion_of_conformal(const Vector3& c) {
 
 Vector3 conformal_of(const Quaternion& principal) { return 4 * principal.tail<3>() / (1 + principal[0]); }
 
-/// T^-1 of psi has a pole of 1/(2 pi n - |psi|): refuse where less than half of the digits would be left.
+/// T^-1 of psi has a pole of 1/(2 pi n - |psi|): the function throws if less than half of the digits would be left.
 void check_full_turns(const Vector3& psi) {
   constexpr double full = 2 * std::numbers::pi;
   const double turns = psi.norm() / full;

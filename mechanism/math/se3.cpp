@@ -63,7 +63,7 @@ Matrix6 inverse_transpose_gradient_se3(const Vector6& d, const Vector6& f) {
 }
 
 Matrix6 tangent_se3_inverse_gradient(const Vector6& d, const Vector6& w) {
-  // T^-1(psi) = T^-T(-psi), so that both derivatives are those of the transposed inverse at -psi.
+  // T^-1(psi) = T^-T(-psi): both derivatives are therefore those of the transposed inverse at -psi.
   const Vector3 u = d.head<3>(), psi = d.tail<3>(), a = w.head<3>(), c = w.tail<3>();
   const Matrix3 gc = inverse_transpose_gradient(-psi, c);
   Matrix6 G;

@@ -11,7 +11,7 @@
 
 namespace bielle::mechanism {
 
-/// A frame: `x` its origin, `R` its axes, both in the components of the frame that it is given in.
+/// A frame: `x` is its origin, `R` its axes, both in the components of the frame that it is given in.
 struct Frame {
   Vector3 x = Vector3::Zero();
   Matrix3 R = Matrix3::Identity();
@@ -31,7 +31,7 @@ Matrix6 little_adjoint(const Vector6& d);       ///< ad_d = [[psi~, u~], [0, psi
 /// DT6(d)[e]: derivative of T6(d) along e = [u'; psi'], a matrix.
 Matrix6 tangent_se3_derivative(const Vector6& d, const Vector6& e);
 
-/// Derivative of T6^-1(d) along e = -T6^-1 DT6[e] T6^-1, a matrix. Singular as T^-1 is.
+/// Derivative of T6^-1(d) along e = -T6^-1 DT6[e] T6^-1, a matrix. It is singular if T^-1 is.
 Matrix6 tangent_se3_inverse_derivative(const Vector6& d, const Vector6& e);
 
 /// G(d,f) = d(T6^-T(d) f)/dd at fixed f.

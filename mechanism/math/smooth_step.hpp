@@ -4,7 +4,7 @@
 namespace bielle::mechanism {
 
 struct SmoothStep {
-  double integral;  ///< from 0 on
+  double integral;  ///< integral of the value from 0 to x
   double value, slope;
 };
 

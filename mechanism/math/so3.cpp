@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 
 Eigen::Vector4d quaternion_of(const Matrix3& R) {
-  // Spurrier: divide by the largest of the four components.
+  // Spurrier's method divides by the largest of the four components.
   Eigen::Vector4d q;
   const double trace = R.trace();
   Eigen::Index i = 0;
@@ -40,7 +40,7 @@ Vector3 log_so3(const Matrix3& R) { return log_quaternion(quaternion_of(R)); }
 Vector3 log_quaternion(const Eigen::Vector4d& q) {
   const Vector3 e = q.tail<3>();
   const double sine = e.norm();
-  if (sine < 1e-8) return 2 * e;  // 2 asin(s)/s = 2 + s^2/3: exact to rounding here
+  if (sine < 1e-8) return 2 * e;  // 2 asin(s)/s = 2 + s^2/3: exact to rounding for such s
   return (2 * std::atan2(sine, q[0]) / sine) * e;
 }
 

@@ -2,10 +2,10 @@
 //
 //   exp(psi) = I + a1 psi~ + a2 psi~^2,   T(psi) = I - a2 psi~ + a3 psi~^2,   T^-1(psi) = I + psi~/2 + b psi~^2
 //
-// with phi = |psi|, a1 = sin(phi)/phi, a2 = (1 - cos phi)/phi^2, a3 = (phi - sin phi)/phi^3,
-// b = (1 - (phi/2) cot(phi/2))/phi^2. R maps body components to inertial ones; R = R_ref exp(psi) has the body angular
-// velocity Omega = T(psi) psidot. Reference: M. Geradin, A. Cardona, Flexible Multibody Dynamics (Wiley, 2001), ch. 4.
-// The scalar functions of phi are those of rotation_coefficients.hpp: good to a few roundings at every angle.
+// with phi = |psi|, a1 = sin(phi)/phi, a2 = (1 - cos phi)/phi^2, a3 = (phi - sin phi)/phi^3, b = (1 - (phi/2)
+// cot(phi/2))/phi^2. R maps body components to inertial ones; R = R_ref exp(psi) has the body angular velocity Omega =
+// T(psi) psidot. Reference: M. Geradin, A. Cardona, Flexible Multibody Dynamics (Wiley, 2001), ch. 4. The scalar
+// functions of phi are those of rotation_coefficients.hpp: accurate to a few rounding errors at every angle.
 #pragma once
 
 #include <numbers>
@@ -22,7 +22,7 @@ inline Matrix3 skew(const Vector3& a) {
   return s;
 }
 
-/// An angle for people.
+/// Converts radians to degrees.
 inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// The vector a of the skew part of A: (A - A^T)/2 = a~.
@@ -30,7 +30,7 @@ inline Vector3 skew_vector(const Matrix3& A) {
   return 0.5 * Vector3(A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1));
 }
 
-/// 1 + p psi~ + q psi~ psi~, entry by entry: the inner loops are full of these.
+/// 1 + p psi~ + q psi~ psi~, computed by entries because inner loops use it often.
 inline Matrix3 quadratic_in_skew(const Vector3& psi, double p, double q) {
   const double x = psi[0], y = psi[1], z = psi[2];
   const double xy = q * x * y, xz = q * x * z, yz = q * y * z, xx = q * x * x, yy = q * y * y, zz = q * z * z;
@@ -75,7 +75,7 @@ Matrix3 inverse_transpose_hessian(const Vector3& psi, const Vector3& u, const Ve
 
 /// Unit quaternion (w, x, y, z) of R, w >= 0.
 Eigen::Vector4d quaternion_of(const Matrix3& R);
-/// R of a quaternion (w, x, y, z), normalised first. @throws ComputationError when its length is zero or not finite
+/// R of a quaternion (w, x, y, z), normalised first. @throws ComputationError if its length is zero or not finite
 Matrix3 rotation_of_quaternion(const Eigen::Vector4d& quaternion);
 /// Rotation vector of a unit quaternion with w >= 0.
 Vector3 log_quaternion(const Eigen::Vector4d& q);

@@ -15,22 +15,22 @@
 namespace bielle::mechanism {
 namespace {
 
-// KLU's interface takes pointers to non-const, and does not write through them.
+// KLU's interface takes pointers to non-const, but does not write through them.
 int* starts(const SparsePattern& pattern) { return const_cast<int*>(pattern.column_start().data()); }
 int* rows(const SparsePattern& pattern) { return const_cast<int*>(pattern.row().data()); }
 
 klu_common defaults() {
   klu_common common;
   klu_defaults(&common);
-  common.scale = -1;   // done here
-  common.btf = 0;      // permuting constraint rows off the diagonal costs more fill than blocks save
-  common.initmem = 2;  // factors have about as many entries as the matrix; more is asked for when it is needed
+  common.scale = -1;   // rows are scaled in this file
+  common.btf = 0;      // permuting constraint rows off the diagonal causes more fill than the block form saves
+  common.initmem = 2;  // factors have about as many entries as the matrix; KLU allocates more when necessary
   return common;
 }
 
 }  // namespace
 
-/// KLU's analyses of a pattern, which factorisation reads only.
+/// KLU's analyses of a pattern, which the factorisation only reads.
 class FillOrderings {
  public:
   enum Method { minimum_degree = 0, column_minimum_degree = 1 };
@@ -95,12 +95,12 @@ int SparsePattern::find(int row, int column) const {
 
 struct SparseLU::Factors {
   klu_common common = defaults();
-  klu_symbolic* symbolic = nullptr;  ///< the ordering chosen: the pattern's
+  klu_symbolic* symbolic = nullptr;  ///< the chosen ordering, owned by the pattern
   klu_numeric* numeric = nullptr;
-  double room = 0;                ///< entries of the factors beyond which it is given up; 0: any number
-  std::vector<double> scaled;     ///< R D A D, R of the last choice of pivots
+  double room = 0;                ///< limit of factor entries beyond which the factorisation is given up; 0: no limit
+  std::vector<double> scaled;     ///< R D A D, with R of the last choice of pivots
   VectorX row_size, left, right;  ///< 1/R, R D, D
-  double trusted_pivots = 0;      ///< reciprocal condition when growth was last found harmless
+  double trusted_pivots = 0;      ///< reciprocal condition number when element growth was last found harmless
   Factors() = default;
   Factors(const Factors&) = delete;
   Factors& operator=(const Factors&) = delete;
@@ -108,10 +108,10 @@ struct SparseLU::Factors {
   void drop_numeric() {
     if (numeric) klu_free_numeric(&numeric, &common);
   }
-  /// Factors of `scaled` with the ordering; false where the matrix is singular, or there is no room.
+  /// Factorises `scaled` with the ordering; false if the matrix is singular, or the limit of entries is exceeded.
   bool factorise(const SparsePattern& pattern) {
     drop_numeric();
-    // KLU gives up where it would have to grow beyond all numbers.
+    // Without a limit the memory grows by the default factor; with one, KLU fails as soon as it would have to grow.
     common.memgrow = room > 0 ? 1e30 : defaults().memgrow;
     common.initmem_amd = room > 0 ? 0.5 * room / symbolic->lnz : defaults().initmem_amd;
     numeric = klu_factor(starts(pattern), rows(pattern), scaled.data(), symbolic, &common);
@@ -159,7 +159,7 @@ bool SparseLU::refactor(const std::vector<double>& values) {
   if (!klu_refactor(start, row, f.scaled.data(), f.symbolic, f.numeric, &f.common) || f.common.status != KLU_OK ||
       !klu_rcond(f.symbolic, f.numeric, &f.common))
     return false;
-  // Growth of the elements shows in the pivots first; it is measured where these have changed.
+  // Element growth first shows in the pivots; it is measured if these have changed.
   constexpr double least_change = 1e-3, least_growth = 1e-6;
   const double change = f.common.rcond / f.trusted_pivots;
   if (change > least_change && change < 1 / least_change) return true;
@@ -171,7 +171,7 @@ bool SparseLU::factor_afresh(const std::vector<double>& values, const VectorX* r
   Factors& f = *factors_;
   f.drop_numeric();
   const int* row = used().row().data();
-  // Rows by their largest entry.
+  // Rows are scaled by their largest entry.
   f.row_size.setOnes(used().size());
   scale_entries(used(), values, f.right, f.right, f.scaled);
   VectorX largest = row_floor ? *row_floor : VectorX::Zero(used().size());
@@ -199,7 +199,7 @@ bool SparseLU::choose_ordering() {
   f.symbolic = used().orderings().get(used(), FillOrderings::column_minimum_degree);
   f.room = 0;
   if (!f.factorise(used())) {
-    f.symbolic = nullptr;  // a singular matrix says nothing of those to come
+    f.symbolic = nullptr;  // a singular matrix is not representative of later ones
     return false;
   }
   try_minimum_degree();
@@ -233,7 +233,7 @@ FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& 
       present_values_[k] = values[static_cast<std::size_t>(present_from_[k])];
     present = &present_values_;
   }
-  if (used().entry_count() == 0) {  // KLU takes no matrix without entries
+  if (used().entry_count() == 0) {  // KLU accepts no matrix without entries
     singular_column_ = 0;
     return FactorStatus::singular;
   }
@@ -249,12 +249,12 @@ void SparseLU::forget() {
   present_passing_.clear();
 }
 
-/// Whether some value of a range is not zero: by bits, many at a time.
+/// Whether some value of a range is not zero: compares bits of many values at a time.
 bool SparseLU::any_in(const std::vector<double>& values, const Range& range) {
   std::uint64_t bits = 0;
   for (int k = range.begin; k < range.end; ++k)
     bits |= std::bit_cast<std::uint64_t>(values[static_cast<std::size_t>(k)]);
-  return (bits << 1) != 0;  // zeros may have a sign
+  return (bits << 1) != 0;  // the sign bit of a zero may be set
 }
 
 void SparseLU::choose_present(const std::vector<double>& values) {

@@ -1,4 +1,4 @@
-// Sparse matrices with a fixed pattern, and their factorisation by KLU with the symbolic analysis kept.
+// Sparse matrices with a fixed pattern, and their factorisation by KLU, whose symbolic analysis is reused.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,10 @@ class FillOrderings;
 class SparsePattern {
  public:
   SparsePattern() : SparsePattern(0, {}) {}
-  /// @param entries  (row, column) pairs in any order, repeated or not
+  /// @param entries  (row, column) pairs in any order; they may be repeated
   SparsePattern(int size, std::vector<std::pair<int, int>> entries);
   /// @param column_start  (size + 1)
-  /// @param row  of each entry, ascending within a column, each once
+  /// @param row  row of each entry, ascending within a column, each once
   SparsePattern(std::vector<int> column_start, std::vector<int> row);
   int size() const { return size_; }
   int entry_count() const { return static_cast<int>(row_.size()); }
@@ -34,11 +34,12 @@ class SparsePattern {
   }
   /// Place of an entry among the values, or -1.
   int find(int row, int column) const;
-  /// Entries that are zero most of the time (of bodies that may touch): factors leave out those that are zero.
+  /// Sets the entries that are zero most of the time (bodies that may touch): the factorisation omits those that are
+  /// zero.
   /// @param places  ascending
   void set_passing(std::vector<int> places) { passing_ = std::move(places); }
   const std::vector<int>& passing() const { return passing_; }
-  /// Fill-reducing orderings: functions of the pattern alone, found when first asked for and shared by all factors and
+  /// Fill-reducing orderings: they depend on the pattern only, are computed on first use and shared by all factors and
   /// copies, in any number of threads.
   const FillOrderings& orderings() const { return *orderings_; }
 
@@ -50,26 +51,26 @@ class SparsePattern {
 
 enum class FactorStatus { good, singular };
 
-/// What factors cost.
+/// Cost of a factorisation.
 struct FactorCost {
-  double operations = 0;  ///< of one factorisation with known pivots
-  double entries = 0;     ///< of both factors
+  double operations = 0;  ///< operations of one factorisation with known pivots
+  double entries = 0;     ///< number of entries of both factors
 };
 
 /// LU factors of a sparse unsymmetric matrix (KLU with partial pivoting).
 ///
-/// The fill-reducing ordering is chosen with the first matrix. Column minimum degree (COLAMD) bounds the fill whatever
-/// rows the pivots come from. Minimum degree (AMD) makes fewer operations where pivots stay on the diagonal, and
-/// any number more where they leave it, as constraints make them: of loops, a thousand times as many. It is tried where
-/// its estimate, which knows of no pivoting, promises fewer operations, given up as soon as its factors need as much
-/// memory as those of COLAMD, and taken where it has made fewer operations. So the choice is a function of this matrix,
-/// not of any before.
+/// The fill-reducing ordering is chosen for the first matrix. Column minimum degree (COLAMD) bounds the fill for any
+/// choice of pivot rows. Minimum degree (AMD) needs fewer operations if pivots stay on the diagonal, but may need many
+/// more if they leave it, as constraints require: a thousand times as many for kinematic loops. AMD is tried if its
+/// estimate, which ignores pivoting, promises fewer operations; it is rejected as soon as its factors need as much
+/// memory as those of COLAMD, and kept if it has needed fewer operations. Therefore the choice depends only on this
+/// matrix, not on earlier ones.
 ///
-/// `factor` keeps the pivot sequence as long as its pivots do not degenerate. Rows are brought to entries of size one
-/// when pivots are chosen, whatever their units.
+/// `factor` keeps the pivot sequence as long as its pivots do not degenerate. When pivots are chosen, rows are scaled
+/// to a largest entry of one, for any units.
 ///
-/// Of a pattern with passing entries those are factorised that are not zero, and those that have not been before, until
-/// they are many: what comes in makes ordering and pivots new.
+/// If the pattern has passing entries, only those are factorised that are not zero now or were not zero before, until
+/// these are many: a new entry requires a new ordering and new pivots.
 class SparseLU {
  public:
   explicit SparseLU(const SparsePattern& pattern);  ///< the pattern must outlive the factors
@@ -77,30 +78,30 @@ class SparseLU {
   ~SparseLU();
 
   /// Factorises D A D with a diagonal D.
-  /// @param values  of A, in the order of the pattern
+  /// @param values  values of A, in the order of the pattern
   /// @param scale   the diagonal of D (size)
-  /// @param row_floor  where rows of D A D are what is left of larger ones: their sizes before (size). Rows that have
-  ///                   cancelled then stay small, and so do their pivots
+  /// @param row_floor  largest entries of the rows of D A D before cancellation, if the rows are remainders of larger
+  ///                   ones (size). Rows that have cancelled then stay small, and so do their pivots
   FactorStatus factor(const std::vector<double>& values, const VectorX& scale, const VectorX* row_floor = nullptr);
-  /// The next factorisation chooses ordering and pivots anew.
+  /// Discards ordering and pivots: the next factorisation chooses them again.
   void forget();
-  /// b <- A^-1 b. Only after a good factorisation.
+  /// b <- A^-1 b. Call it only after a successful factorisation.
   void solve(Eigen::Ref<VectorX> b) const;
   /// Column (an unknown) at which the last factorisation found no pivot, or -1.
   int singular_column() const { return singular_column_; }
-  /// Sign of the determinant of the matrix last factorised: -1 or 1. Its rows must be scaled by positive numbers.
+  /// Sign of the determinant of the last factorised matrix: -1 or 1. Its rows must be scaled by positive numbers.
   int determinant_sign() const;
-  FactorCost cost() const;  ///< of the last good factorisation
-  /// Cheap estimate of the reciprocal condition number of the scaled matrix: smallest over largest pivot.
+  FactorCost cost() const;  ///< cost of the last successful factorisation
+  /// Cheap estimate of the reciprocal condition number of the scaled matrix: ratio of smallest to largest pivot.
   double reciprocal_condition() const;
 
  private:
   struct Factors;
-  bool refactor(const std::vector<double>& values);  ///< with the pivots of before; false where they fail
-  bool factor_afresh(const std::vector<double>& values, const VectorX* row_floor);  ///< false where singular
+  bool refactor(const std::vector<double>& values);  ///< uses the previous pivots; false if they fail
+  bool factor_afresh(const std::vector<double>& values, const VectorX* row_floor);  ///< false if the matrix is singular
   bool choose_ordering();
   void try_minimum_degree();
-  /// Neighbouring places.
+  /// A range of consecutive places.
   struct Range {
     int begin, end;
   };
@@ -108,10 +109,10 @@ class SparseLU {
   void choose_present(const std::vector<double>& values);
   const SparsePattern& used() const { return present_ ? *present_ : pattern_; }
   const SparsePattern& pattern_;
-  std::unique_ptr<const SparsePattern> present_;  ///< of a pattern with passing entries: those that are factorised
-  std::vector<int> present_from_;                 ///< their places in the whole
-  std::vector<int> present_passing_;              ///< places of the passing ones among them, ascending
-  std::vector<Range> absent_;                     ///< of the others
+  std::unique_ptr<const SparsePattern> present_;  ///< entries of a pattern with passing entries that are factorised
+  std::vector<int> present_from_;                 ///< their places in the whole pattern
+  std::vector<int> present_passing_;              ///< places of the passing entries among them, ascending
+  std::vector<Range> absent_;                     ///< places of the entries that are not factorised
   std::vector<double> present_values_;
   std::unique_ptr<Factors> factors_;
   int singular_column_ = -1;

@@ -1,8 +1,8 @@
-// Short names for the fixed-size vectors and matrices of the mechanics.
+// Short names for the fixed-size vectors and matrices used in mechanics.
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>  // cross products
+#include <Eigen/Geometry>  // for cross products
 
 namespace bielle::mechanism {
 

@@ -14,16 +14,16 @@ struct Workers::Team {
   std::mutex mutex;
   std::condition_variable wanted, left;
   Work work{};
-  std::atomic<std::size_t> next{0};     ///< piece
-  std::atomic<unsigned> round{0};       ///< how many times work was given out
-  int at_work = 0;                      ///< of the others
-  bool busy = false, stopping = false;  ///< work is given out; threads are to end
+  std::atomic<std::size_t> next{0};     ///< number of the next piece
+  std::atomic<unsigned> round{0};       ///< how many times work has been distributed
+  int at_work = 0;                      ///< number of other threads at work
+  bool busy = false, stopping = false;  ///< work has been distributed; threads must end
   std::vector<std::thread> threads;
 
   void take_pieces() {
     for (std::size_t k; (k = next.fetch_add(1, std::memory_order_relaxed)) < work.count;) work.call(work.piece, k);
   }
-  /// What follows within some ten microseconds is not worth a sleep.
+  /// The thread spins for about ten microseconds before it sleeps.
   void linger(unsigned seen) const {
     constexpr int turns = 100;
     for (int k = 0; k < turns && round.load(std::memory_order_relaxed) == seen; ++k) std::this_thread::yield();
@@ -35,7 +35,7 @@ struct Workers::Team {
       wanted.wait(lock, [&] { return stopping || round != seen; });
       if (stopping) return;
       seen = round;
-      if (!busy) continue;  // too late
+      if (!busy) continue;  // the work is finished already
       ++at_work;
       lock.unlock();
       take_pieces();
@@ -57,7 +57,7 @@ Workers::~Workers() {
   for (std::thread& thread : team_->threads) thread.join();
 }
 
-/// As many as the system has for us.
+/// Starts as many threads as the system grants.
 void Workers::start_threads() {
   Team& team = *team_;
   try {
@@ -88,7 +88,7 @@ void Workers::take_part() { team_->take_pieces(); }
 void Workers::end() {
   Team& team = *team_;
   std::unique_lock lock(team.mutex);
-  team.next = team.work.count;  // after an exception nobody begins another piece
+  team.next = team.work.count;  // after an exception no thread begins another piece
   team.left.wait(lock, [&] { return team.at_work == 0; });
   team.busy = false;
 }

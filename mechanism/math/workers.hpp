@@ -1,4 +1,5 @@
-// Threads that share work which was cut into pieces before: results do not depend on how many there are.
+// Threads that share work which has been divided into pieces beforehand: results do not depend on the number of
+// threads.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,7 @@
 
 namespace bielle::mechanism {
 
-/// A team of threads, the calling one among them. Others are started when they are first wanted and sleep in between.
+/// A team of threads, including the calling one. The other threads are started on first use and sleep between uses.
 class Workers {
  public:
   explicit Workers(int threads = 1);
@@ -15,14 +16,14 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   int threads() const { return threads_; }
-  /// Calls piece(k) once for each k below `count`, in any order, by any thread; returns when all are done. What comes
-  /// first is begun first. Pieces must not throw, and write where no other piece reads or writes. Where the team is at
-  /// work for another caller already, the calling thread does all by itself.
+  /// Calls piece(k) once for each k below `count`, in any order, by any thread; returns when all are done. Pieces are
+  /// begun in ascending order. Pieces must not throw, and must not write data that other pieces read or write. If the
+  /// team is already working for another caller, the calling thread does all pieces itself.
   template <class Piece>
   void for_each(std::size_t count, const Piece& piece) {
     for_each(count, piece, [] {});
   }
-  /// The same; the calling thread does `meanwhile` before it takes its part.
+  /// Does the same; the calling thread runs `meanwhile` before it takes part.
   template <class Piece, class Meanwhile>
   void for_each(std::size_t count, const Piece& piece, const Meanwhile& meanwhile) {
     const Ended ended(*this, count > 0 && threads_ > 1 && begin({&call<Piece>, &piece, count}));
@@ -43,7 +44,7 @@ class Workers {
   static void call(const void* piece, std::size_t k) {
     (*static_cast<const Piece*>(piece))(k);
   }
-  /// Waits for the others, also where `meanwhile` throws: pieces refer to what the caller holds.
+  /// Waits for the other threads, also if `meanwhile` throws: pieces refer to data of the caller.
   struct Ended {
     Workers& workers;
     bool shared;
@@ -54,7 +55,7 @@ class Workers {
       if (shared) workers.end();
     }
   };
-  bool begin(const Work& work);  ///< false where the team is at work already
+  bool begin(const Work& work);  ///< false if the team is already at work
   void start_threads();
   void take_part();
   void end();

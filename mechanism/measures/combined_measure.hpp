@@ -1,4 +1,4 @@
-// A measure that a formula makes of others: `lag: "main.angle - motor.angle"`.
+// A measure defined by a formula of other measures: `lag: "main.angle - motor.angle"`.
 #pragma once
 
 #include "mechanism/measures/state_formula.hpp"
@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 
 class CombinedMeasure final : public Measure, public TimedMeasure {
  public:
-  /// @param formula  of t and the measures referred to
+  /// @param formula  formula of t and of the measures referred to
   CombinedMeasure(std::string name, References references, StateFormula formula, std::string units);
   std::string units() const override { return units_; }
   double value(const LocalState& state) const override;

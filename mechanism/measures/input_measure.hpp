@@ -1,7 +1,7 @@
 // Inputs: numbers that a program sets while the model moves (Session::set_input), and that formulas use by name.
 //
 //     inputs: {command: 0}
-// The value is kept in the state, as a component's memory: it is saved, restored and restarted with it.
+// The value is part of the state, as a component's memory: it is saved, restored and restarted with the state.
 #pragma once
 
 #include "mechanism/model/measure.hpp"

@@ -1,5 +1,5 @@
-// An event: a measure crosses a value. It is noted where it lies within a step; it may end the step and restart the
-// motion there, as a kink does, or stop the run.
+// An event that occurs when a measure crosses a value. The event is located within a step and recorded; it may end the
+// step and restart the motion there, as a kink does, or stop the run.
 //
 //     events: {landed: {when: ball.position.z, crosses: 0.1, direction: falling, action: stop}}
 #pragma once
@@ -33,11 +33,11 @@ class MeasureEvent final : public Component {
   Action action_;
 };
 
-/// The key `direction` of an entry; both without it.
+/// Reads the key `direction` of an entry; the default is both.
 Crossing::Direction read_crossing_direction(const YamlValue& entry);
 
-/// Reads an entry of `events`, once the model is read: `{when: measure or formula, crosses: value, direction: rising |
-/// falling | both, action: note | restart | stop}`. @throws InputError
+/// Reads an entry of `events`, after the model has been read: `{when: measure or formula, crosses: value, direction:
+/// rising | falling | both, action: note | restart | stop}`. @throws InputError
 void read_event(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -39,7 +39,7 @@ void MiddleFrame::calc(std::span<PairMeasure, 6> measures, bool second_too) cons
   for (int k = 0; k < 6; ++k) measures[static_cast<std::size_t>(k)].second = second(Vector6::Unit(k));
 }
 
-// With f the factors of u, w = u + u_0 and increments (d', e) of (d, psi), the second derivative of f . u along them is
+// With the factors f of u, w = u + u_0 and increments (d', e) of (d, psi), the second derivative of f . u along them is
 //     1/2 f . (exp(-h) d' x T e) twice, and 1/4 f . [(w x T e) x T e' + w x DT(h)[e] e'].
 Matrix12 MiddleFrame::second(const Vector6& factor) const {
   const Vector3 f = factor.head<3>(), of_psi = factor.tail<3>() + 0.5 * T_.transpose() * f.cross(way_);
@@ -49,7 +49,7 @@ Matrix12 MiddleFrame::second(const Vector6& factor) const {
   PairHessian of_points;
   points_.add_second(A_ * (half_ * f), of_points);
   S += of_points.dense();
-  const Matrix3 mixed = -0.5 * half_ * skew(f) * T_;  // of (d', e)
+  const Matrix3 mixed = -0.5 * half_ * skew(f) * T_;  // with respect to (d', e)
   Matrix3 bend = T_.transpose() * skew(way_) * skew(f) * T_;
   const Vector3 g = f.cross(way_);
   for (int k = 0; k < 3; ++k) bend.row(k) += (tangent_derivative(h_, Vector3::Unit(k)).transpose() * g).transpose();

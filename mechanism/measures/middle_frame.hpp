@@ -1,12 +1,12 @@
-// The relative position and rotation of two frames as six measures, seen in the frame halfway between them.
+// The relative position and rotation of two frames as six measures, in the frame halfway between them.
 //
 // With the frames A on node 1 (origin p_A) and B on node 2 (p_B), C = R_A^T R_B the rotation between them and
 //     psi = log C,   M = R_A exp(psi/2) = R_B exp(-psi/2):     u = M^T (p_B - p_A) - u_0,   psi.
-// - A rigid motion of both leaves them as they are, whatever their rotation.
-// - Exchanging the frames changes the signs of all six (with u_0): neither node is preferred.
-// - |u + u_0| is the distance of the points: a force along u acts along the line between them where it resists alike in
-//   all directions, without a moment about either.
-// - psi is the same seen from A, B and M. Relative rotations stay below half a turn.
+// - A rigid motion of both frames leaves the measures unchanged, however large the rotation.
+// - Exchanging the frames changes the signs of all six (with u_0): no node is preferred.
+// - |u + u_0| is the distance of the points: a force along u, for a stiffness that is equal in all directions, acts
+//   along the line between them, without a moment about either point.
+// - psi has the same components in A, B and M. Relative rotations must stay below half a turn.
 // With h = psi/2, d = R_A^T (p_B - p_A) and T the tangent operator of rotations,
 //     u = exp(-h) d - u_0,   du = exp(-h) dd + (u + u_0) x T(h) dh.
 // Reference for frames between two nodes: P. Masarati, M. Morandini, Intrinsic deformable joints, Multibody System
@@ -26,11 +26,11 @@ class MiddleFrame {
   /// @param A,B  frames in the axes of their nodes @param u_0  [m]
   MiddleFrame(const NodeState& first, const NodeState& second, const Frame& A, const Frame& B,
               const Vector3& u_0 = Vector3::Zero());
-  /// [u; psi]
+  /// The measures [u; psi].
   const Vector6& value() const { return value_; }
-  /// Axes of M, inertial.
+  /// Axes of M, in inertial components.
   const Matrix3& axes() const { return M_; }
-  /// The six measures with their first derivatives, and with the second where wanted.
+  /// Computes the six measures with their first derivatives, and with the second if requested.
   void calc(std::span<PairMeasure, 6> measures, bool second) const;
 
  private:
@@ -44,8 +44,9 @@ class MiddleFrame {
   Eigen::Matrix<double, 3, 12> approach_;  ///< dd/dz
 };
 
-/// For the end of a step: refuses relative rotations above 171 degrees, and those that have passed half a turn within
-/// the step, where psi goes over to the other side. @param who  "bushing 'mount'" @param before  psi of the last step
+/// Check at the end of a step: throws for relative rotations above 171 degrees, and for those that have passed half a
+/// turn within the step, at which psi jumps to the opposite sign. @param who  "bushing 'mount'" @param before  psi of
+/// the last step
 /// @param advice  a sentence without its full stop @throws ComputationError
 void check_half_turn(const LocalState& state, const std::string& who, const Vector3& psi, const Vector3& before,
                      const std::string& advice);

@@ -1,5 +1,5 @@
-// Work variables of functions that may be entered again before they have ended: a formula reads a measure, which is a
-// formula of others, and so on.
+// Work variables of functions that may be called recursively: a formula reads a measure, which is a formula of other
+// measures, and so on.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace bielle::mechanism {
 
-/// A T that is this function's alone while it lives, one of a stack that each thread keeps: it takes memory only where
-/// the nesting becomes deeper than ever before. What it holds at first is left over from earlier uses.
-/// @tparam Owner  who shares the stack; any type
+/// A variable T for the exclusive use of one call during its lifetime, taken from a stack of each thread: memory is
+/// allocated only when the nesting becomes deeper than before. Its initial value is left over from earlier uses.
+/// @tparam Owner  any type; calls with the same type share the stack
 template <class T, class Owner = T>
 class Nested {
  public:
@@ -26,7 +26,7 @@ class Nested {
 
  private:
   struct Stack {
-    std::deque<T> items;  // which does not move them
+    std::deque<T> items;  // a deque does not move its elements
     std::size_t level = 0;
   };
   static Stack& of_thread() {

@@ -19,7 +19,7 @@ class NodePairMeasure : public Measure {
 
  protected:
   const NodePair& pair() const { return pair_; }
-  /// "'pin'", or "'pin' relative to 'arm'".
+  /// Returns "'pin'", or "'pin' relative to 'arm'".
   std::string nodes(const Description& description) const {
     const std::string second = description.node(pair_.second);
     return pair_.first == 0 ? second : second + " relative to " + description.node(pair_.first);
@@ -62,7 +62,8 @@ class PositionMeasure final : public NodePairMeasure {
   bool rate_;
 };
 
-/// Axes: A of the first node as drawn along the direction first, so that the component is the first of the vector.
+/// The axes are those of the first node at the start, rotated so that the direction is the first axis: the component is
+/// then the first of the vector.
 class RotationMeasure final : public NodePairMeasure {
  public:
   RotationMeasure(std::string name, const NodePair& pair, const Matrix3& A, const Matrix3& B, bool rate)
@@ -104,7 +105,7 @@ class DistanceMeasure final : public NodePairMeasure {
     gradient.prepare(state.slots().size());
     const Vector3 s = way(state);
     const double length = s.norm();
-    // Where the points coincide the distance has no derivative.
+    // The distance has no derivative if the points coincide.
     if (length > 0) {
       const Vector3 u = s / length;
       auto g = gradient.position();
@@ -132,7 +133,8 @@ class AngleMeasure final : public NodePairMeasure {
     gradient.prepare(state.slots().size());
     const Vector3 rotation = psi(state);
     const double angle = rotation.norm();
-    // d|psi| = e . dphi, e the axis: the same from the left and the right. Undefined at zero.
+    // d|psi| = e . dphi with the axis e: it is the same for rotations from the left and from the right. It is undefined
+    // at zero.
     if (angle > 0) {
       const Vector3 e = rotation / angle;
       gradient.position().segment<3>(3) = -e;
@@ -147,7 +149,7 @@ class AngleMeasure final : public NodePairMeasure {
   }
 };
 
-/// Axes whose first is e.
+/// Returns axes with e as the first one.
 Matrix3 axes_along(const Vector3& e) {
   Eigen::Index least = 0;
   e.cwiseAbs().minCoeff(&least);

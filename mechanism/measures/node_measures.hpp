@@ -23,12 +23,12 @@ enum class NodeQuantity { position, velocity, rotation, angular_velocity };
 
 /// A node relative to another.
 struct NodePair {
-  int first = 0, second = 0;           ///< first: what the second is relative to; 0, the ground, for inertial axes
-  Vector3 at_first = Vector3::Zero();  ///< points [m], in the axes of their nodes
+  int first = 0, second = 0;           ///< first: reference node of the second; 0, the ground, for inertial axes
+  Vector3 at_first = Vector3::Zero();  ///< points [m], each in the axes of its node
   Vector3 at_second = Vector3::Zero();
 };
 
-/// @param direction  axis e, in the axes of the first node; a unit vector
+/// @param direction  axis e, a unit vector in the axes of the first node
 std::unique_ptr<Measure> make_node_measure(const std::string& name, const Model& model, const NodePair& pair,
                                            NodeQuantity quantity, const Vector3& direction);
 std::unique_ptr<Measure> make_distance(const std::string& name, const NodePair& pair);
@@ -36,7 +36,7 @@ std::unique_ptr<Measure> make_angle(const std::string& name, const NodePair& pai
 
 /// "position.x", "bryant.a", ...: what formulas may use of every node, along inertial axes.
 const std::vector<std::string>& node_measure_names();
-/// One of them, of a node.
+/// Creates one of these measures of a node.
 std::unique_ptr<Measure> make_node_measure(const std::string& name, const Model& model, int node,
                                            const std::string& measure);
 

@@ -1,4 +1,4 @@
-// A measure of one component: a function of what that component itself depends on, "brake.flow", "winch.torque".
+// A measure of one component: a function of the variables of that component alone, "brake.flow", "winch.torque".
 #pragma once
 
 #include <string>
@@ -31,8 +31,8 @@ class OwnMeasure : public Measure {
     gradient.prepare(own.slots().size());
     return calc_own(own, gradient);
   }
-  /// @param own       the state of the subject
-  /// @param gradient  over the subject's local layout, zero
+  /// @param own       state of the component
+  /// @param gradient  derivatives over the component's local layout, zero on entry
   virtual double calc_own(const LocalState& own, MeasureGradient& gradient) const = 0;
   void declare_subjects(Declaration& declaration) const final { declaration.references = {&subject_}; }
   const Component& subject_;

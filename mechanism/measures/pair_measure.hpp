@@ -1,4 +1,4 @@
-// Scalar measures of the relative motion of two nodes: what joints constrain, drive and report.
+// Scalar measures of the relative motion of two nodes: joints constrain, drive and report them.
 //
 // A measure m(q) of nodes 1 and 2 has, along the increments dz = [dx_1; dTheta_1; dx_2; dTheta_2],
 //     dm = g . dz,   dg = S dz,   hence   mdot = g . v,   mddot = g . a + v . S v
@@ -15,7 +15,7 @@ namespace bielle::mechanism {
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-/// Velocities or accelerations of the two nodes in the order of the increments.
+/// Returns velocities or accelerations of the two nodes in the order of the increments.
 inline Vector12 pair_rate(const NodeState& first, const NodeState& second) {
   Vector12 v;
   v << first.v, first.Omega, second.v, second.Omega;
@@ -27,14 +27,14 @@ inline Vector12 pair_acceleration(const NodeState& first, const NodeState& secon
   return a;
 }
 
-/// Second derivatives of measures: the blocks of S that differ from zero.
+/// Second derivatives of measures: the blocks of S that are not zero.
 ///     [ 0    X    0    0  ]
 /// S = [ X^T  P   -X^T  Q  ]
 ///     [ 0   -X    0    0  ]
 ///     [ 0    Q^T  0    W  ]
 struct PairHessian {
   Matrix3 X = Matrix3::Zero(), P = Matrix3::Zero(), Q = Matrix3::Zero(), W = Matrix3::Zero();
-  /// @param positions  whether X is written; @param coupling  whether Q is
+  /// @param positions  whether X is written; @param coupling  whether Q is written
   void add_to(LocalMatrix& matrix, bool positions, bool coupling) const;
   Matrix12 dense() const;
 };
@@ -43,7 +43,7 @@ using PairMeasure = AutoDiff<12, 2>;
 
 /// Positions of a point p_2 = x_2 + R_2 c_2 of node 2 relative to node 1: measures e . (p_2 - p_1), p_1 = x_1 + R_1
 /// c_1, along axes e = R_1 e^ carried by node 1. Gradient and second derivative are linear in e^: several axes, each
-/// with a factor, are added up as one.
+/// with a factor, can be added to a single one.
 class PointPair {
  public:
   /// @param R_12  R_1^T R_2
@@ -57,7 +57,7 @@ class PointPair {
   Matrix3 R_1_, R_12_;
 };
 
-/// The way p_2 - p_1 from a point p_1 = x_1 + R_1 c_1 of node 1 to a point p_2 = x_2 + R_2 c_2 of node 2, inertial:
+/// The vector p_2 - p_1 from a point p_1 = x_1 + R_1 c_1 of node 1 to a point p_2 = x_2 + R_2 c_2 of node 2, inertial:
 /// three measures at once, whose second derivatives do not couple the nodes.
 class PointGap {
  public:
@@ -65,11 +65,11 @@ class PointGap {
   const Vector3& value() const { return value_; }
   Vector3 rate(const NodeState& first, const NodeState& second) const;
   Vector3 acceleration(const NodeState& first, const NodeState& second) const;
-  /// g^T f of an inertial force f on node 2 into the first twelve rows of a vector.
+  /// Adds g^T f of an inertial force f on node 2 to the first twelve rows of a vector.
   void add_forces(const Vector3& force, Eigen::Ref<VectorX> r) const;
-  /// g into three rows of a matrix from `row` on, g^T into its columns.
+  /// Adds g to three rows of a matrix from `row` on, and g^T to its columns.
   void add_gradients(int row, LocalMatrix& S) const;
-  /// d(g^T f)
+  /// Adds the derivative d(g^T f).
   void add_second(const Vector3& force, PairHessian& S) const;
 
  private:
@@ -81,12 +81,12 @@ class PointGap {
 /// Alignment a . b of axes a = R_1 a^ carried by node 1 and b = R_2 b^ carried by node 2.
 class AxisPair {
  public:
-  /// @param R_12  R_1^T R_2, which several pairs of the same nodes share; must outlive them
+  /// @param R_12  R_1^T R_2, which several pairs of the same nodes share; it must outlive them
   AxisPair(const Matrix3& R_12, const Vector3& a_hat, const Vector3& b_hat)
       : a_hat_(a_hat), b_hat_(b_hat), b_1_(R_12 * b_hat), a_2_(R_12.transpose() * a_hat), R_12_(R_12) {}
   AxisPair(Matrix3&& R_12, const Vector3& a_hat, const Vector3& b_hat) = delete;
   double value() const { return a_hat_.dot(b_1_); }
-  /// The gradient is zero but for its parts along dTheta_1 and dTheta_2.
+  /// The gradient is zero except for its parts along dTheta_1 and dTheta_2.
   Vector3 first_gradient() const { return a_hat_.cross(b_1_); }
   Vector3 second_gradient() const { return b_hat_.cross(a_2_); }
   void add_second(double factor, PairHessian& S) const;
@@ -96,22 +96,22 @@ class AxisPair {
   const Matrix3& R_12_;
 };
 
-/// The position measure of one axis, with its derivatives.
+/// Computes the position measure of one axis, with its derivatives.
 PairMeasure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
                              const Vector3& c_2);
 
-/// The alignment measure, with its derivatives.
+/// Computes the alignment measure, with its derivatives.
 PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat,
                               const Vector3& b_hat);
 
-/// Angle atan2(y_A . x_B, x_A . x_B) in (-pi, pi] by which frame B of node 2 has turned relative to frame A of node 1
-/// about their common z axis. @param A,B  axes in the components of their nodes
+/// Computes the angle atan2(y_A . x_B, x_A . x_B) in (-pi, pi] by which frame B of node 2 is rotated relative to frame
+/// A of node 1 about their common z axis. @param A,B  axes in the components of their nodes
 PairMeasure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
-/// A measure of nodes (second, first) as one of (first, second).
+/// Converts a measure of nodes (second, first) to one of (first, second).
 PairMeasure exchanged(const PairMeasure& measure);
 
-/// A measure with its rate alone: for what is recorded and remembered at every step.
+/// A measure with its rate only: for quantities that are recorded and stored at every step.
 struct PairMeasureRate {
   double value = 0, rate = 0;
 };

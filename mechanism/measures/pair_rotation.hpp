@@ -21,12 +21,12 @@ class PairRotation {
   const Vector3& psi() const { return psi_; }
   Vector3 omega(const NodeState& first, const NodeState& second) const;
   using Gradients = Eigen::Matrix<double, 3, 12>;
-  Gradients gradients() const;                                ///< of psi: dpsi/dz
-  Gradients rate_gradients() const;                           ///< J, over the twelve unknowns of the two nodes
+  Gradients gradients() const;                                ///< gradients of psi: dpsi/dz
+  Gradients rate_gradients() const;                           ///< J, over the twelve increments of the two nodes
   void add_second(const Vector3& c, Matrix12& S) const;       ///< sum_k c_k S_k
   void add_rate_second(const Vector3& c, Matrix12& W) const;  ///< sum_k c_k W_k
-  /// The coordinate psi[axis] with omega[axis] as its rate, on a local layout whose first twelve rows are those of the
-  /// two nodes. @param jet  prepared
+  /// Computes the coordinate psi[axis] with omega[axis] as its rate, on a local layout whose first twelve rows are
+  /// those of the two nodes. @param jet  must be prepared
   void calc(int axis, const NodeState& first, const NodeState& second, CoordinateDerivatives& jet) const;
 
  private:

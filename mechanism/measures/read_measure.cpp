@@ -17,7 +17,7 @@ namespace {
 
 const std::vector<std::string> functions = {"distance", "angle"};
 
-/// A reference of a formula, looked up in the model.
+/// Looks up a reference of a formula in the model.
 class Lookup {
  public:
   Lookup(const YamlValue& value, Model& model) : value_(value), model_(model) {}
@@ -33,7 +33,7 @@ class Lookup {
     try {
       return model_.find_measure(name);
     } catch (const InputError& error) {
-      if (std::string(error.what()).rfind("the measure", 0) != 0) throw;  // located already
+      if (std::string(error.what()).rfind("the measure", 0) != 0) throw;  // the error already has a location
       value_.fail(error.what());
     }
   }
@@ -86,7 +86,7 @@ class Lookup {
       if (has(node_measure_names())) return make_node_measure(name, model_, *index, wanted);
       offer(node_measure_names());
     }
-    // Those of a control block: "plant.y1".
+    // Also measures of a control block: "plant.y1".
     for (const std::string& each : model_.announced_measures())
       if (each.rfind(subject + ".", 0) == 0) available.push_back(each.substr(subject.size() + 1));
     if (available.empty()) {
@@ -106,7 +106,7 @@ class Lookup {
   Model& model_;
 };
 
-/// Names in a formula, in the order in which they appear, each once.
+/// Lists the names in a formula, in the order in which they appear, each once.
 std::vector<std::string> words_in(const std::string& text) {
   std::vector<std::string> words;
   const auto inside = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
@@ -148,7 +148,7 @@ std::vector<StateFormula::Argument> refer_to(const std::vector<const Measure*>& 
   return arguments;
 }
 
-/// Of t, and of the measures.
+/// Returns the units of t and of the measures.
 std::vector<std::string> argument_units(const std::vector<const Measure*>& measures) {
   std::vector<std::string> units = {"s"};
   for (const Measure* measure : measures) units.push_back(measure->units());
@@ -241,7 +241,7 @@ void read_measure(const std::string& name, const YamlValue& entry, Model& model)
 }
 
 const Measure& measure_named_by(const YamlValue& value, Model& model) {
-  read_formula(value, {"t"}, model);  // what is only one measure is known by its text then
+  read_formula(value, {"t"}, model);  // the units of a text that is a single measure are then known
   if (const Measure* known = Lookup(value, model).named(value.text())) return *known;
   return model.add_measure(read_combined(value.text(), value, {}, model), false);
 }

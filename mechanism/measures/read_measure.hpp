@@ -1,4 +1,4 @@
-// Measures and formulas of the state in input files: names are looked up in the model once all of it is read.
+// Measures and formulas of the state in input files: names are looked up in the model after all of it has been read.
 #pragma once
 
 #include <string>
@@ -10,25 +10,25 @@
 
 namespace bielle::mechanism {
 
-/// The formula that a value holds, of the component's own variables, the parameters, and whatever can be measured:
+/// Reads the formula of a value: it depends on the component's own variables, the parameters, and the measures
 ///     <joint>.<coordinate>  <joint>.<coordinate>.rate  <joint>.reaction.x  <node>.position.x  <node>.velocity.x
 ///     <spring>.elongation   distance(<node>, <node>)   angle(<node>, <node>)   <named measure>
-/// @param variables   the component's own, e.g. {"t"}
-/// @param references  of the component that owns the formula; the measures are added
-/// @throws InputError with the nearest name
+/// @param variables   variables of the component, e.g. {"t"}
+/// @param references  references of the component that owns the formula; the measures are added
+/// @throws InputError naming the nearest name
 StateFormula read_state_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model,
                                 References& references);
-/// Units of such a formula of t; empty where they are unknown.
+/// Returns the units of such a formula of t; empty if they are unknown.
 std::string units_of_formula(const YamlValue& value, Model& model);
 
-/// Refuses what cannot be the name of a measure or input in formulas. @throws InputError
+/// Rejects text that cannot be the name of a measure or input in formulas. @throws InputError
 void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model);
 
 /// Reads an entry of `measures`: a formula; `{formula, units}`; or `{node, relative_to, quantity, direction, at}`.
-/// @throws InputError also where measures refer to each other in a circle
+/// @throws InputError also if measures refer to each other in a circle
 void read_measure(const std::string& name, const YamlValue& entry, Model& model);
 
-/// The measure that a value names or, as a formula, makes.
+/// Returns the measure that a value names or defines by a formula.
 const Measure& measure_named_by(const YamlValue& value, Model& model);
 
 }  // namespace bielle::mechanism

@@ -1,8 +1,8 @@
-// A user's formula of time, a component's own variables and measures of the state: of a force, a torque, a spring, a
-// load, a valve.
+// A user's formula of time, a component's own variables and measures of the state, for example for a force, a torque, a
+// spring, a load or a valve.
 //
-// The component that owns the formula refers to its measures (References): their gradients stand in the component's
-// local layout, and the formula's own are f_m dm added up.
+// The component that owns the formula refers to its measures (References): their gradients are in the component's local
+// layout, and the gradient of the formula is the sum of f_m dm.
 #pragma once
 
 #include <array>
@@ -16,23 +16,24 @@
 
 namespace bielle::mechanism {
 
-/// Value of a formula with its derivatives. Reused from call to call: takes memory only when it grows.
+/// Value of a formula with its derivatives. The object is reused from call to call: it allocates memory only when it
+/// grows.
 class FormulaGradient {
  public:
   static constexpr std::size_t most_variables = 8;
   double value = 0;
-  std::array<double, most_variables> by_variable{};  ///< of the component's own variables
-  /// Derivatives by measures, over the component's local layout: by positions, amplitudes, first-order unknowns and
-  /// multipliers, and by velocities and rates. Empty where the formula has no measures.
+  std::array<double, most_variables> by_variable{};  ///< derivatives by the component's own variables
+  /// Derivatives through measures, over the component's local layout: by positions, amplitudes, first-order unknowns
+  /// and multipliers, and by velocities and rates. They are empty if the formula has no measures.
   MeasureGradient by_state;
 };
 
 class StateFormula {
  public:
-  StateFormula() = default;  ///< zero
+  StateFormula() = default;  ///< the formula 0
   explicit StateFormula(double constant) : expression_(constant) {}
-  /// @param expression  of `own` variables, and of the measures
-  /// @param measures    with their numbers among the references of the component that owns the formula
+  /// @param expression  expression of `own` variables, and of the measures
+  /// @param measures    measures with their numbers among the references of the component that owns the formula
   struct Argument {
     const Measure* measure;
     int reference;
@@ -42,16 +43,17 @@ class StateFormula {
   bool reads_state() const { return !measures_.empty(); }
   bool reads_reactions() const;
   bool uses(std::size_t variable) const { return variable < own_ && expression_.uses(variable); }
-  /// Whether its value changes with time while the state stays: by its own variable t, or by a measure.
+  /// Whether its value changes with time at a constant state: through its own variable t, or through a measure.
   /// @param time  number of t among its own variables
   bool holds_time(std::size_t time = 0) const;
   bool is_constant() const { return expression_.is_constant(); }
-  const std::string& text() const { return expression_.text(); }  ///< as the user wrote it
+  const std::string& text() const { return expression_.text(); }  ///< text as the user wrote it
 
-  /// @param state  of the component that owns the formula @param variables  its own, in the order of the reader
+  /// @param state  state of the component that owns the formula @param variables  values of its own variables, in the
+  ///               order of the reader
   double value(const LocalState& state, std::span<const double> variables) const;
   void calc(const LocalState& state, std::span<const double> variables, FormulaGradient& gradient) const;
-  /// Values of one of the own variables at which the formula may have kinks.
+  /// Adds the values of one of its own variables at which the formula may have kinks.
   void add_break_points(std::size_t variable, std::vector<double>& points) const;
 
  private:

@@ -1,4 +1,4 @@
-// The one formula of time of a component, as TimeDependent has them.
+// Returns the only formula of time of a component, as TimeDependent requires.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace bielle::mechanism {
 
-/// Nothing where it does not hold t. @param formula  of t and measures
+/// The list is empty if the formula does not contain t. @param formula  formula of t and measures
 inline std::vector<TimeDependent::Formula> time_formulas_of(const StateFormula& formula, std::string name,
                                                             std::string units) {
   if (!formula.holds_time()) return {};

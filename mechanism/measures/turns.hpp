@@ -8,13 +8,14 @@
 
 namespace bielle::mechanism {
 
-/// `angle` plus the whole turns that bring it nearest to `previous`.
+/// Returns `angle` plus the whole turns that bring it closest to `previous`.
 double unwrap_angle(double angle, double previous);
 
-/// An angle with the number of whole turns predicted from the last accepted step and the rates, so that a step may turn
-/// by more than half a turn. Before the first step (`time_before` is NaN): as far as statics have brought what starts
-/// elsewhere than drawn.
-/// @param principal  in (-pi, pi], with its rate   @param before  the counted angle and rate of the last accepted step
+/// Returns an angle with the number of whole turns predicted from the last accepted step and the rates, so that a step
+/// may rotate by more than half a turn. Before the first step (`time_before` is NaN), the prediction is the start value
+/// times the fraction of motions applied by statics.
+/// @param principal  angle in (-pi, pi], with its rate   @param before  the counted angle and rate of the last accepted
+///                   step
 inline double counted_angle(const CoordinateRate& principal, const CoordinateRate& before, double time_before,
                             const LocalState& state) {
   const double expected = std::isnan(time_before)

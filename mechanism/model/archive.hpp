@@ -1,9 +1,9 @@
-// Numbers that go into a checkpoint and come back from it, by one and the same walk over what is kept:
+// An archive holds the numbers of a checkpoint. The same function writes and reads them:
 //     void exchange(Archive& archive) { archive(time_); archive(state_); ... }
 //
-// The numbers that come back are judged one by one: they may be damaged, or belong to another model. Each is finite
-// (except the memory of components, which system/check_state.hpp judges), whole and within its range where it counts or
-// chooses, and every list has the length that it has here.
+// Each number that is read is checked, because a checkpoint may be damaged or belong to another model. Each must be
+// finite (except the memory of components, which system/check_state.hpp checks); a count or a choice must be a whole
+// number within its range; every list must have the length that it has here.
 #pragma once
 
 #include <cmath>
@@ -20,42 +20,42 @@ namespace bielle::mechanism {
 
 class Archive {
  public:
-  Archive() = default;  ///< to collect
-  /// To restore. @param values  as collected
+  Archive() = default;  ///< an archive that collects numbers
+  /// Constructs an archive that restores numbers. @param values  the numbers that were collected
   explicit Archive(std::vector<double> values) : values_(std::move(values)), restoring_(true) {}
 
   bool restoring() const { return restoring_; }
   const std::vector<double>& values() const { return values_; }
 
-  bool exhausted() const { return next_ == values_.size(); }  ///< when restoring: all has been asked for
+  bool exhausted() const { return next_ == values_.size(); }  ///< when restoring: every number has been read
 
-  /// All of these: @throws std::out_of_range with a sentence when the number that comes back is none of its kind, or
-  /// there are fewer than are asked for
+  /// All of these: @throws std::out_of_range with a sentence if the number that is read is not of the kind asked for,
+  /// or if too few are left
   void operator()(double& value) {
     exchange(value);
     if (restoring_ && !std::isfinite(value)) refuse("is not finite");
   }
-  /// Counts are exact up to 2^53.
+  /// Whole numbers are exact up to 2^53.
   void operator()(long& value) { whole(value, -most_exact, most_exact); }
   void operator()(int& value) { whole(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()); }
   void operator()(bool& value) { whole(value, 0, 1); }
-  /// A whole number within a range, both ends included.
+  /// Exchanges a whole number within a range, both ends included.
   template <class Number>
   void within(Number& value, double least, double most) {
     whole(value, least, most);
   }
-  /// A size that may be infinite: what nothing was measured by.
+  /// Exchanges a size >= 0, which may be infinite.
   void size_or_infinite(double& value) {
     exchange(value);
     if (restoring_ && !(value >= 0)) refuse("is no size");
   }
-  /// A number that is shown and nothing else.
+  /// Exchanges a number that is only displayed: it is not checked.
   void shown(double& value) { exchange(value); }
   void operator()(VectorX& vector) {
     check_length(static_cast<std::size_t>(vector.size()));
     for (double& value : vector) (*this)(value);
   }
-  /// A list of a length that is not known here.
+  /// Exchanges a list whose length is not known here.
   void of_any_length(VectorX& vector) {
     vector.resize(static_cast<Eigen::Index>(length(static_cast<std::size_t>(vector.size()))));
     for (double& value : vector) (*this)(value);
@@ -82,7 +82,7 @@ class Archive {
     check_length(static_cast<std::size_t>(state.memory.size()));
     for (double& value : state.memory) exchange(value);
     flags(state.idle, static_cast<std::size_t>(state.multiplier.size()));
-    // As many numbers whether there are such reactions or not: checkpoints are rows of one length.
+    // The archive has the same length whether such reactions exist or not: checkpoints are rows of one length.
     bool balanced = state.reaction.size() > 0;
     (*this)(balanced);
     VectorX reaction = balanced && !restoring() ? state.reaction : VectorX(VectorX::Zero(state.multiplier.size()));
@@ -123,7 +123,7 @@ class Archive {
   void check_length(std::size_t now) {
     if (length(now) != now) refuse("is not the length of the list there");
   }
-  /// One for each constraint, or none at all. (system/idle_constraints.hpp)
+  /// A list has one flag for each constraint, or is empty. (system/idle_constraints.hpp)
   void flags(std::vector<char>& flags, std::size_t count) {
     flags.resize(length(flags.size()));
     if (restoring_ && !flags.empty() && flags.size() != count) refuse("is not the number of constraints");

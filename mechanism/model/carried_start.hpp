@@ -1,4 +1,5 @@
-// The wish that a motion begins rigidly: a joint carries all that is behind it, by its coordinates' rates at the start.
+// A request that a motion begins rigidly: a joint carries all bodies behind it at the start, with the rates of its
+// coordinates.
 //
 // It adds nothing to the equations. Solvers find it among the members of a model, and know the joint as a component
 // with start coordinates (model/start_condition.hpp).
@@ -10,7 +11,7 @@ namespace bielle::mechanism {
 
 class CarriedStart final : public Component {
  public:
-  /// @param joint  of two nodes; it must outlive this
+  /// @param joint  a joint of two nodes; it must outlive this object
   explicit CarriedStart(const Component& joint) : Component("carried start", joint.name()), joint_(joint) {}
   const Component& joint() const { return joint_; }
   void declare(Declaration& declaration) const override { declaration.passive = true; }

@@ -1,6 +1,7 @@
-// What a component gathers over all accepted steps of an analysis, whether they are recorded or not: largest values.
+// A gatherer collects data of a component over all accepted steps of an analysis, whether they are recorded or not:
+// largest values.
 //
-// A gatherer is not const as components are: a session makes its own, and tells it of each step once.
+// Unlike components, a gatherer is not const: a session creates its own, and passes each step to it once.
 #pragma once
 
 #include <string>
@@ -18,25 +19,27 @@ class Gatherer {
   Gatherer(const Gatherer&) = delete;
   Gatherer& operator=(const Gatherer&) = delete;
 
-  virtual void begin() = 0;  ///< an analysis begins: forgets the one before
-  /// A step of a motion or a point of statics was accepted, or a motion starts here.
+  virtual void begin() = 0;  ///< begins an analysis: clears the data of the one before
+  /// Adds an accepted step of a motion, a point of statics, or the start of a motion.
   virtual void add(const LocalState& state) = 0;
-  /// What it has so far. As many numbers at any time, and the same whether a run was interrupted or not.
+  /// Exchanges the data gathered so far with an archive. The number of values is the same at any time, and the values
+  /// do not depend on whether a run was interrupted.
   virtual void exchange(Archive& archive) = 0;
-  /// What it has found. Its arrays belong into the group of the analysis.
+  /// Returns the results. The arrays are written to the group of the analysis.
   virtual std::vector<ResultArray> results() = 0;
-  /// Names of all datasets that `results` may give, known from the beginning.
+  /// Names of all datasets that `results` may return, known from the beginning.
   virtual std::vector<std::string> datasets() {
     std::vector<std::string> names;
     for (const ResultArray& array : results()) names.push_back(array.dataset);
     return names;
   }
-  virtual std::string summary() = 0;  ///< the same in lines for the user; each ends with a line break
-  /// Among gatherers with the same voice (the elements of a beam) the loudest alone has a summary. A gatherer with an
-  /// empty voice speaks for itself.
+  virtual std::string summary() = 0;  ///< the results as lines for the user; each ends with a line break
+  /// Only the loudest of several gatherers with the same voice (the elements of a beam) writes a summary. A gatherer
+  /// with an empty voice always writes its own.
   virtual std::string voice() const { return {}; }
   virtual double loudness() const { return 0; }
-  /// What it gathers, of whom: "peaks of 'rod': von_mises". Only with the same can a run go on.
+  /// The gathered quantity and its component: "peaks of 'rod': von_mises". A run can only be continued if it is the
+  /// same.
   virtual std::string what() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// Several gatherers of one component as one.
+// Combines several gatherers of one component into one.
 #pragma once
 
 #include <memory>

@@ -1,8 +1,8 @@
-// What a component adds its derivatives to: local matrices K, C, M, whatever stores them.
+// The local matrices K, C, M to which a component adds its derivatives, independent of how they are stored.
 //
-// A local matrix takes blocks. What stores them is either a dense matrix of the component's own size, or the sparse
-// matrix of the whole: then each block is weighted and goes straight to its place. A component that gathers its entries
-// from many points asks for the whole dense matrix in place of writing blocks; one that never does says so
+// A local matrix takes blocks. They are stored either in a dense matrix of the component's own size, or in the global
+// sparse matrix: then each block is weighted and added directly to its place. A component that gathers its entries from
+// many points requests the whole dense matrix instead of writing blocks; a component that never does declares it
 // (Declaration::in_blocks) and is then given sparse targets.
 #pragma once
 
@@ -15,28 +15,29 @@
 
 namespace bielle::mechanism {
 
-/// Where a component's local entries stand among the values of a sparse matrix.
+/// Places of a component's local entries among the values of a sparse matrix.
 struct SparsePlaces {
-  int size = 0;            ///< of the local matrix
+  int size = 0;            ///< size of the local matrix
   int multiplier_row = 0;  ///< first local row of constraints
-  std::vector<int> place;  ///< (size x size), by columns; -1 where an entry is dropped
-  /// Of each local column that begins the three rotations of a free node, that node; else -1.
+  std::vector<int> place;  ///< place of each entry (size x size), by columns; -1 if the entry is dropped
+  /// For each local column that begins the three rotations of a free node, that node; otherwise -1.
   std::vector<int> turned_node;
 };
 
 class LocalMatrix {
  public:
-  /// Blocks are added to a dense matrix, as they are.
-  /// @param blocks_only  the component has declared that it asks for no dense matrix: it is held to it
+  /// Constructs a matrix whose blocks are added unchanged to a dense matrix.
+  /// @param blocks_only  the component has declared that it requests no dense matrix: a request throws
   explicit LocalMatrix(Eigen::Ref<MatrixX> dense, bool blocks_only = false)
       : values_(dense.data()),
         stride_(dense.outerStride()),
         rows_(dense.rows()),
         columns_(dense.cols()),
         blocks_only_(blocks_only) {}
-  /// Blocks are weighted and added to the values of a sparse matrix: rows and columns of constraints by `constraint`,
-  /// the others by `weight`; columns of rotations are multiplied by the T of their node before.
-  /// @param turns  T of each node, or nullptr: they stay
+  /// Constructs a matrix whose blocks are weighted and added to the values of a sparse matrix: rows and columns of
+  /// constraints by `constraint`, the others by `weight`; columns of rotations are first multiplied by the T of their
+  /// node.
+  /// @param turns  T of each node, or nullptr: columns of rotations are not multiplied
   LocalMatrix(const SparsePlaces& places, double* values, double weight, double constraint, const Matrix3* turns)
       : values_(values),
         places_(&places),
@@ -45,18 +46,18 @@ class LocalMatrix {
         turns_(turns),
         blocks_only_(true) {}
 
-  /// A view, which blocks of it may outlive (those of an Eigen::Ref may not).
+  /// A map, whose blocks may outlive it (those of an Eigen::Ref may not).
   using Dense = Eigen::Map<MatrixX, 0, Eigen::OuterStride<>>;
-  /// The whole matrix, to add to. Asked for once, before the loops over points.
-  /// @throws std::logic_error  where the component declares `in_blocks`
+  /// Returns the whole matrix, to add to. It is requested once, before the loops over points.
+  /// @throws std::logic_error if the component declares `in_blocks`
   Dense dense() {
     if (blocks_only_) throw std::logic_error("a component that declares in_blocks asks for a dense matrix");
     return {values_, rows_, columns_, Eigen::OuterStride<>(stride_)};
   }
 
-  /// Adds a block of one or three rows and columns: directions of a node, or of constraints. Three columns begin where
-  /// a node's displacements or rotations do; a single column is none of a rotation. All of the block's entries belong
-  /// to the component's pattern, or none.
+  /// Adds a block of one or three rows and columns: directions of a node, or of constraints. Three columns begin at a
+  /// node's displacements or rotations; a single column must not be a rotation. Either all of the block's entries
+  /// belong to the component's pattern, or none does.
   template <int rows, int columns>
   void add(int row, int column, const Eigen::Matrix<double, rows, columns, rows == 1 && columns != 1>& block) {
     static_assert((rows == 1 || rows == 3) && (columns == 1 || columns == 3));
@@ -76,7 +77,7 @@ class LocalMatrix {
   void add(int row, int column, const Matrix3& block) { add<3, 3>(row, column, block); }
   void add_row(int row, int column, const Vector3& entries) { add<1, 3>(row, column, entries.transpose()); }
   void add_column(int row, int column, const Vector3& entries) { add<3, 1>(row, column, entries); }
-  /// `value` times the identity. @param column  where displacements or constraints begin: no rotations
+  /// Adds `value` times the identity. @param column  first column of displacements or constraints, not of rotations
   void add_identity(int row, int column, double value) {
     const double weighted = places_ ? weight_of(row, column) * value : value;
     for (int k = 0; k < 3; ++k) add_entry(row + k, column + k, weighted);
@@ -107,13 +108,13 @@ class LocalMatrix {
 
   double* values_;
   const SparsePlaces* places_ = nullptr;
-  Eigen::Index stride_ = 0, rows_ = 0, columns_ = 0;  ///< of a dense matrix
+  Eigen::Index stride_ = 0, rows_ = 0, columns_ = 0;  ///< layout of a dense matrix
   double weight_ = 1, constraint_ = 1;
   const Matrix3* turns_ = nullptr;
   bool blocks_only_;
 };
 
-/// Local matrices to add to. Only those asked for (and declared) are written; all are zero on entry.
+/// Local matrices that a component adds to. Only those requested (and declared) are written; all are zero on entry.
 struct LocalTangent {
   LocalMatrix K;  ///< d r / d(q, y, lambda) at fixed rates; unsymmetric in moment rows off equilibrium
   LocalMatrix C;  ///< d r / d(v, ydot)
@@ -133,7 +134,7 @@ class LocalPattern {
   void add_diagonal(int row, int column, int count = 3) {
     for (int k = 0; k < count; ++k) entries_(row + k, column + k) = lasting;
   }
-  /// Entries that are zero most of the time (of bodies that may touch): solvers leave them out while they are zero.
+  /// Adds entries that are zero most of the time (bodies that may touch): solvers omit them while they are zero.
   void add_passing_block(int row, int column, int rows = 3, int columns = 3) {
     entries_.block(row, column, rows, columns) = entries_.block(row, column, rows, columns).max(passing);
     has_passing_ = true;

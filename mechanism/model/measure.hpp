@@ -1,8 +1,8 @@
 // Measures: named scalar functions of the state. Forces, controllers, events and results use them.
 //
-// A measure is a component that adds nothing to the equations. What it is a function of it declares as every component
-// does: nodes, or references to the components whose unknowns it reads. Who uses a measure refers to it, and finds its
-// gradient in its own local layout from Slots::reference_row on.
+// A measure is a component that adds nothing to the equations. It declares its arguments as every component does:
+// nodes, or references to the components whose unknowns it reads. A component that uses a measure refers to it, and
+// finds its gradient in its own local layout from Slots::reference_row on.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@
 
 namespace bielle::mechanism {
 
-/// Derivatives of a measure over its local layout. Reused from call to call: takes memory only when it grows.
+/// Derivatives of a measure over its local layout. The object is reused from call to call: it allocates memory only
+/// when it grows.
 class MeasureGradient {
  public:
   void prepare(int size) {
@@ -21,7 +22,7 @@ class MeasureGradient {
   }
   using Map = Eigen::Map<VectorX>;
   Map position() { return {position_.data(), size_}; }  ///< by positions, amplitudes, first-order unknowns, multipliers
-  Map rate() { return {rate_.data(), size_}; }          ///< by velocities and rates
+  Map rate() { return {rate_.data(), size_}; }          ///< by node velocities and rates of scalars
 
  private:
   int size_ = 0;
@@ -30,14 +31,14 @@ class MeasureGradient {
 
 class Measure : public Component {
  public:
-  /// @param name  as in the results and in messages: "main.angle"
+  /// @param name  name as in the results and in messages: "main.angle"
   explicit Measure(std::string name) : Component("measure", std::move(name)) {}
 
   virtual std::string units() const = 0;
   virtual double value(const LocalState& state) const = 0;
-  /// @param gradient  is prepared for the measure's size here
+  /// @param gradient  resized to the measure's size and zeroed by this function
   virtual double calc(const LocalState& state, MeasureGradient& gradient) const = 0;
-  /// Depends on multipliers.
+  /// Whether the measure depends on multipliers.
   virtual bool reads_reactions() const { return false; }
 
   void declare(Declaration& declaration) const final {
@@ -50,7 +51,7 @@ class Measure : public Component {
   void write_output(const LocalState& state, double* values) const final { *values = value(state); }
 
  protected:
-  /// Nodes or references.
+  /// Declares the nodes or references.
   virtual void declare_subjects(Declaration& declaration) const = 0;
 };
 

@@ -80,7 +80,7 @@ void Model::connect() {
     stage.clear();
   }
   for (std::size_t k = 0; k < announced_.size(); ++k) {
-    const std::string name = announced_[k].name;  // making one may announce others
+    const std::string name = announced_[k].name;  // creating a measure may announce others
     find_measure(name);
   }
   announced_.clear();

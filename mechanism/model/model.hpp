@@ -1,4 +1,5 @@
-// A mechanism as described, before it is numbered: named nodes and components. Readers of input files fill it.
+// A mechanism as described, before its unknowns are numbered: named nodes and components. The readers of input files
+// build it.
 #pragma once
 
 #include <array>
@@ -20,32 +21,32 @@
 
 namespace bielle::mechanism {
 
-/// How a direction of a node (x y z rx ry rz) moves.
+/// Motion of a direction of a node (x y z rx ry rz).
 enum class Freedom { free, fixed, prescribed };
 
-/// A node: start values and how it is held.
+/// A node: start values, and supports of its directions.
 struct Node {
   std::string name;
   Frame frame;                                 ///< start position and axes (node -> inertial)
-  Vector3 velocity = Vector3::Zero();          ///< start [m/s], inertial
-  Vector3 angular_velocity = Vector3::Zero();  ///< start [rad/s], node axes
+  Vector3 velocity = Vector3::Zero();          ///< start velocity [m/s], inertial
+  Vector3 angular_velocity = Vector3::Zero();  ///< start angular velocity [rad/s], node axes
   std::array<Freedom, 6> freedom{};
   /// Prescribed translations are displacements added to the start position [m]; prescribed rotations the components of
   /// a rotation vector [rad] about inertial axes, applied to the start axes: R = exp(psi(t)) R_start.
   std::array<PrescribedMotion, 6> motion;
-  std::optional<int> carrier;  ///< rigidly carried by this node, at the relative position of the start
-  bool internal = false;       ///< made by an element (inside of a beam): recorded with it, not under /nodes
+  std::optional<int> carrier;  ///< node that carries this one rigidly, at the relative position of the start
+  bool internal = false;       ///< created by an element (inside of a beam): recorded with it, not under /nodes
 };
 
-/// How a component's results stand under the name of an entry: not at all, as its own, or as those of one of several
-/// alike, whose records form an array (elements of a beam).
+/// How the results of a component are stored under the name of an entry: not at all, alone, or as one row of an array
+/// over several similar components (elements of a beam).
 enum class Recorded { no, alone, stacked };
 
-/// A component with its identity and the place of its results.
+/// A component with its identity and the path of its results.
 struct Member {
   std::unique_ptr<Component> component;
-  Entry entry;    ///< that it was made of
-  Entry results;  ///< under whose name its results stand: the entry, or the joint that a drive acts in
+  Entry entry;    ///< entry that it was created from
+  Entry results;  ///< entry under whose name its results are stored: its own, or the joint that a drive acts in
   Recorded recorded = Recorded::alone;
 };
 
@@ -57,64 +58,68 @@ struct Chain {
 
 class Model {
  public:
-  Model();  ///< holds the built-in fixed node `ground` (index 0) at the origin
+  Model();  ///< contains the built-in fixed node `ground` (index 0) at the origin
 
-  int add_node(Node node);  ///< @throws InputError when the name is taken
+  int add_node(Node node);  ///< @throws InputError if the name is taken
   const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
   Node& node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
   const std::vector<Node>& nodes() const { return nodes_; }
   std::optional<int> find_node(const std::string& name) const;
 
-  /// Adds a component that is made of an entry. Several may be made of one (the joint first, then its springs).
+  /// Adds a component that is created from an entry. Several components may be created from one entry (the joint first,
+  /// then its springs).
   Component& add(std::unique_ptr<Component> component, const Entry& entry, Recorded recorded = Recorded::alone);
-  /// Adds one that acts in another entry and records its results there (a drive in its joint).
+  /// Adds a component that acts in another entry and records its results there (a drive in its joint).
   Component& add_within(std::unique_ptr<Component> component, const Entry& entry, const Entry& within);
   void add_chain(const Entry& entry, std::vector<int> nodes) { chains_.push_back({entry, std::move(nodes)}); }
   const std::vector<Member>& members() const { return members_; }
   const std::vector<Chain>& chains() const { return chains_; }
-  /// Names of entries that members are made of, in the order of the file, each once.
+  /// Names of the entries that members are created from, in the order of the file, each once.
   const std::vector<std::string>& names_in(Section section) const { return names_[static_cast<std::size_t>(section)]; }
-  /// Numbers of the members that are made of an entry or act in it, in the order of the file; empty: there is none.
+  /// Numbers of the members that are created from an entry or act in it, in the order of the file; empty if there are
+  /// none.
   const std::vector<std::size_t>& members_of(const Entry& entry) const;
-  /// The same as components.
+  /// Returns the components of these members.
   std::vector<Component*> components_of(const Entry& entry) const;
 
-  /// The components of the element, the joint and the part of the hydraulics of a name, with those that act in them.
+  /// The components of the element, the joint and the hydraulic part with this name, and those that act in them.
   std::vector<Component*> components_named(const std::string& name) const;
 
-  /// What entries of the input file need of others is looked up when all of them are read: first what components are
-  /// made of others, then formulas and measures.
+  /// Registers an action that needs other entries of the input file. Actions run after all entries have been read:
+  /// first those that connect components, then those that read formulas and measures.
   enum class Stage { connections, formulas };
   void when_read(Stage stage, std::function<void()> action);
-  /// All entries are read: does what waits. @throws what it throws
+  /// Call after all entries have been read; runs the deferred actions. @throws the exceptions of the actions
   void connect();
 
-  /// A measure that the user has named: made when somebody asks for it, at the latest by connect().
+  /// Announces a measure that the user has named: it is created when it is first needed, at the latest by connect().
   void announce_measure(const std::string& name, std::function<void()> make);
-  /// @param recorded  among the results, under its name
+  /// @param recorded  whether it is recorded among the results, under its name
   Measure& add_measure(std::unique_ptr<Measure> measure, bool recorded);
-  /// One that belongs to an entry of another section (a state), and stands among the results of measures.
+  /// Adds a measure that belongs to an entry of another section (a state), and is recorded among the results of
+  /// measures.
   Measure& add_measure_of(const Entry& entry, std::unique_ptr<Measure> measure, bool recorded);
-  /// A measure by its name, made now if it is announced, or nullptr. @throws InputError when it is being made already
+  /// Returns a measure by its name, created now if it is announced, or nullptr. @throws InputError if it is already
+  /// being created
   const Measure* find_measure(const std::string& name);
   /// Whether entries that are still being read may use a measure of this name.
   bool announces_measure(const std::string& name) const { return announced_index_.contains(name); }
-  /// Their names, sorted.
+  /// Names of the announced measures, sorted.
   std::vector<std::string> announced_measures() const;
 
-  /// What the start of the first analysis has to satisfy besides the constraints.
+  /// Adds a condition that the start of the first analysis has to satisfy, in addition to the constraints.
   void add_start_condition(StartCondition condition) { start_conditions_.push_back(condition); }
   const std::vector<StartCondition>& start_conditions() const { return start_conditions_; }
 
-  /// Takes a node, joint or element out of what is recorded.
+  /// Excludes a node, joint or element from the recorded results.
   void leave_out(const Entry& entry) { left_out_.insert(entry); }
   bool records(const Entry& entry) const { return !left_out_.contains(entry); }
 
   Environment environment;  ///< gravity with load factor 1
   std::string title;
-  Parameters parameters;  ///< of the input file, overrides included
-  /// The source holds the values that nodes and components were read from: each by the path of its key,
-  /// "joints.main.stops.damping", as YamlValue::digest gives it. It is empty if the model was made otherwise.
+  Parameters parameters;  ///< parameters of the input file, overrides included
+  /// The values that nodes and components were read from, each with the path of its key, "joints.main.stops.damping",
+  /// as YamlValue::digest gives it. The list is empty if the model was not read from a file.
   std::vector<std::pair<std::string, std::string>> source;
 
  private:
@@ -124,11 +129,11 @@ class Model {
 
   std::vector<Member> members_;
   std::map<Entry, std::vector<std::size_t>> members_of_;
-  std::array<std::vector<std::string>, section_count> names_;  ///< by section
+  std::array<std::vector<std::string>, section_count> names_;  ///< names of entries, by section
   std::vector<Chain> chains_;
   std::set<Entry> left_out_;
   std::vector<StartCondition> start_conditions_;
-  std::array<std::vector<std::function<void()>>, 2> waiting_;  ///< by stage
+  std::array<std::vector<std::function<void()>>, 2> waiting_;  ///< deferred actions, by stage
   struct AnnouncedMeasure {
     std::string name;
     std::function<void()> make;
@@ -139,7 +144,7 @@ class Model {
   std::map<std::string, const Measure*> measures_;
 };
 
-/// The same model with another value of one of its parameters. @throws InputError
+/// Creates the same model with another value of one of its parameters. @throws InputError
 using ModelMaker = std::function<Model(const std::string& parameter, double value)>;
 
 }  // namespace bielle::mechanism

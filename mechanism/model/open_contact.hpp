@@ -1,5 +1,5 @@
-// What bears only where it touches, and says what does not: a static analysis that finds nothing to hold a part tells
-// it.
+// Interface of contacts that can describe whether they are open: a static analysis that finds an unsupported part
+// includes it in its message.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace bielle::mechanism {
 class OpenContact {
  public:
   virtual ~OpenContact() = default;
-  /// A clause on what is open, or nothing where all of it touches: "is open by 0.01 m".
+  /// Returns a clause on the open part, or empty if the whole contact touches: "is open by 0.01 m".
   virtual std::string what_is_open(const LocalState& state) const = 0;
 
  protected:

@@ -13,13 +13,14 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Velocity and displacement.
+/// Velocity and displacement, with the range of the sampled acceleration.
 struct Travel {
   double velocity = 0, displacement = 0;
-  double lowest = 0, highest = 0;  ///< acceleration of those that were looked at
+  double lowest = 0, highest = 0;  ///< smallest and largest sampled acceleration
 };
 
-/// What an acceleration adds over [from, to]: integrals of a and of (to - s) a, by five points (exact to degree nine).
+/// Changes due to an acceleration over [from, to]: integrals of a and of (to - s) a, by five points (exact to degree
+/// nine).
 Travel gained(const Expression& acceleration, double from, double to) {
   static constexpr std::array<double, 5> point{-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
                                                0.9061798459386640};
@@ -41,7 +42,8 @@ Travel gained(const Expression& acceleration, double from, double to) {
 
 }  // namespace
 
-/// The pieces so far: made from 0 on as far as they are asked for, in one order whoever asks first.
+/// The pieces computed so far: created from 0 up to the largest time requested, in an order that does not depend on the
+/// caller.
 class PrescribedMotion::Integral {
  public:
   Integral(const Expression& acceleration, double velocity, double displacement)
@@ -74,7 +76,7 @@ class PrescribedMotion::Integral {
             piece.start.displacement + piece.start.velocity * (t - piece.begin) + more.displacement};
   }
 
-  /// One more piece.
+  /// Adds one more piece.
   void extend() {
     const double begin = end_;
     constexpr std::size_t most = 10'000'000;
@@ -92,14 +94,14 @@ class PrescribedMotion::Integral {
     end_ = next != breaks_.end() && begin + width >= *next ? *next : begin + width;
   }
 
-  /// Whether halves agree with the whole.
+  /// Whether the sum of both halves agrees with the whole piece.
   bool settled(double begin, double width) const {
     const double middle = begin + 0.5 * width, end = begin + width;
     const Travel whole = gained(acceleration_, begin, end), first = gained(acceleration_, begin, middle),
                  second = gained(acceleration_, middle, end);
     const double lowest = std::min(first.lowest, second.lowest), highest = std::max(first.highest, second.highest);
     const double size = std::max(std::abs(lowest), std::abs(highest)) * width;
-    // Times are rounded, and so is what the acceleration is there.
+    // Times are rounded, and therefore the acceleration at them.
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * end * (highest - lowest);
     return std::abs(first.velocity + second.velocity - whole.velocity) <= 1e-13 * size + rounding;
   }

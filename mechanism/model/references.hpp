@@ -1,4 +1,4 @@
-// The components that a component refers to, numbered as it declares them.
+// The components that a component refers to, numbered in the order of its declaration.
 #pragma once
 
 #include <algorithm>

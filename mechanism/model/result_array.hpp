@@ -1,4 +1,4 @@
-// A result that is no row over time.
+// A result that is not a row over time.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace bielle::mechanism {
 
-/// Frequencies, modes, matrices, peaks.
+/// Examples: frequencies, modes, matrices, peaks.
 struct ResultArray {
   std::string dataset;             ///< relative to the analysis's group: "eigen/frequency"
   std::vector<std::size_t> shape;  ///< {} for a number
@@ -15,9 +15,9 @@ struct ResultArray {
   std::string units, description;
 };
 
-/// Names that go with them.
+/// Names of the entries of an array.
 struct ResultNames {
-  std::string dataset;  ///< as above
+  std::string dataset;  ///< relative to the analysis's group
   std::vector<std::string> names;
 };
 

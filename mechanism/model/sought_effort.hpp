@@ -1,5 +1,4 @@
-// Forces and torques that an analysis is to find, and the supports that they take the place of: what solvers need to
-// know of them.
+// Forces and torques that an analysis determines, and the supports that they replace: the interface for solvers.
 #pragma once
 
 #include <string>
@@ -9,14 +8,14 @@
 
 namespace bielle::mechanism {
 
-/// A force or torque whose value stands in the component's memory, and which solvers set: the component adds it to the
+/// A force or torque whose value is stored in the component's memory and set by solvers: the component adds it to the
 /// equations, linearly.
 class SoughtEffort {
  public:
   struct Sought {
-    int place = 0;             ///< of the value in the component's memory
-    bool turns = false;        ///< it is a torque
-    std::vector<int> moves{};  ///< nodes that it is to move in place of their supports; empty: all that have a `motion`
+    int place = 0;             ///< index of the value in the component's memory
+    bool turns = false;        ///< whether it is a torque
+    std::vector<int> moves{};  ///< nodes that it moves instead of their supports; empty: all that have a `motion`
     std::string name{};        ///< "the torque on angle of joint 'shoulder'"
   };
   virtual ~SoughtEffort() = default;
@@ -28,7 +27,7 @@ class SoughtEffort {
   SoughtEffort& operator=(const SoughtEffort&) = default;
 };
 
-/// A support holds or moves a node, and tells with which force.
+/// A support holds or moves a node, and computes its reaction.
 class NodeSupport {
  public:
   virtual ~NodeSupport() = default;

@@ -1,8 +1,8 @@
-// What the input file says of where a motion starts, besides positions and velocities of nodes: values and rates of
-// coordinates of components (of joints).
+// Start conditions of the input file besides positions and velocities of nodes: values and rates of coordinates of
+// components (of joints).
 //
-// They hold where the first analysis starts, and are no constraints after that. Solvers know a coordinate by its
-// component and number alone (Component::start_coordinates, Component::calc_start_coordinate).
+// They hold at the start of the first analysis, and are no constraints after that. Solvers identify a coordinate by its
+// component and index only (Component::start_coordinates, Component::calc_start_coordinate).
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,19 @@ class Component;
 
 /// A coordinate of a component by which a start can be described.
 struct StartCoordinate {
-  std::string name;   ///< "angle"
+  std::string name;   ///< name: "angle"
   std::string units;  ///< "m" or "rad"
   std::string rate_units;
-  bool turns = false;  ///< values that differ by whole turns are the same place
+  bool turns = false;  ///< values that differ by whole turns are the same position
 };
 
-/// A coordinate at a state.
+/// Value of a coordinate at a state.
 struct StartCoordinateValue {
-  double value = 0;  ///< an angle in (-pi, pi]
+  double value = 0;  ///< value; an angle is in (-pi, pi]
   double rate = 0;
 };
 
-/// What is asked of a coordinate.
+/// The required value or rate of a coordinate.
 struct StartCondition {
   const Component* component = nullptr;
   std::size_t coordinate = 0;

@@ -1,4 +1,4 @@
-// Components whose formulas hold the time: solvers look at them between the ends of a step.
+// Interface of components whose formulas depend explicitly on time: solvers evaluate them between the ends of a step.
 #pragma once
 
 #include <span>
@@ -12,27 +12,28 @@ namespace bielle::mechanism {
 class TimeDependent {
  public:
   virtual ~TimeDependent() = default;
-  /// The part that a formula has in the equations.
+  /// The role of a formula in the equations.
   enum class Part {
-    force,     ///< in a residual: forces, flows, rates of states, given pressures
+    force,     ///< part of a residual: forces, flows, rates of states, given pressures
     position,  ///< it prescribes a position [m] or [rad]
-    rate       ///< it prescribes the rate of one
+    rate       ///< it prescribes the rate of a position
   };
   struct Formula {
-    std::string name;   ///< among those of the component: "force x"
-    std::string units;  ///< of its value: "N"; empty where they are unknown
+    std::string name;   ///< name among the component's formulas: "force x"
+    std::string units;  ///< units of its value: "N"; empty if unknown
     Part part = Part::force;
-    bool turns = false;  ///< a position in rad, or the rate of one
+    bool turns = false;  ///< whether it is a position in rad, or the rate of one
   };
-  /// Those that hold t, by themselves or by measures, in the order of `calc_time_formulas`.
+  /// The formulas that contain t, directly or through measures, in the order of `calc_time_formulas`.
   virtual std::vector<Formula> time_formulas() const = 0;
-  /// Their values at the state's time; zero where they have no effect any more.
-  /// @param state   of the component
-  /// @param values  as many as there are formulas
+  /// Values of these formulas at the state's time; zero if they have no effect any more.
+  /// @param state   state of the component
+  /// @param values  one value for each formula
   virtual void calc_time_formulas(const LocalState& state, std::span<double> values) const = 0;
 };
 
-/// Measures whose formulas may hold the time: formulas that read them hold it, too.
+/// Interface of measures whose formulas may contain the time: formulas that read such a measure then depend on time,
+/// too.
 class TimedMeasure {
  public:
   virtual ~TimedMeasure() = default;

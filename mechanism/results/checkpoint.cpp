@@ -19,7 +19,7 @@ namespace {
 
 const std::string root = "/checkpoints";
 
-/// Sums have 52 bits.
+/// Checksums have 52 bits.
 constexpr double most_of_sums = 4503599627370495;
 
 std::string analysis_name(int analysis) { return fmt::format("/analysis_{}", analysis); }
@@ -36,7 +36,7 @@ void for_each_dataset(const Hdf5File& file, const std::string& group,
   }
 }
 
-/// The first thing of a model that differs between two fingerprints: "rigid_body 'rod'".
+/// Returns the first difference between two fingerprints: "rigid_body 'rod'".
 std::string difference(const std::string& one, const std::string& other) {
   std::istringstream lines(one), other_lines(other);
   std::string line, other_line;
@@ -50,13 +50,13 @@ std::string difference(const std::string& one, const std::string& other) {
   }
 }
 
-/// The component that differs by its forces, otherwise the entry that was read.
+/// Returns the component with different forces, otherwise the entry with different input.
 std::string named_difference(const std::string& wanted, const std::string& found, const std::string& entry) {
   const std::string component = found == wanted ? entry : difference(wanted, found);
   return component.find('\'') == std::string::npos && !entry.empty() ? entry : component;
 }
 
-/// @throws InputError when a checkpoint with this fingerprint and source cannot go on with the model
+/// @throws InputError if a checkpoint with this fingerprint and source cannot be continued with the model
 void check_same_model(const std::string& file, const std::string& found, const std::string& source,
                       const Model& model) {
   const std::string wanted = fingerprint(model);
@@ -82,7 +82,7 @@ void check_same_model(const std::string& file, const std::string& found, const s
       fmt::format("{}: {}: the checkpoints are damaged, and no run can go on from them", file.path(), what));
 }
 
-/// How many rows of its analysis a checkpoint counts.
+/// Returns how many rows of its analysis a checkpoint counts.
 std::size_t recorded_rows(const Hdf5File& file, int analysis, double last) {
   const std::string time = analysis_name(analysis) + "/time";
   const Shape shape = file.has(time) ? file.shape(time) : Shape{0};
@@ -93,7 +93,7 @@ std::size_t recorded_rows(const Hdf5File& file, int analysis, double last) {
   return static_cast<std::size_t>(last);
 }
 
-/// @param n  from 1
+/// @param n  number of the row, from 1
 std::vector<double> nth_state(const Hdf5File& file, const std::string& group, std::size_t n) {
   const Shape shape = file.shape(group + "/state");
   if (shape.size() != 2 || shape[0] < n)
@@ -110,7 +110,7 @@ std::int64_t sum_of(const Checkpoint& checkpoint) {
   return sum.value();
 }
 
-/// Files of before have no sums.
+/// Older files have no checksums.
 void check_sum(const Hdf5File& file, const std::string& group, std::size_t count, const Checkpoint& checkpoint) {
   if (!file.has(group + "/checksum")) return;
   const std::vector<double> sums = file.read(group + "/checksum");
@@ -118,8 +118,8 @@ void check_sum(const Hdf5File& file, const std::string& group, std::size_t count
     fail_damaged(file, group + "/state does not hold the numbers that were written");
 }
 
-/// A point at which a run was interrupted has an anchor, the point at which the run made its tangents anew
-/// (Motion::save_where_interrupted); this appends it.
+/// Appends the anchor of an interrupted run: a checkpoint of an interruption has an anchor, the checkpoint at which the
+/// run rebuilt its tangents (Motion::save_where_interrupted).
 void append_anchor(const Hdf5File& file, const std::string& group, const std::vector<double>& rows,
                    Checkpoint& checkpoint) {
   const std::vector<double>& values = checkpoint.values;
@@ -198,16 +198,16 @@ void append_checkpoint(Hdf5File& file, const Model& model, const Checkpoint& che
 void rewind_to(Hdf5File& file, const Checkpoint& checkpoint) {
   for (int k = checkpoint.analysis + 1; file.has(analysis_name(k)); ++k) file.remove(analysis_name(k));
   const std::string group = analysis_name(checkpoint.analysis);
-  // The times first: what they do not count does not exist.
+  // The times are truncated first: rows beyond them do not count.
   file.truncate_rows(group + "/time", checkpoint.rows);
   file.flush();
-  // Events are no rows over time; how many there were stands in the checkpoint (ResultsFile::exchange).
-  // What an analysis says at its end (`reaction_unique`) it will say again.
+  // Events are not rows over time; their number is stored in the checkpoint (ResultsFile::exchange).
+  // Results that an analysis writes at its end (`reaction_unique`) will be written again.
   std::vector<std::string> of_the_end;
   for_each_dataset(file, group, [&](const std::string& dataset) {
     if (file.grows(dataset)) {
       if (dataset.rfind(group + "/events/", 0) != 0) file.truncate_rows(dataset, checkpoint.rows);
-    } else if (!file.is_text(dataset)) {  // texts are names and attributes of what is recorded
+    } else if (!file.is_text(dataset)) {  // texts are names and attributes of recorded entries
       of_the_end.push_back(dataset);
     }
   });

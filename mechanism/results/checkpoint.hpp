@@ -1,8 +1,8 @@
-// Points of a results file from which a run can go on.
+// Checkpoints of a results file, from which a run can be continued.
 //
-// A results file holds, under /checkpoints/analysis_k, one row of `state` per checkpoint and, written after it, the
-// number of rows that the analysis had recorded, with a checksum of both and one of those rows: whatever happens to the
-// program, every checkpoint that `rows` counts is whole.
+// A results file contains, under /checkpoints/analysis_k, one row of `state` per checkpoint and, written after it, the
+// number of rows that the analysis had recorded, with a checksum of both and one of those rows: every checkpoint that
+// is counted in `rows` is complete, even if the program crashes.
 #pragma once
 
 #include <cstddef>
@@ -20,26 +20,26 @@ namespace bielle::mechanism {
 class Model;
 
 struct Checkpoint {
-  int analysis = 0;                           ///< 1-based, as in /analysis_1
-  std::size_t rows = 0;                       ///< of its results that were recorded
-  std::vector<double> values;                 ///< of the Archive
-  std::optional<std::int64_t> rows_sum = {};  ///< ResultsStream::sum_of_rows; nothing in files of before
+  int analysis = 0;                           ///< number of the analysis from 1, as in /analysis_1
+  std::size_t rows = 0;                       ///< number of its recorded rows
+  std::vector<double> values;                 ///< values of the Archive
+  std::optional<std::int64_t> rows_sum = {};  ///< ResultsStream::sum_of_rows; empty for older files
 };
 
-/// The fingerprint tells models apart, besides the input that they were read from (model_difference.hpp). It names, one
-/// per line, the format of a checkpoint's numbers, how many of each kind the state has, and gravity, nodes and
-/// components in their order, with the size of their forces in a probing state. A run can go on only with the same
-/// fingerprint.
+/// The fingerprint distinguishes models, in addition to the input that they were read from (model_difference.hpp). It
+/// contains, one per line, the format of a checkpoint's numbers, the number of state variables of each kind, and
+/// gravity, nodes and components in their order, with the size of their forces in a test state. A run can only be
+/// continued with the same fingerprint.
 std::string fingerprint(const Model& model);
 
 /// The last checkpoint of a results file.
-/// @throws InputError when the file holds none, or is of another model or another version of the program
+/// @throws InputError if the file contains none, or belongs to another model or another version of the program
 Checkpoint read_checkpoint(const std::string& results_path, const Model& model);
 
-/// Adds a checkpoint; all rows that it counts are in the file.
+/// Appends a checkpoint; all rows that it counts must be in the file.
 void append_checkpoint(Hdf5File& file, const Model& model, const Checkpoint& checkpoint);
 
-/// Takes out of the file what came after the checkpoint.
+/// Removes from the file everything that was written after the checkpoint.
 void rewind_to(Hdf5File& file, const Checkpoint& checkpoint);
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// The fingerprint of a model is a short description: counts, start positions, and forces in a probing state.
+// The fingerprint of a model is a short description: counts, start positions, and forces in a test state.
 #include <cmath>
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace {
 /// change.
 constexpr int format = 9;
 
-/// A little off the start, and moving: what forces depend on shows.
+/// The test state is near the start and has velocities, so that it shows the dependence of forces on them.
 State displaced(const System& system, const State& start) {
   const double length = model_length(start);
   State state = start;
@@ -38,7 +38,7 @@ State displaced(const System& system, const State& start) {
   return state;
 }
 
-/// The text describes a component's forces in short.
+/// Describes a component's forces in a short text.
 std::string forces(const Component& component, const LocalState& state) {
   VectorX r = VectorX::Zero(state.slots().size());
   try {
@@ -47,7 +47,7 @@ std::string forces(const Component& component, const LocalState& state) {
     return "refuses";
   }
   std::string text = fmt::format("{:.10g}", r.norm());
-  // Forces do not show yet which crossings are to come, and at which times something begins.
+  // Forces do not show future events and break points.
   Declaration declaration;
   component.declare(declaration);
   if (!declaration.crossings.empty()) {

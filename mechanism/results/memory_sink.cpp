@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 
 void MemorySink::begin_analysis(const std::string& type, std::size_t expected_rows) {
   analyses_.push_back({type, {}, {}, {}, {}, {}});
-  // A long run may be ended long before: what is more than this grows as it comes.
+  // A long run may end early: memory beyond this number of values is allocated when it is needed.
   constexpr std::size_t most_numbers = 1'000'000;
   const std::size_t rows = std::min(expected_rows, most_numbers / std::max<std::size_t>(rows_.size(), 1));
   analyses_.back().time.reserve(rows);

@@ -1,4 +1,4 @@
-// Keeps results in memory: for programs that have no use for a file.
+// Keeps results in memory: for programs that need no file.
 #pragma once
 
 #include <map>
@@ -13,24 +13,24 @@ namespace bielle::mechanism {
 
 class MemorySink : public ResultSink {
  public:
-  /// What one analysis recorded.
+  /// The recorded results of one analysis.
   struct Recorded {
     std::string type;
     std::vector<double> time;
-    std::vector<double> values;  ///< row after row
+    std::vector<double> values;  ///< values, row after row
     std::map<std::string, ResultArray> arrays;
     std::map<std::string, std::vector<std::string>> names;
     std::vector<Event> events;
   };
-  explicit MemorySink(const Model& model) : rows_(model) {}  ///< which must outlive this object
+  explicit MemorySink(const Model& model) : rows_(model) {}  ///< the model must outlive this object
 
   const std::vector<Recorded>& analyses() const { return analyses_; }
-  /// A dataset of an analysis, row after row, as it stands in a results file; "time" too.
-  /// @param analysis  from 0. @throws InputError when there is none of that name
+  /// Reads a dataset of an analysis, row after row, with the name that it has in a results file; "time" too.
+  /// @param analysis  number of the analysis, from 0. @throws InputError if there is no dataset with this name
   std::vector<double> read(std::size_t analysis, const std::string& dataset) const;
   std::vector<ResultsColumn> columns() const { return rows_.columns(); }
   std::optional<ResultsColumn> find(const std::string& dataset) const { return rows_.find(dataset); }
-  std::size_t row_size() const { return rows_.size(); }  ///< numbers in a row, without the time
+  std::size_t row_size() const { return rows_.size(); }  ///< number of values in a row, without the time
 
   void begin_analysis(const std::string& type, std::size_t expected_rows) override;
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,

@@ -15,9 +15,9 @@
 namespace bielle::mechanism {
 namespace {
 
-using Digests = std::map<std::string, std::string>;  // by path
+using Digests = std::map<std::string, std::string>;  // digests by path
 
-/// Paths and values stand in one line each, with a tabulator between them.
+/// Path and value are written on one line, separated by a tabulator.
 std::string in_one_line(std::string text) {
   for (char& letter : text)
     if (letter == '\n' || letter == '\t' || letter == '\r' || letter == '\0') letter = ' ';
@@ -34,14 +34,14 @@ Digests digests_of(const std::string& text) {
   return digests;
 }
 
-/// "joints.main" of "joints.main.stops.damping", "gravity" of "gravity[3]".
+/// Returns "joints.main" for "joints.main.stops.damping", and "gravity" for "gravity[3]".
 std::string entry_of(const std::string& path) {
   const std::size_t first = path.find_first_of(".[");
   if (first == std::string::npos || path[first] == '[') return path.substr(0, first);
   return path.substr(0, path.find_first_of(".[", first + 1));
 }
 
-/// "joint 'main'" of "joints.main".
+/// Returns "joint 'main'" for "joints.main".
 std::string in_words(const std::string& entry) {
   const std::size_t dot = entry.find('.');
   if (dot == std::string::npos) return entry;
@@ -56,7 +56,7 @@ std::set<std::string> entries_of(const Digests& digests) {
   return entries;
 }
 
-/// Sentences on all that differs; an entry that is new or gone is one of them.
+/// Returns sentences on all differences; an entry that is new or removed is one of them.
 std::vector<std::string> differences(const Digests& before, const Digests& now) {
   std::vector<std::string> found;
   const std::set<std::string> entries_before = entries_of(before), entries_now = entries_of(now);

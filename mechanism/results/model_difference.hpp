@@ -1,5 +1,4 @@
-// This comparison finds the values of a model that have changed since a checkpoint was written, one by one, by the
-// digest of the input.
+// Finds the values of a model that have changed since a checkpoint was written, by the digest of the input.
 #pragma once
 
 #include <string>
@@ -8,16 +7,16 @@ namespace bielle::mechanism {
 
 class Model;
 
-/// Model::source as it is kept in a results file: a line for each value, its path and its digest.
+/// Returns Model::source in the format of a results file: one line for each value, with its path and its digest.
 std::string source_lines(const Model& model);
 
-/// Both are empty where nothing differs.
+/// Both texts are empty if nothing differs.
 struct ModelDifference {
-  std::string entry;   ///< the first that differs: "joint 'main'"
-  std::string values;  ///< the first few: "joints.main.stops.damping was 3 and is 4; loads.wind is new"
+  std::string entry;   ///< the first different entry: "joint 'main'"
+  std::string values;  ///< the first differences: "joints.main.stops.damping was 3 and is 4; loads.wind is new"
 };
 
-/// @param before  lines of `source_lines`, of a checkpoint
+/// @param before  the lines of `source_lines` of a checkpoint
 ModelDifference difference_from(const std::string& before, const Model& model);
 
 }  // namespace bielle::mechanism

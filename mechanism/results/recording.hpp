@@ -1,4 +1,4 @@
-// Which instants of a motion go to the sinks.
+// Selects the instants of a motion that are sent to the sinks.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,11 @@ namespace bielle::mechanism {
 
 struct Recording {
   int every = 1;  ///< steps between records; the first and the last are always recorded
-  /// [s], ascending: if any, motions and kinematics record their start and these times in place of steps.
+  /// Ascending times [s]: if there are any, motions and kinematics record their start and these times instead of steps.
   std::vector<double> times;
-  int checkpoint = 0;  ///< steps between points that a run can go on from; 0: at the end of motions only
-  /// Ascending: if any, static analyses meet these load factors and record them alone, and limit points of paths.
+  int checkpoint = 0;  ///< steps between checkpoints; 0: only at the end of motions
+  /// Ascending load factors: if there are any, static analyses stop at them and record only them, and limit points of
+  /// paths.
   std::vector<double> load_factors = {};
 };
 

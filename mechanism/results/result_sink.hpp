@@ -1,4 +1,4 @@
-// Where results go: a file, memory, a plot. A session sends the same to each of its sinks.
+// Interface of receivers of results: a file, memory, a plot. A session sends the same data to each of its sinks.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,18 @@
 
 namespace bielle::mechanism {
 
-/// A number of each of some entries, which is no row over time: "joints/main/reaction_unique".
+/// A number for each of several entries, which is not a row over time: "joints/main/reaction_unique".
 struct EntryNumbers {
   std::string name;  ///< "reaction_unique"
   std::vector<std::pair<Entry, double>> values;
   std::string units, description;
 };
 
-/// A crossing of a motion.
+/// An event of a motion.
 struct Event {
-  double time = 0;   ///< [s]
-  int crossing = 0;  ///< by number, System::crossings
-  std::string name;  ///< "event 'landed'", "joint 'door': angle at its upper stop"
+  double time = 0;   ///< time [s]
+  int crossing = 0;  ///< index in System::crossings
+  std::string name;  ///< name: "event 'landed'", "joint 'door': angle at its upper stop"
 };
 
 class ResultSink {
@@ -36,23 +36,23 @@ class ResultSink {
   ResultSink& operator=(const ResultSink&) = delete;
 
   /// @param type           as in the input file: "dynamic"
-  /// @param expected_rows  how many rows will follow, 0 when unknown
+  /// @param expected_rows  expected number of rows, 0 if unknown
   virtual void begin_analysis(const std::string& type, std::size_t expected_rows) = 0;
-  /// A row. Its numbers are those that ResultsRows makes of the state.
-  /// @param slots  of the model's members, in their order; they outlive the analysis
+  /// Receives a row. Its values are those that ResultsRows computes from the state.
+  /// @param slots  slots of the model's members, in their order; they outlive the analysis
   virtual void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                       const StepRecord& step) = 0;
   virtual void write(const ResultArray& array) = 0;
   virtual void write(const ResultNames& /*names*/) {}
-  virtual void write(const EntryNumbers& numbers) = 0;  ///< of entries that record
-  /// A crossing was met.
+  virtual void write(const EntryNumbers& numbers) = 0;  ///< numbers of entries that are recorded
+  /// Receives an event.
   virtual void note(const Event& event) = 0;
   virtual void end_analysis() = 0;
-  virtual void complete() {}  ///< the analysis has ended as intended
+  virtual void complete() {}  ///< the analysis has ended without an error
 
-  /// A point to go on from. @param archive  with all of it but what belongs to the sink itself
+  /// Receives a checkpoint. @param archive  contains the whole checkpoint except the sink's own part
   virtual void checkpoint(Archive& /*archive*/) {}
-  /// What rows to come take from those before: the sink's part of a point to go on from.
+  /// Exchanges the sink's own part of a checkpoint: data of earlier rows that later rows depend on.
   virtual void exchange(Archive& /*archive*/) {}
 };
 

@@ -13,13 +13,13 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// A dataset takes some 0.12 ms, 40 kB of memory and 3 kB of the file (performance_mechanism_results): so many half a
-/// second and 160 MB.
+/// A dataset needs some 0.12 ms, 40 kB of memory and 3 kB of the file (performance_mechanism_results): this limit
+/// corresponds to half a second and 160 MB.
 constexpr std::size_t most_named_datasets = 4000;
 
 std::string units_or_number(const std::string& units) { return units.empty() ? "-" : units; }
 
-/// Where a kind stands in the stacked layout: "joints/hinge".
+/// Path of a kind in the stacked layout: "joints/hinge".
 std::string place_of(const ResultsKind& kind) { return results_path({kind.section, kind.name}); }
 
 std::vector<std::string> names_of(const ResultsKind& kind, const ResultsKinds& kinds) {
@@ -31,14 +31,14 @@ std::vector<std::string> names_of(const ResultsKind& kind, const ResultsKinds& k
 
 void describe_entries(Hdf5File& file, const std::string& group, const ResultsKinds& kinds) {
   for (const ResultsEntry& entry : kinds.entries()) {
-    if (entry.entry.section == Section::measures) continue;  // a dataset alone
+    if (entry.entry.section == Section::measures) continue;  // these are single datasets
     const std::string place = group + "/" + results_path(entry.entry);
-    file.make_group(place);  // also of what records nothing
+    file.make_group(place);  // groups exist also for entries without records
     for (const auto& [name, value] : kinds.attributes(entry)) file.write_attribute(place, name, value);
   }
 }
 
-/// The names of a kind's entries, and their attributes as one list for each.
+/// Writes the names of a kind's entries, and their attributes as one list for each.
 void describe_kind(Hdf5File& file, const std::string& group, const ResultsKind& kind, const ResultsKinds& kinds) {
   const std::string place = group + "/" + place_of(kind);
   file.make_group(place);

@@ -1,4 +1,4 @@
-// The datasets of an analysis in a results file, in either layout (mechanism/io/README.md).
+// The datasets of an analysis in a results file, in both layouts (mechanism/io/README.md).
 #pragma once
 
 #include <optional>
@@ -14,20 +14,20 @@ class Hdf5File;
 
 namespace bielle::mechanism {
 
-/// The layout for a model: that which is asked for, or by names where there are not too many of them.
+/// Returns the layout for a model: the requested one, otherwise the layout by names if it has not too many datasets.
 ResultsLayout layout_for(const ResultsRows& rows, std::optional<ResultsLayout> wanted);
 
-/// Makes the datasets that grow, `columns`, and what says whose they are.
-/// @param group  of the analysis @param rows_per_chunk  see Hdf5File::create_rows
+/// Creates the datasets that grow, `columns`, and the attributes of their entries.
+/// @param group  group of the analysis @param rows_per_chunk  see Hdf5File::create_rows
 void create_datasets(Hdf5File& file, const std::string& group, const ResultsRows& rows, ResultsLayout layout,
                      const std::vector<ResultsColumn>& columns, std::size_t rows_per_chunk);
 
-/// Checks that an analysis of the file holds what would be recorded now, and nothing else.
+/// Checks that an analysis of the file contains the datasets that would be recorded now, and no others.
 /// @throws InputError
 void check_same_datasets(const Hdf5File& file, const std::string& group, const Model& model, const ResultsRows& rows,
                          ResultsLayout layout, const std::vector<ResultsColumn>& columns);
 
-/// Writes a number of each of some entries.
+/// Writes a number for each of several entries.
 void write_numbers(Hdf5File& file, const std::string& group, const ResultsKinds& kinds, ResultsLayout layout,
                    const EntryNumbers& numbers);
 

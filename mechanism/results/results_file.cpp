@@ -13,12 +13,12 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// By layout: what reads names only knows the first.
+/// The version depends on the layout: old readers of names only support the first.
 std::int64_t version_of(ResultsLayout layout) { return layout == ResultsLayout::named ? 1 : 2; }
 
-/// The layout of a file that is gone on with.
+/// Returns the layout of a file that is continued.
 ResultsLayout layout_of(const Hdf5File& file, std::optional<ResultsLayout> wanted) {
-  ResultsLayout found = ResultsLayout::named;  // of files that do not say
+  ResultsLayout found = ResultsLayout::named;  // default for files without this attribute
   if (file.has_attribute("/", "layout") &&
       file.read_text_attribute("/", "layout") == layout_name(ResultsLayout::stacked))
     found = ResultsLayout::stacked;
@@ -68,7 +68,7 @@ ResultsFile::ResultsFile(const std::string& path, const Model& model, const std:
                          const Checkpoint& checkpoint, std::optional<ResultsLayout> layout)
     : stream_(extend(path, model, layout)), analysis_(checkpoint.analysis) {
   Hdf5File& file = stream_->file();
-  stream_->check_datasets(group_of(analysis_));  // before anything is taken out
+  stream_->check_datasets(group_of(analysis_));  // before anything is removed
   if (checkpoint.rows_sum) stream_->check_rows(checkpoint.rows, *checkpoint.rows_sum);
   rewind_to(file, checkpoint);
   stream_->resume(group_of(analysis_), checkpoint.rows);
@@ -125,7 +125,7 @@ void ResultsFile::note(const Event& event) {
     written.make_group(group);
     written.create_rows(group + "/crossing", {}, "-", "line of /crossings, from 0", together);
     written.create_rows(group + "/time", {}, "s", "at which crossings were met", together);
-    written.link(group, "/events");  // now: a run that fails has no end to do it
+    written.link(group, "/events");  // linked now, because a run that fails does not reach the end
   }
   const double crossing = event.crossing;
   written.append_rows(group + "/crossing", {&crossing, 1});
@@ -148,7 +148,7 @@ void ResultsFile::exchange(Archive& archive) {
   archive.within(lines, 0, 1e15);
   if (!archive.restoring()) return;
   if (log_) log_->go_on_after(lines);
-  // Those after the point where the run goes on will come again.
+  // Events after the checkpoint will be written again.
   Hdf5File& file = stream_->file();
   for (const char* dataset : {"/events/crossing", "/events/time"})
     if (const std::string name = analysis_group() + dataset; file.has(name))
@@ -157,7 +157,7 @@ void ResultsFile::exchange(Archive& archive) {
 
 void ResultsFile::end_analysis() {
   stream_->wait_until_all_is_written();
-  stream_->link_from_root();  // also what was written in addition to the rows
+  stream_->link_from_root();  // links also the data written in addition to rows
 }
 
 void ResultsFile::complete() {

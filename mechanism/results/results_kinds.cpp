@@ -30,15 +30,15 @@ const ResultsField* ResultsKind::find(const std::string& field) const {
   return found == fields.end() ? nullptr : &*found;
 }
 
-/// An entry whose kind is not known yet.
+/// An entry whose kind is not yet known.
 struct ResultsKinds::Draft {
   ResultsEntry entry;
   std::string type;
   std::vector<ResultsField> fields;
   std::vector<ResultsPart> parts;
-  std::string signature;  ///< what its kind has in common
+  std::string signature;  ///< common properties of its kind
 
-  /// @returns its number. The same quantity of several members is one where it is a sum.
+  /// @returns its number. A quantity of several members is a single field if it is summed.
   std::size_t add(const OutputField& output, std::vector<std::size_t> shape) {
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (fields[k].name != output.name) continue;
@@ -72,7 +72,7 @@ ResultsKinds::ResultsKinds(const Model& model, bool all)
 }
 
 void ResultsKinds::add_nodes() {
-  constexpr int ground = 0;  // stands at the origin for ever
+  constexpr int ground = 0;  // always at the origin
   for (int k = ground + 1; k < static_cast<int>(model_.nodes().size()); ++k) {
     const Node& node = model_.node(k);
     Draft draft;
@@ -115,7 +115,7 @@ void ResultsKinds::add_members() {
       }
       ResultsPart part;
       for (OutputField field : other.component->output_fields()) {
-        if (member.results.section == Section::measures) field.name = "value";  // its dataset bears the measure's name
+        if (member.results.section == Section::measures) field.name = "value";  // its dataset has the measure's name
         const std::size_t size = field.size();
         part.push_back({draft.add(field, field.shape), 0, size, field.summed});
       }
@@ -229,7 +229,7 @@ std::vector<std::pair<std::string, std::string>> ResultsKinds::attributes(const 
   bool stacked = false;
   for (std::size_t k = 0; k < entry.members.size(); ++k) {
     const Component& component = *model_.members()[entry.members[k]].component;
-    // Stacked ones say what the first of them says.
+    // All stacked members have the attributes of the first.
     if (model_.members()[entry.members[k]].recorded == Recorded::stacked && std::exchange(stacked, true)) continue;
     for (const auto& [name, value] : component.attributes()) add(name, value);
   }

@@ -17,22 +17,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Rows wait in memory at most so long, or, where writing takes longer (thousands of datasets), so many times as long as
-// that.
+// Longest time that rows wait in memory; if writing takes long (thousands of datasets), they wait for this multiple of
+// its time.
 constexpr std::chrono::milliseconds longest_wait{200}, wait_of_large_models{2000};
 constexpr int wait_per_writing = 10;
-// States wait in queues of at most so many bytes and states; the writing thread comes for them when half a queue is
-// full.
+// Largest size of a queue of states, in bytes and states; the writing thread starts when half a queue is full.
 constexpr std::size_t queue_bytes = std::size_t{8} << 20, most_queued = 128;
-// Rows are written in blocks of at most so many bytes and rows.
+// Largest size of a block of rows, in bytes and rows.
 constexpr std::size_t block_bytes = std::size_t{32} << 20, most_block_rows = 512;
-// Rows of a column of so many numbers are written one by one: a call costs less than copying them next to each other.
+// Rows of a column with at least this number of values are written one by one: a call costs less than copying them
+// together.
 constexpr std::size_t large_column = 8192;
-// The file grows by so many bytes of results, or by less when the number of rows is known.
+// Growth of the file in bytes of results; it is smaller if the number of rows is known.
 constexpr std::size_t known_growth_bytes = std::size_t{1} << 30, unknown_growth_bytes = std::size_t{4} << 20;
 constexpr std::size_t most_growth_rows = std::size_t{1} << 20, unknown_growth_rows = 8192;
 
-/// Pieces of `piece` bytes that fit, at least one.
+/// Number of pieces of `piece` bytes that fit, at least one.
 std::size_t pieces_in(std::size_t bytes, std::size_t piece, std::size_t most) {
   return std::clamp<std::size_t>(bytes / piece, 1, most);
 }
@@ -156,7 +156,7 @@ void ResultsStream::write_until_told_to_stop() {
     changed_.wait_until(lock, written + wait, wanted);
     if (failure_) {
       if (stopping_) return;
-      written = Clock::now();  // nothing more will be
+      written = Clock::now();  // no more rows will be written
       continue;
     }
     const bool at_once = stopping_ || wanted_now_;
@@ -210,7 +210,7 @@ std::size_t ResultsStream::make_rows(std::size_t first) {
   return count;
 }
 
-/// Row by row: the processor works on several columns at a time.
+/// The sums are updated row by row: the processor works on several columns at a time.
 void ResultsStream::add_to_sums() {
   if (sums_.empty()) return;
   for (std::size_t row = 0; row < block_.rows; ++row) {
@@ -220,7 +220,7 @@ void ResultsStream::add_to_sums() {
   sums_.back().add({block_.times.data(), block_.rows});
 }
 
-/// The file never counts a row that is not whole: first the data, then the times.
+/// The file never counts an incomplete row: the data are written before the times.
 void ResultsStream::write_block() {
   add_to_sums();
   for (std::size_t k = 0; k < datasets_.size(); ++k) {
@@ -252,7 +252,7 @@ void ResultsStream::prepare_columns() {
   time_dataset_ = group_ + "/time";
 }
 
-/// All of it reaches the file at once, with the flush.
+/// All changes reach the file together, with the flush.
 void ResultsStream::create_columns() {
   const std::size_t known = std::min(expected_rows_, most_growth_rows);
   const std::size_t chunk_rows = known > 0 ? pieces_in(known_growth_bytes, row_bytes(), known)

@@ -1,5 +1,5 @@
-// Takes the results of a run off its hands: the run leaves a copy of its state, a second thread makes the row of it,
-// lays out the file and writes.
+// Writes the results of a run in a second thread: the run passes a copy of its state; the thread computes the row,
+// creates the datasets and writes.
 #pragma once
 
 #include <condition_variable>
@@ -18,45 +18,47 @@
 
 namespace bielle::mechanism {
 
-/// Two queues of states take turns: the run fills one while the writing thread empties the other. Members below `guard`
-/// are guarded by it. The others belong to the writing thread as long as rows wait, and to the run once it has waited
-/// for them to be written.
+/// Two queues of states are used alternately: the run fills one while the writing thread empties the other. The members
+/// below `guard` are protected by it. The others belong to the writing thread while rows wait, and to the run after it
+/// has waited for them to be written.
 class ResultsStream {
  public:
-  /// @param layout  nothing: what suits the size of the model
+  /// @param layout  empty: chosen by the size of the model
   ResultsStream(Hdf5File results, const Model& model, std::optional<ResultsLayout> layout);
-  /// Writes what waits.
+  /// Writes the waiting rows.
   ~ResultsStream();
   ResultsStream(const ResultsStream&) = delete;
   ResultsStream& operator=(const ResultsStream&) = delete;
 
-  void start();  ///< from here on a thread writes
-  /// Opens an analysis's group. @param expected_rows  0 when unknown
+  void start();  ///< starts the writing thread
+  /// Opens an analysis's group. @param expected_rows  0 if unknown
   void begin(const std::string& group, std::size_t expected_rows);
-  /// Goes on with the rows of an analysis that the file holds already. @throws InputError when it lacks one
+  /// Continues the rows of an analysis that the file already contains. @throws InputError if a row is missing
   void resume(const std::string& group, std::size_t recorded);
-  /// Changes nothing in the file. @throws InputError when that analysis has other datasets than this run would write
+  /// Checks the datasets of an analysis; changes nothing in the file. @throws InputError if that analysis has other
+  /// datasets than this run would write
   void check_datasets(const std::string& group);
-  /// After check_datasets. @throws InputError when the first rows of that analysis are not those that were written
+  /// Checks the first rows; call it after check_datasets. @throws InputError if the first rows of that analysis are not
+  /// those that were written
   void check_rows(std::size_t rows, std::int64_t sum);
-  /// Copies a row's state. Waits while both queues are full. @throws what an earlier row failed with
-  /// @param slots  of the model's members; must outlive the analysis
+  /// Copies a row's state. It waits while both queues are full. @throws the exception of an earlier row that failed
+  /// @param slots  slots of the model's members; they must outlive the analysis
   void record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
               const StepRecord& step);
   void wait_until_all_is_written();
   void link_from_root();
 
-  // After wait_until_all_is_written:
+  // The following functions may be called after wait_until_all_is_written:
   Hdf5File& file() { return file_; }
   ResultsRows& rows() { return rows_; }
   const Model& model() const { return model_; }
   ResultsLayout layout() const { return layout_; }
   const std::string& group() const { return group_; }
-  std::size_t recorded() const { return recorded_; }  ///< rows of the running analysis
-  std::int64_t sum_of_rows() const;                   ///< a checksum of these
+  std::size_t recorded() const { return recorded_; }  ///< number of rows of the open analysis
+  std::int64_t sum_of_rows() const;                   ///< a checksum of these rows
 
  private:
-  /// What a row is made of.
+  /// The data that a row is computed from.
   struct Instant {
     State state;
     const std::vector<Slots>* slots = nullptr;
@@ -67,17 +69,18 @@ class ResultsStream {
     std::vector<Instant> instants;
     std::size_t count = 0;
   };
-  /// Rows on their way to the file.
+  /// Rows that are to be written to the file.
   struct Block {
     std::vector<double> times;
-    std::vector<double> values;  ///< row after row
+    std::vector<double> values;  ///< values, row after row
     std::size_t rows = 0;
   };
   std::size_t row_bytes() const { return sizeof(double) * (rows_.size() + 1); }
   void make_room(const State& state);
   void prepare_columns();
   void create_columns();
-  /// Makes rows of states from number `first` of the queue on, as many as the block takes. @returns how many
+  /// Computes rows from the states of the queue from number `first` on, as many as fit in the block. @returns their
+  /// number
   std::size_t make_rows(std::size_t first);
   void add_to_sums();
   void write_block();
@@ -90,24 +93,24 @@ class ResultsStream {
   ResultsRows rows_;
   ResultsLayout layout_;
   Hdf5File file_;
-  std::string group_;  ///< of the running analysis
+  std::string group_;  ///< group of the open analysis
   std::size_t expected_rows_ = 0, recorded_ = 0;
   std::vector<ResultsColumn> columns_;
-  std::vector<std::string> datasets_;  ///< of the columns, with the group
+  std::vector<std::string> datasets_;  ///< paths of the columns, including the group
   std::string time_dataset_;
   bool created_ = false, linked_ = false;
-  std::vector<Checksum> sums_;  ///< of the rows of each dataset, of the times last; empty: of a file without
+  std::vector<Checksum> sums_;  ///< checksums of the rows of each dataset, the times last; empty if the file has none
   Queue taken_;
   Block block_;
-  std::vector<ResultsInstant> views_;  ///< of the states that rows are made of
-  std::vector<double> together_;       ///< the rows of one column, as its dataset takes them
+  std::vector<ResultsInstant> views_;  ///< views of the states that rows are computed from
+  std::vector<double> together_;       ///< the rows of one column, in the order of its dataset
 
   std::mutex guard_;
   std::condition_variable changed_;
   Queue filling_;
-  std::size_t waiting_ = 0;  ///< rows that are not in the file yet
+  std::size_t waiting_ = 0;  ///< number of rows that are not yet in the file
   bool wanted_now_ = false, stopping_ = false;
-  std::exception_ptr failure_;  ///< of the writing thread
+  std::exception_ptr failure_;  ///< exception of the writing thread
   std::thread writer_;
 };
 

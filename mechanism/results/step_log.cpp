@@ -14,12 +14,12 @@ std::string quoted(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += c;
-    quoted += c == '\n' || c == '\r' ? ' ' : c;  // a line for each step
+    quoted += c == '\n' || c == '\r' ? ' ' : c;  // one line for each step
   }
   return quoted + '"';
 }
 
-/// Next to the results.
+/// Path of the table, next to the results.
 std::string table_of(const std::string& results_path) {
   return std::filesystem::path(results_path).replace_extension(".steps.csv").string();
 }
@@ -75,7 +75,7 @@ long StepLog::lines() {
 void StepLog::go_on_after(long lines) {
   file_.close();
   std::uintmax_t size = 0;
-  lines_ = -1;  // the head is none
+  lines_ = -1;  // the header is not counted
   {
     std::ifstream written(path_, std::ios::binary);
     for (std::string line; lines_ < lines && std::getline(written, line) && !written.eof(); ++lines_)

@@ -11,15 +11,14 @@ namespace bielle::mechanism {
 
 class StepLog {
  public:
-  /// @param goes_on_from  results of a run that this one goes on with: their table is taken over. Empty: a new one
-  /// @throws ComputationError when the file cannot be written
+  /// @param goes_on_from  results of the run that this one continues: their table is copied. Empty: a new table
+  /// @throws ComputationError if the file cannot be written
   StepLog(const std::string& results_path, const System& system, const std::string& goes_on_from);
-  /// A line, handed to the operating system at least twice a second.
+  /// Writes a line; lines are flushed to the operating system at least twice a second.
   void write(const Attempt& attempt);
-  /// So many have been written, and all of them are with the operating system.
+  /// Returns the number of lines written, after flushing all of them to the operating system.
   long lines();
-  /// Takes out what comes after so many lines: those of steps after the point where a run goes on, which will come
-  /// again.
+  /// Removes the lines after a given number: those of steps after the checkpoint, which will be written again.
   void go_on_after(long lines);
 
  private:

@@ -1,4 +1,4 @@
-// What a session is asked when it assembles.
+// Options of the assembly of a session.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,18 @@
 
 namespace bielle::mechanism {
 
-/// What stays as it is while the rest is brought together.
+/// Nodes and coordinates that keep their values during the assembly.
 struct AssemblyOptions {
   /// A coordinate of a component (Component::start_coordinates).
   struct Coordinate {
     const Component* component = nullptr;
     std::size_t coordinate = 0;
   };
-  std::vector<int> kept_nodes;  ///< of the model, in all directions
+  std::vector<int> kept_nodes;  ///< node indices of the model; all directions are kept
   std::vector<Coordinate> kept_coordinates;
 };
 
-/// Conditions with what is kept as it is at a state.
+/// Adds conditions that keep these nodes and coordinates as they are at a state.
 StartConditions with_kept(const System& system, const Environment& environment, const State& state,
                           StartConditions conditions, const AssemblyOptions& options);
 

@@ -1,9 +1,9 @@
-// Keeps the books of energy along a motion: what is stored, what went in, what was dissipated, what is missing.
+// Energy balance of a motion: stored energy, input, dissipation, and the missing energy.
 //
-// Missing energy counts relative to the energy stored, and to the energy that flows through: a steady machine turns
-// over its energy many times, and errors add up. The error is therefore also judged by turnovers, stretches of the
-// motion in which as much flows through as has ever been stored: `largest_error` is the largest error of one of them.
-// Without it a long run would hide any error in its flow.
+// Missing energy is taken relative to the stored energy and to the energy that flows through: a steady machine turns
+// over its energy many times, and errors accumulate. The error is therefore also evaluated by turnovers, which are
+// intervals of the motion in which as much energy flows through as has ever been stored: `largest_error` is the largest
+// error of one turnover. Otherwise the flow of a long run would hide any error.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace bielle::mechanism {
 
-/// Powers are integrated by the trapezoidal rule, of the order of the time integration itself.
+/// Powers are integrated by the trapezoidal rule, which has the order of the time integration itself.
 class EnergyBalance {
  public:
   void start(double time, const Energy& energy) {
@@ -29,7 +29,7 @@ class EnergyBalance {
     largest_turnover_ = largest_error_ = error_before_ = scheme_loss_ = 0;
     note_largest();
   }
-  /// @param scheme_loss  what the scheme's own damping has taken out since the start [J]: no error
+  /// @param scheme_loss  energy removed by the scheme's own damping since the start [J]; it is not counted as an error
   void advance(double time, const Energy& energy, double scheme_loss = 0) {
     const double half = 0.5 * (time - time_);
     const double input = totals_.input + half * (energy.input + last_.input);
@@ -44,8 +44,8 @@ class EnergyBalance {
     scheme_loss_ = scheme_loss;
     note_largest();
   }
-  /// A discontinuity at the time of the last `advance`: energy lost in impulses is dissipated, powers continue from
-  /// those after it. @param work  of drives and supports whose rate jumps [J]
+  /// Adds a discontinuity at the time of the last `advance`: energy lost in impulses is dissipated, and powers continue
+  /// from their values after it. @param work  work of drives and supports whose rate jumps [J]
   void jump(const Energy& before, const Energy& after, double work) {
     const double input = totals_.input + work;
     const double dissipation = totals_.dissipation + stored(before) - stored(after) + work;
@@ -55,16 +55,15 @@ class EnergyBalance {
     flow(std::abs(work), std::abs(stored(before) - stored(after) + work));
     note_largest();
   }
-  /// Stored energies now, input and dissipation since the start [J].
+  /// Present stored energies, input and dissipation since the start [J].
   const Energy& totals() const { return totals_; }
-  /// E - E_start - input + dissipation: zero for exact integration; negative: the scheme took energy out [J].
+  /// E - E_start - input + dissipation [J]: zero for exact integration; negative if the scheme removed energy.
   double balance() const { return stored(totals_) - start_ - totals_.input + totals_.dissipation; }
   double energy_at_start() const { return start_; }
-  double largest() const { return largest_; }  ///< of the stored energies, gravity's from the start on [J]
-  /// The energy that has flowed through is the larger of the input and the dissipation, whatever their signs on the way
-  /// [J].
+  double largest() const { return largest_; }  ///< largest stored energy, gravity relative to its start [J]
+  /// The energy that has flowed through: the larger of input and dissipation, as sums of absolute values [J].
   double through() const { return flow_.larger(); }
-  /// The largest error of a turnover [J], and what flowed through in the largest one [J].
+  /// The largest error of a turnover [J], and the energy that flowed through in the largest one [J].
   double largest_error() const { return std::max(largest_error_, std::abs(error() - error_before_)); }
   double largest_turnover() const { return std::max(largest_turnover_, turnover_.larger()); }
   void exchange(Archive& archive) {
@@ -79,7 +78,7 @@ class EnergyBalance {
 
  private:
   struct Flow {
-    double input = 0, dissipation = 0;  ///< [J], sizes added up
+    double input = 0, dissipation = 0;  ///< sums of absolute values [J]
     double larger() const { return std::max(input, dissipation); }
   };
   static double stored(const Energy& e) { return e.kinetic + e.elastic + e.gravity; }
@@ -99,11 +98,11 @@ class EnergyBalance {
     }
   }
   double time_ = 0, start_ = 0, gravity_start_ = 0, largest_ = 0;
-  Flow flow_, turnover_;         ///< since the start, and since the last turnover
-  double largest_turnover_ = 0;  ///< [J]
-  double largest_error_ = 0;     ///< of a turnover that is over [J]
-  double error_before_ = 0;      ///< when the last turnover began [J]
-  double scheme_loss_ = 0;       ///< [J]
+  Flow flow_, turnover_;         ///< flow since the start, and since the last turnover
+  double largest_turnover_ = 0;  ///< largest flow of a turnover [J]
+  double largest_error_ = 0;     ///< largest error of a completed turnover [J]
+  double error_before_ = 0;      ///< error at the start of the last turnover [J]
+  double scheme_loss_ = 0;       ///< energy removed by the scheme since the start [J]
   Energy last_, totals_;
 };
 

@@ -23,7 +23,7 @@ void Gatherers::begin() {
   check_datasets();
 }
 
-/// A results file refuses one name for two things, at the end, when all work is done.
+/// A results file rejects a name that is used twice, but only at the end, after the whole computation.
 void Gatherers::check_datasets() {
   std::map<std::string, std::size_t> owners;
   for (const One& one : all_)

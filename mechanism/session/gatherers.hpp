@@ -1,4 +1,4 @@
-// All that the components of a model gather over the steps of an analysis.
+// The gatherers of all components of a model, over the steps of an analysis.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,13 @@ class Gatherers {
   explicit Gatherers(const Model& model);
   ~Gatherers();
 
-  /// An analysis begins. @throws InputError when names of components make two of its results one
+  /// Begins an analysis. @throws InputError if two of its results would have the same name because of the names of
+  /// components
   void begin();
-  /// @param slots  of the model's members
+  /// @param slots  slots of the model's members
   void add(const State& state, const std::vector<Slots>& slots, const Environment& environment);
-  VectorX numbers();  ///< for a point to go on from
-  /// Goes back to such a point. @throws InputError when the numbers are those of others
+  VectorX numbers();  ///< the data for a checkpoint
+  /// Restores the data of a checkpoint. @throws InputError if the numbers belong to other gatherers
   void set(const VectorX& numbers);
   std::vector<ResultArray> results();
   std::string summary();
@@ -33,7 +34,7 @@ class Gatherers {
     std::unique_ptr<Gatherer> gatherer;
   };
   void check_datasets();
-  std::vector<std::string> names_;  ///< of the model's members
+  std::vector<std::string> names_;  ///< names of the model's members
   std::vector<One> all_;
 };
 

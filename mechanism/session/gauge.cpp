@@ -10,7 +10,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// A measure of the model's: named by the user, or made for one of their formulas.
+/// Returns a measure of the model: named by the user, or created for one of the formulas.
 const Measure* known_measure(const Model& model, const std::string& name) {
   for (const Member& member : model.members())
     if (const auto* measure = dynamic_cast<const Measure*>(member.component.get()); measure && measure->name() == name)
@@ -18,7 +18,7 @@ const Measure* known_measure(const Model& model, const std::string& name) {
   return nullptr;
 }
 
-/// What may stand before the first dot, and measures that stand alone.
+/// Lists the names that may be placed before the first dot, and the measures that need no dot.
 std::vector<std::string> measurable_names(const Model& model) {
   std::vector<std::string> names;
   for (const Member& member : model.members())
@@ -31,7 +31,7 @@ std::vector<std::string> measurable_names(const Model& model) {
   return names;
 }
 
-/// Makes "main.angle" of what the joint `main` offers; a subject's name may have dots of its own.
+/// Creates the measure "main.angle" from those of the joint `main`; the name of a component may contain dots itself.
 std::unique_ptr<const Measure> make_dotted_measure(const Model& model, const std::string& name) {
   std::string known_subject;
   std::vector<std::string> offered;
@@ -45,7 +45,7 @@ std::unique_ptr<const Measure> make_dotted_measure(const Model& model, const std
       const std::vector<std::string> names = component->measure_names();
       if (has(names)) return component->make_measure(name, wanted);
       offered.insert(offered.end(), names.begin(), names.end());
-      known_subject = subject;  // the longest
+      known_subject = subject;  // the longest name that fits
     }
     if (const auto index = model.find_node(subject)) {
       if (has(node_measure_names())) return make_node_measure(name, model, *index, wanted);

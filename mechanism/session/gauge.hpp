@@ -1,4 +1,4 @@
-// Reads one measure of a model, also one that no formula of the model uses.
+// Reads one measure of a model, even if no formula of the model uses it.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@ namespace bielle::mechanism {
 class Gauge {
  public:
   /// @param name  as in formulas: "main.angle", "main.angle.rate", "pin.position.x"; or a measure, input or state
-  /// @param system  must outlive this object, as its model
-  /// @throws InputError with the nearest name
+  /// @param system  must outlive this object, and so must its model
+  /// @throws InputError naming the nearest name
   Gauge(const std::string& name, const System& system);
 
   double value(const State& state, const Environment& environment) const {
@@ -22,7 +22,7 @@ class Gauge {
   bool reads_reactions() const { return measure_->reads_reactions(); }
 
  private:
-  std::unique_ptr<const Measure> own_;  ///< where the model has none of the name
+  std::unique_ptr<const Measure> own_;  ///< the measure, if the model has none of this name
   const Measure* measure_;
   Slots slots_;
 };

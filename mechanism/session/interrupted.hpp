@@ -5,7 +5,7 @@
 
 namespace bielle::mechanism {
 
-/// Thrown out of a callback between two steps: nothing has failed, and the motion is to be gone on with as if it had
+/// It is thrown from a callback between two steps: no error has occurred, and the motion can be continued as if it had
 /// not been interrupted.
 class Interrupted : public ComputationError {
  public:

@@ -28,7 +28,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   const System& system = session.system_;
   const Environment& environment = session.environment_;
   State state = session.state_;
-  // All of the loads and of the prescribed motions act, wherever statics have stopped.
+  // All loads and prescribed motions act fully, even if a static analysis stopped before.
   apply_motions(system, 1, state);
   system.begin_motion(state, environment, false);
   const StartConditions conditions = session.start_conditions();
@@ -55,7 +55,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   session.record(this->state(), environment, row);
   session.gather(this->state(), environment);
   session.report_ = row;
-  show();  // last: a motion that could not be made is not to be seen
+  show();  // shown last: if the constructor throws, the session shows no motion
   if (session.recording_.checkpoint > 0) save_for_sinks();
 }
 
@@ -106,7 +106,7 @@ Session& Motion::alive() const {
 void Motion::make_march(Parts& parts, StepOptions stepping) {
   parts.march =
       std::make_unique<March>(*parts.integration, parts.begin, parts.begin + options_.duration, std::move(stepping));
-  // (A motion stays where it is.)
+  // A Motion can be neither copied nor moved: `this` stays valid.
   parts.march->on_jump([this](const Jump& jump) {
     parts_.books.jump(jump.before, jump.after, jump.work);
     prescribed_jumps_.add(session_->system_, jump);
@@ -164,11 +164,11 @@ bool Motion::step() {
   return true;
 }
 
-/// @param seen  sinks, notes and listeners see it
+/// @param seen  whether sinks, notes and callbacks receive the step
 void Motion::take_step(bool seen) {
   Session& session = *session_;
   const double before = time();
-  last_begin_ = std::numeric_limits<double>::infinity();  // should it fail
+  last_begin_ = std::numeric_limits<double>::infinity();  // in case the step fails
   const EnergyBalance books_before = parts_.books;
   const MarchStep step = parts_.march->advance();
   ++parts_.steps;
@@ -219,7 +219,7 @@ bool Motion::advance_to(double until) {
   const double rounding = 1e-9 * options_.stepping.size;
   while (time() < until - rounding) {
     if (!step() || session.stopping_) break;
-    alive();  // a callback may have asked the session for something else
+    alive();  // a callback may have started another computation of the session
   }
   return time() >= until - rounding;
 }

@@ -1,4 +1,4 @@
-// These functions tell where the steps of a motion have to end.
+// Determines the times at which steps of a motion must end.
 #pragma once
 
 #include "mechanism/session/motion.hpp"
@@ -6,8 +6,8 @@
 
 namespace bielle::mechanism {
 
-/// The asked steps with the kinks of the model; fixed ones a whole number of them.
-/// @param begin  of the motion [s] @param notes  are told of steps of another size; nullptr: nobody is
+/// Returns the requested step options with the break points of the model; fixed steps are adjusted to a whole number.
+/// @param begin  start of the motion [s] @param notes  receives a note if the step size is changed; may be nullptr
 StepOptions stepping_of(const DynamicsOptions& options, const System& system, double begin, Notes* notes);
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// What a session has to say while it works. Without an object of this kind it is silent.
+// Receiver of messages of a session while it works. Without such an object the session writes no messages.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@ namespace bielle::mechanism {
 class Notes {
  public:
   virtual ~Notes() = default;
-  /// @param done  part of what is in hand, 0..1; @param where  "t = 0.013 s"
+  /// @param done  completed fraction of the present computation, 0..1; @param where  "t = 0.013 s"
   virtual void progress(double /*done*/, const std::string& /*where*/) {}
-  /// A sentence that the user should read.
+  /// Receives a sentence for the user.
   virtual void note(const std::string& /*sentence*/) {}
 };
 

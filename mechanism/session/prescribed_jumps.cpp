@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Those whose motions have a kink at a time.
+/// Returns the components whose prescribed motions have a kink at a time.
 std::vector<std::string> with_kink_at(const System& system, double time) {
   const double rounding = 1e-12 * std::max(std::abs(time), 1.0);
   const auto holds = [&](const std::vector<double>& times) {
@@ -37,8 +37,8 @@ std::vector<std::string> with_kink_at(const System& system, double time) {
 
 void PrescribedJumps::add(const System& system, const Jump& jump) {
   if (!jump.crossed.empty()) return;
-  // A rate that jumps to zero does no work. The scheme's velocities differ from those of the motion by (omega h)^2/12
-  // of them, which a new start takes out.
+  // A rate that jumps to zero does no work. The velocities of the scheme have a relative error of (omega h)^2/12, which
+  // a restart removes.
   constexpr double little = 1e-6, offset = 0.01;
   const double before = jump.before.kinetic, after = jump.after.kinetic;
   if (!(std::abs(jump.work) > little * (before + after)) && !(std::abs(after - before) > offset * (before + after)))
@@ -47,7 +47,7 @@ void PrescribedJumps::add(const System& system, const Jump& jump) {
   if (names.empty()) return;
   jumps_.push_back({std::max(std::abs(jump.work), std::abs(after - before))});
   if (jumps_.size() > 1 && jumps_.front() > little * jumps_.back()) return;
-  if (jumps_.size() > 1) jumps_.erase(jumps_.begin(), jumps_.end() - 1);  // those before were rounding
+  if (jumps_.size() > 1) jumps_.erase(jumps_.begin(), jumps_.end() - 1);  // the earlier ones were rounding
   whose_ = fmt::format("{}", fmt::join(names, ", "));
   first_ = jump.time;
   work_ = jump.work;

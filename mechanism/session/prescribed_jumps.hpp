@@ -1,5 +1,5 @@
-// Prescribed motions whose rate jumps, as that of a table does at its corners: bodies are stopped or set going there by
-// impulses, which no machine gives and which no force in the results shows.
+// Prescribed motions whose rate jumps, like that of a table at its corners: impulses stop or accelerate the bodies
+// there, which are impossible for a real machine and are not visible as forces in the results.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@ namespace bielle::mechanism {
 
 class PrescribedJumps {
  public:
-  /// Takes note of a discontinuity of a motion, where a prescribed rate jumps at it.
+  /// Records a discontinuity of a motion at which a prescribed rate jumps.
   void add(const System& system, const Jump& jump);
-  /// The user should read this sentence at the end of a run; there may be none. @param largest  energy in the run [J]
+  /// Returns a warning for the end of a run, or none. @param largest  largest energy in the run [J]
   std::vector<std::string> doubts(double largest) const;
 
  private:
-  std::vector<double> jumps_;    ///< of the energy, or the work of the impulse [J]
-  std::string whose_;            ///< of the first, "drive 'lift'"
+  std::vector<double> jumps_;    ///< change of the energy, or work of the impulse [J]
+  std::string whose_;            ///< component of the first jump, "drive 'lift'"
   double first_ = 0, work_ = 0;  ///< its time [s], and the work of its impulse [J]
 };
 

@@ -1,4 +1,4 @@
-// A motion as it is written, and how it goes on from there.
+// Writing of a motion, and its continuation from the saved numbers.
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// To the bit.
+/// Whether two states agree bit by bit.
 bool same_motion(const State& a, const State& b) {
   const auto same = [](const NodeState& one, const NodeState& other) {
     return one.x == other.x && one.R == other.R && one.v == other.v && one.Omega == other.Omega;
@@ -32,14 +32,14 @@ void Motion::exchange_books(Archive& archive, Parts& parts) {
   archive.of_any_length(parts.gathered);
 }
 
-/// The numbers of the sink stand last.
+/// The numbers of the sink come last.
 void Motion::write(Archive& archive, ResultSink* sink) {
   parts_.gathered = session_->gatherers_.numbers();
   exchange_books(archive, parts_);
   parts_.integration->exchange(archive);
   parts_.march->exchange(archive);
   if (sink) sink->exchange(archive);
-  session_->norm_.reset();  // recorded reactions owe nothing to pivots of before
+  session_->norm_.reset();  // recorded reactions must not depend on earlier pivots
 }
 
 Motion::Parts Motion::read(Archive& archive, Notes* notes) {
@@ -56,7 +56,8 @@ Motion::Parts Motion::read(Archive& archive, Notes* notes) {
   return parts;
 }
 
-/// From a point at which tangents were made anew, or from one of an interruption, which the former follows.
+/// Continues from a checkpoint at which tangents were rebuilt, or from one of an interruption, which is stored together
+/// with the former.
 /// @throws std::out_of_range, InputError
 void Motion::go_on(Archive& archive, ResultSink* sink) {
   Session& session = *session_;
@@ -76,9 +77,9 @@ void Motion::go_on(Archive& archive, ResultSink* sink) {
   parts_.steps = parts_.saves = 0;
 }
 
-/// Goes the steps again from the point at which tangents were made anew to that of the interruption: the motion then
-/// has the tangents, pivots and rounding of one that was not interrupted. @returns false where it does not come to the
-/// same state (steps or scheme are others now); it then stands where it was interrupted
+/// Repeats the steps from the checkpoint at which tangents were rebuilt to that of the interruption: the motion then
+/// has the tangents, pivots and rounding errors of an uninterrupted one. @returns false if it does not arrive at the
+/// same state (steps or scheme have been changed); the motion then has the state of the interruption
 bool Motion::arrives(Parts anchor) {
   Session& session = *session_;
   Parts interrupted = std::exchange(parts_, std::move(anchor));
@@ -90,7 +91,7 @@ bool Motion::arrives(Parts anchor) {
     while (parts_.steps < steps && !parts_.march->done()) take_step(false);
     arrived = same_motion(state(), interrupted.integration->state());
   } catch (const ComputationError&) {
-    // Other steps than before.
+    // The steps differ from the earlier ones.
   }
   session.going_again_ = false;
   if (!arrived) {
@@ -104,7 +105,7 @@ bool Motion::arrives(Parts anchor) {
   return true;
 }
 
-/// Also where nobody listens: what follows does not depend on who does.
+/// The function is called even without sinks: the motion must not depend on whether there are any.
 void Motion::save_for_sinks() {
   if (saved_) return;
   parts_.steps = parts_.saves = 0;
@@ -125,15 +126,16 @@ void Motion::write_to_sinks() {
   saved_ = true;
 }
 
-/// A point to go on from makes tangents anew, here and where the run goes on. If the user has asked for points every so
-/// many steps, an uninterrupted run makes them anew at these alone: the run then goes on from the last of them, up to
-/// here again (`arrives`). So all later steps are the same to the bit.
+/// Tangents are rebuilt at a checkpoint, both in this run and in the continued one. If the user has requested
+/// checkpoints at an interval of steps, an uninterrupted run rebuilds tangents only at these: a continued run then
+/// starts from the last of them and repeats the steps up to the interruption (`arrives`). Therefore all later steps are
+/// identical bit by bit.
 void Motion::save_where_interrupted() {
   if (!session_ || saved_) return;
   if (!anchored_ || session_->recording_.checkpoint == 0) return save_for_sinks();
   ++parts_.saves;
   write_to_sinks();
-  anchored_ = false;  // tangents are made anew, should this program go on
+  anchored_ = false;  // tangents are rebuilt if this program continues
 }
 
 }  // namespace bielle::mechanism

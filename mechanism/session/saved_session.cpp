@@ -1,5 +1,5 @@
-// What a session saves: counts that tell of which model, how that is loaded, the last step's report, and the state or
-// the motion under way.
+// The data that a session saves: counts that identify the model, the fractions of its loads, the report of the last
+// step, and the state or the motion in progress.
 #include <stdexcept>
 
 #include "mechanism/session/session.hpp"
@@ -30,7 +30,7 @@ void exchange_report(Archive& archive, std::optional<StepRecord>& report, int eq
   if (timed) archive(report->time ? *report->time : report->time.emplace());
 }
 
-/// Restores from numbers that may be others than expected.
+/// Restores data from numbers that may not be as expected.
 template <class Read>
 auto restored(Archive& archive, Read&& read) {
   std::string why = "there are more numbers than are needed";
@@ -50,7 +50,7 @@ struct Session::Saved {
   Environment acting;
   std::optional<StepRecord> report;
   bool moving = false, started = false;
-  State state;  ///< at rest
+  State state;  ///< state without a motion
 };
 
 void Session::exchange(Archive& archive, Saved& saved) const {
@@ -59,7 +59,7 @@ void Session::exchange(Archive& archive, Saved& saved) const {
         static_cast<std::size_t>(system_.size()), static_cast<std::size_t>(state_.memory.size())}) {
     auto number = static_cast<double>(count);
     archive(number);
-    if (number != static_cast<double>(count)) refuse();  // of another model
+    if (number != static_cast<double>(count)) refuse();  // the numbers belong to another model
   }
   archive(saved.loaded.factor);
   archive(saved.loaded.motions);

@@ -142,7 +142,7 @@ double Session::measure(const std::string& name) const {
   return gauge.value(gauge.reads_reactions() ? reported(*shown_, acting_) : *shown_, acting_);
 }
 
-// -- calling back
+// -- callbacks
 
 void Session::call_back() {
   for (const auto& callback : on_step_) callback(*this);

@@ -1,4 +1,4 @@
-// Equal steps that fill a duration.
+// Divides a duration into equal steps.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace bielle::mechanism {
 
-/// How many, of at most the asked size. @param duration,step  [s] > 0
+/// Number of equal steps that are not larger than the requested size. @param duration,step  [s] > 0
 inline long grid_steps(double duration, double step) {
   constexpr double rounding = 1e-12;
   return std::max(1L, std::lround(std::ceil(duration / step * (1 - rounding))));

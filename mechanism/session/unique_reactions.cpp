@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// Whether none of a member's multipliers is among those that are not unique, ascending.
+/// Whether none of a member's multipliers is in the ascending list of those that are not unique.
 bool all_unique(const Slots& slots, const std::vector<int>& free) {
   const auto first = std::lower_bound(free.begin(), free.end(), slots.multiplier_begin);
   return first == free.end() || *first >= slots.multiplier_begin + slots.multipliers;
@@ -23,7 +23,7 @@ std::vector<std::pair<std::string, bool>> unique_reactions(const System& system,
   const std::vector<int> free = ReactionNorm(system).not_unique(environment, state);
   const Model& model = system.model();
   for (const std::string& name : model.names_in(Section::joints)) {
-    // The joint comes first. What locks it has a multiplier of its own, which is no part of the joint's reaction.
+    // The first member is the joint. A lock has its own multiplier, which is no part of the joint's reaction.
     const Slots& slots = system.slots()[model.members_of({Section::joints, name}).front()];
     if (slots.multipliers > 0) joints.emplace_back(name, all_unique(slots, free));
   }

@@ -14,7 +14,7 @@ void Branches::add(const Declaration& declaration) {
     crossings_.push_back({index, k, crossing, crossing.name.empty() ? owner : owner + ": " + crossing.name});
     crossings_read_reactions_ = crossings_read_reactions_ || crossing.reads_reaction;
   }
-  if (declaration.passive) return;  // measures are read by what acts
+  if (declaration.passive) return;  // measures are evaluated by the components that use them
   reads_reactions_ = reads_reactions_ || declaration.reads_reactions;
   kinks_ = kinks_ || declaration.kinks || declaration.reads_reactions;
 }
@@ -43,7 +43,7 @@ double Branches::calc_crossing(const State& state, const Environment& environmen
 
 void Branches::begin(State& state, const Environment& environment, const std::vector<int>& crossed) const {
   VectorX memory = state.memory;
-  std::vector<int> ascending = crossed, own;  // by member, as the crossings are
+  std::vector<int> ascending = crossed, own;  // ordered by member, as the event functions are
   std::sort(ascending.begin(), ascending.end());
   auto next = ascending.begin();
   for (const std::size_t m : remembering_) {
@@ -71,7 +71,7 @@ void Branches::begin_motion(State& state, const Environment& environment, bool k
 bool Branches::accept(State& state, const Environment& environment) const {
   thread_local VectorX accepted;
   accepted = state.memory;
-  VectorX& memory = accepted;  // the calling thread's, in all threads
+  VectorX& memory = accepted;  // the calling thread's buffer, in all threads
   std::atomic<bool> left = false;
   const auto accept_one = [&](std::size_t m) {
     const Component& component = *model_.members()[m].component;

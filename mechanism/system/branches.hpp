@@ -1,4 +1,4 @@
-// Branches of a motion: crossings that end them, and what components remember from one to the next.
+// Branches of a motion: the events that end them, and the memory that components carry from one to the next.
 #pragma once
 
 #include <string>
@@ -8,23 +8,23 @@
 
 namespace bielle::mechanism {
 
-/// A crossing that a member declares, see Component::calc_crossings.
+/// An event function that a member declares, see Component::calc_crossings.
 struct MemberCrossing {
   std::size_t member;
-  int index;  ///< among the member's own
+  int index;  ///< index among the member's own event functions
   Crossing crossing;
-  std::string name;  ///< with its owner: "joint 'door': angle at its upper stop"
+  std::string name;  ///< name with its owner: "joint 'door': angle at its upper stop"
 };
 
 class Branches {
  public:
-  /// Keeps references.
+  /// The object keeps references to its arguments.
   Branches(const Model& model, const Unknowns& unknowns, const SharedWork& work)
       : model_(model), unknowns_(unknowns), work_(work) {}
   Branches(const Branches&) = delete;
   Branches& operator=(const Branches&) = delete;
 
-  /// Notes what the next member of the model declares.
+  /// Adds the event functions and memory that the next member of the model declares.
   void add(const Declaration& declaration);
 
   const std::vector<MemberCrossing>& crossings() const { return crossings_; }  ///< in the order of the members
@@ -32,12 +32,12 @@ class Branches {
   bool has_kinks() const { return kinks_; }
   bool crossings_read_reactions() const { return crossings_read_reactions_; }
 
-  // As System says.
+  // See the functions of the same names in System.
   void calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const;
   double calc_crossing(const State& state, const Environment& environment, int crossing) const;
   void begin(State& state, const Environment& environment, const std::vector<int>& crossed) const;
   void begin_motion(State& state, const Environment& environment, bool known) const;
-  /// Components renew their memory. @returns whether one has left its branch
+  /// Components update their memory. @returns whether a component has left its branch
   bool accept(State& state, const Environment& environment) const;
 
  private:

@@ -17,7 +17,7 @@ void check_node(const std::string& name, const NodeState& node) {
        {std::pair{"position", node.x}, std::pair{"velocity", node.v}, std::pair{"angular velocity", node.Omega},
         std::pair{"acceleration", node.a}, std::pair{"angular acceleration", node.Omegadot}})
     if (!vector.allFinite()) refuse_state(fmt::format("the {} of node '{}' is not finite", what, name));
-  constexpr double rounding = 1e-6;  // of axes that were made in single precision
+  constexpr double rounding = 1e-6;  // rounding error of axes in single precision
   const double off = (node.R.transpose() * node.R - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= rounding))
     refuse_state(

@@ -38,7 +38,7 @@ void IdleConstraints::find_places(const SparsePattern& pattern) {
   const std::vector<bool> possible = this->possible();
   const int first = unknowns_.first_multiplier();
   const auto is_possible = [&](int row) { return row >= first && possible[static_cast<std::size_t>(row - first)]; };
-  // Counted, then put in their rows.
+  // The places are counted first, then sorted into their rows.
   row_begin_.assign(possible.size() + 1, 0);
   for (const int row : pattern.row())
     if (is_possible(row)) ++row_begin_[static_cast<std::size_t>(row - first) + 1];

@@ -17,19 +17,19 @@ enum Idle : char { active = 0, switched_off = 1, redundant = 2 };
 
 class IdleConstraints {
  public:
-  /// Keeps references to both.
+  /// The object keeps references to both.
   IdleConstraints(const Model& model, const Unknowns& unknowns) : model_(model), unknowns_(unknowns) {}
   IdleConstraints(const IdleConstraints&) = delete;
   IdleConstraints& operator=(const IdleConstraints&) = delete;
 
-  /// Notes which constraints the member that was numbered last can switch.
+  /// Adds the switchable constraints of the member that was numbered last.
   void add(const Declaration& declaration);
   void set_aside(const std::vector<int>& multipliers) { set_aside_ = multipliers; }
 
   const std::vector<int>& set_aside() const { return set_aside_; }
   bool switches() const { return !switched_.empty(); }
-  /// Which multipliers may be out of the equations at some state. Which constraints are redundant may change with those
-  /// that are switched: where any can be, all may.
+  /// For each multiplier, whether it may be out of the equations at some state. Switching constraints may change which
+  /// constraints are redundant: if one can be switched, all may be out.
   std::vector<bool> possible() const;
 
   /// Calls act(multiplier) for each constraint that is out of the equations at a state, ascending.
@@ -42,13 +42,13 @@ class IdleConstraints {
     for (int multiplier = 0; multiplier < static_cast<int>(state.idle.size()); ++multiplier)
       if (state.idle[static_cast<std::size_t>(multiplier)] != Idle::active) act(multiplier);
   }
-  /// Sets `idle` of the switched constraints from what components remember; the others count as active.
+  /// Sets `idle` of the switched constraints from the memory of their components; the others count as active.
   void switch_constraints(State& state, const Environment& environment) const;
 
-  /// Notes where rows and columns of those that are possible stand in the pattern of the tangent, which holds their
-  /// diagonal.
+  /// Finds the places of rows and columns of possibly idle constraints in the pattern of the tangent, which contains
+  /// their diagonal.
   void find_places(const SparsePattern& pattern);
-  /// Rows and columns of those that are out at a state become the identity's.
+  /// Replaces rows and columns of the constraints that are out at a state by those of the identity.
   void clear(const State& state, std::vector<double>& values) const;
 
  private:
@@ -58,12 +58,12 @@ class IdleConstraints {
   /// A constraint that can be switched.
   struct Switched {
     std::size_t member;
-    int row, multiplier;  ///< of the component, and among all
+    int row, multiplier;  ///< local row of the component, and index among all multipliers
   };
   std::vector<Switched> switched_;
-  /// Places of the row and the diagonal of each multiplier that is possible; empty where none is.
+  /// Places of the row and the diagonal of each multiplier that may be idle; empty if there are none.
   std::vector<int> row_begin_, row_places_, diagonal_;
-  std::vector<int> column_begin_;  ///< of each multiplier, and one after the last: its column
+  std::vector<int> column_begin_;  ///< first place of the column of each multiplier, and one after the last
 };
 
 }  // namespace bielle::mechanism

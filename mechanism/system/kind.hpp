@@ -1,4 +1,4 @@
-// Kinds of unknowns and equations: scales and tolerances go by them.
+// Kinds of unknowns and equations, which determine scales and tolerances.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@ namespace bielle::mechanism {
 enum class Kind : unsigned char { translation, rotation, amplitude, first_order, multiplier };
 inline constexpr std::size_t kind_count = 5;
 
-/// Largest absolute contribution of any component to the equations of each kind: what a residual is small compared to.
+/// Largest absolute contribution of any component to the equations of each kind: the reference for the size of a
+/// residual.
 struct ResidualScale {
   std::array<double, kind_count> largest{};
   double& operator[](Kind kind) { return largest[static_cast<std::size_t>(kind)]; }

@@ -5,7 +5,8 @@ namespace {
 
 using Sparse = SystemMatrices::Sparse;
 
-/// A rectangle of the whole tangent, of those entries that `keep` wants; entries that vanish are left out.
+/// Extracts a submatrix of the whole tangent, of the entries for which `keep` is true; entries that are zero are
+/// omitted.
 template <class Keep>
 Sparse part_of(const System& system, const std::vector<double>& values, int row_begin, int rows, int column_begin,
                int columns, const Keep& keep) {
@@ -42,7 +43,7 @@ SystemMatrices linearise(const System& system, const Environment& environment, c
   matrices.C = upper();
   take({0, 0, 1, 0, 0});
   matrices.M = upper();
-  take({1, 0, 0, 0, 1});  // with what carried nodes make of B v
+  take({1, 0, 0, 0, 1});  // includes the terms of B v due to carried nodes
   matrices.S = part_of(system, values, n, m, 0, n, nonholonomic);
   take({0, 0, 0, 0, 1, true});
   matrices.B = part_of(system, values, n, m, 0, n, any);

@@ -6,7 +6,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Sets of nodes that are joined one by one; each is named by its lowest node.
+/// Disjoint sets of nodes, which are merged one by one; each is identified by its lowest node.
 class Parts {
  public:
   explicit Parts(std::size_t nodes) : above_(nodes) { std::iota(above_.begin(), above_.end(), std::size_t{0}); }

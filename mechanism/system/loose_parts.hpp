@@ -1,4 +1,4 @@
-// Parts of a mechanism that nothing joins to what is held.
+// Finds parts of a mechanism that are not connected to any held node.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace bielle::mechanism {
 
-/// The first node of each part, ascending, that no element or joint connects with the ground or a node that is held in
-/// some direction; nodes that nothing is attached to are none. Empty where nothing at all is held: that is a machine in
-/// flight.
+/// Returns the first node of each part, ascending, that no element or joint connects with the ground or with a node
+/// that is held in some direction; nodes without any component are omitted. The list is empty if nothing at all is
+/// held: the mechanism is then in free flight.
 std::vector<int> loose_parts(const System& system);
 
 }  // namespace bielle::mechanism

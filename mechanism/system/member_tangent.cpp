@@ -5,7 +5,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Three columns of A from `first` on, times T.
+/// Multiplies three columns of A, from `first` on, by T.
 void multiply_columns(Eigen::Map<MatrixX>& A, Eigen::Index first, const Matrix3& T) {
   double *__restrict x = A.col(first).data(), *__restrict y = A.col(first + 1).data(),
          *__restrict z = A.col(first + 2).data();
@@ -61,7 +61,8 @@ const double* MemberTangent::reduced() {
   return work_.sum.data();
 }
 
-/// Which matrices are needed. Convective terms of carried nodes bring C and M into the stiffness: then all three are.
+/// Chooses the matrices that are necessary. Convective terms of carried nodes add C and M to the stiffness: then all
+/// three are necessary.
 void MemberTangent::choose() {
   const TangentWeights& w = weights_;
   wants_K_ = placement_.stiffness && (w.stiffness != 0 || (w.constraint != 0 && slots_.multipliers > 0) ||
@@ -93,7 +94,7 @@ void MemberTangent::use_rate_rows() {
   }
 }
 
-/// K, weighted: own rows and columns of constraints by `constraint`, the rest by `stiffness`.
+/// Multiplies K by the weights: own rows and columns of constraints by `constraint`, the rest by `stiffness`.
 void MemberTangent::weigh_stiffness() {
   if (slots_.referenced > 0) {
     weigh_with_references();
@@ -106,7 +107,8 @@ void MemberTangent::weigh_stiffness() {
   K_.topRightCorner(own, multipliers) *= weights_.constraint;
 }
 
-/// The same; derivatives by the multipliers of others have a weight of their own.
+/// Does the same for a component with references; derivatives by the multipliers of other components have their own
+/// weight.
 void MemberTangent::weigh_with_references() {
   const int own = slots_.multiplier_row(), multipliers = slots_.multipliers;
   const double reaction = weights_.reactions ? 1 : weights_.stiffness;
@@ -124,13 +126,13 @@ void MemberTangent::weigh_with_references() {
     if (!part.own) weigh_columns(part.local, part.count, part.kind == Kind::multiplier ? reaction : weights_.stiffness);
 }
 
-/// K <- K T(Dq) + damping C + mass M, columns of first-order unknowns with their own weight of C.
+/// K <- K T(Dq) + damping C + mass M; columns of first-order unknowns have their own weight of C.
 void MemberTangent::reduce_plain() {
   if (dq_ && wants_K_)
     for (const NodePart& part : placement_.nodes)
       if (kinematics_.freedom(part.node).all_free) multiply_columns(K_, part.local + 3, turns_[part.node]);
   if (wants_C_ || weights_.velocity_level) {
-    // Own nodes stand together: most components have no others.
+    // Own nodes are contiguous: most components have no others.
     const int own_rows = placement_.own_nodes_end;
     K_.leftCols(own_rows) += weights_.damping * C_.leftCols(own_rows);
     for (const NodePart& part : placement_.nodes)
@@ -143,8 +145,8 @@ void MemberTangent::reduce_plain() {
   if (wants_M_ && !weights_.velocity_level) K_ += weights_.mass * M_;
 }
 
-/// The same where nodes are held in some directions or carried by others: sum <- the entries along independent
-/// increments, columns first, over all local rows; then rows.
+/// Reduces K, C and M if nodes are held in some directions or carried by others. The sum contains the entries along
+/// independent increments: first the columns are reduced, over all local rows; then the rows.
 void MemberTangent::reduce_related() {
   std::vector<NodeRelation>& relation = work_.relation;
   relation.resize(std::max(relation.size(), placement_.nodes.size()));
@@ -195,7 +197,7 @@ void MemberTangent::relate_rows() {
   }
 }
 
-/// Carried nodes turn the arms at which the member's forces act on their carriers.
+/// Adds the terms due to the rotation of the arms at which the member's forces act on the carriers of its nodes.
 void MemberTangent::add_turning_of_arms() {
   Map sum(work_.sum.data(), placement_.reduced_size(), placement_.reduced_size());
   auto r = work_.r.head(n_);

@@ -1,8 +1,8 @@
-// One member's part of the tangent of the whole, by way of dense local matrices.
+// One member's part of the global tangent, computed by dense local matrices.
 //
 // With z = (x, R) of a local node, da = W_z dz + W_v dv + A..., see node_kinematics.hpp,
 //     dr = (K A + C V + M W_z) G T dp + (C A + M W_v) G dv + M A G da,     rows (A G)^T,
-// plus the turning of the arm at fixed force, c~ (R^T f)~ on the carrier's rotations.
+// and the rotation of the arm at fixed force, c~ (R^T f)~ on the carrier's rotations.
 #pragma once
 
 #include <vector>
@@ -13,32 +13,32 @@
 
 namespace bielle::mechanism {
 
-/// Buffers of one thread, so that no member's turn touches the heap.
+/// Buffers of one thread: the evaluation of a member allocates no memory.
 struct TangentWorkspace {
   std::vector<double> K, C, M, columns, sum;  ///< local matrices, and their reduction in two steps
   VectorX r;
-  std::vector<NodeRelation> relation;  ///< of a member's nodes
-  State probe;                         ///< a copy of the state, whose multipliers are tried out
-  /// @param n  rows of the largest local vector
+  std::vector<NodeRelation> relation;  ///< relations of a member's nodes
+  State probe;                         ///< a copy of the state in which single multipliers are set to one
+  /// @param n  number of rows of the largest local vector
   explicit TangentWorkspace(int n);
 };
 
-/// What is the same for all members.
+/// The arguments that are the same for all members.
 struct TangentRequest {
   const NodeKinematics& kinematics;
   const TangentWeights& weights;
   const VectorX* dq;     ///< increment since the base of the step, for T(Dq); nullptr: zero
-  const Matrix3* turns;  ///< T(Dq) of each node that is free in all directions, if dq
+  const Matrix3* turns;  ///< T(Dq) of each node that is free in all directions, if dq is given
 };
 
 class MemberTangent {
  public:
-  /// For one evaluation: all arguments must outlive it.
+  /// The object serves one evaluation: all arguments must outlive it.
   MemberTangent(const TangentRequest& request, const Placement& placement, const LocalState& local,
                 const Component& component, TangentWorkspace& work);
-  /// Adds it to the values of the whole.
+  /// Adds the part to the values of the global tangent.
   void add_to(std::vector<double>& values);
-  /// Its reduced entries, by columns, in the workspace; or nullptr where it has none.
+  /// Returns its reduced entries, by columns, in the workspace; nullptr if it has none.
   const double* reduced();
 
  private:
@@ -54,7 +54,7 @@ class MemberTangent {
   void relate_columns();
   void relate_rows();
   void add_turning_of_arms();
-  // In velocity_rows.cpp:
+  // The following functions are in velocity_rows.cpp:
   void set_velocity_rows();
   void get_velocities(Eigen::Ref<VectorX> v) const;
   void add_probed_stiffness(const LocalState& probed, Map& sum);
@@ -72,7 +72,7 @@ class MemberTangent {
   int n_;
   Map K_, C_, M_;
   bool wants_K_ = false, wants_C_ = false, wants_M_ = false;
-  bool rate_rows_ = false;  ///< rows of non-holonomic constraints hold their B alone
+  bool rate_rows_ = false;  ///< rows of non-holonomic constraints contain only their B
 };
 
 }  // namespace bielle::mechanism

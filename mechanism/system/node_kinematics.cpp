@@ -7,8 +7,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Of each node, the one at the end of its line of carriers, which is carried by none.
-/// @throws InputError when carriers run in a circle
+/// Returns for each node the one at the end of its chain of carriers, which is carried by none.
+/// @throws InputError if carriers form a circle
 std::vector<int> root_carriers(const Model& model) {
   constexpr int unknown = -1, under_way = -2;
   std::vector<int> root(model.nodes().size(), unknown), line;
@@ -67,7 +67,7 @@ NodeKinematics::NodeKinematics(const Model& model) {
   freedom_.resize(count);
   carry_of_node_.assign(count, -1);
   start_.resize(count);
-  // A node that is held and carried is reported before carriers that run in a circle.
+  // The error that a node is both held and carried is reported before a circle of carriers.
   for (const Node& node : model.nodes())
     if (node.carrier &&
         std::any_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f != Freedom::free; }))
@@ -208,7 +208,7 @@ void NodeKinematics::set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<c
       rate[static_cast<int>(k)] = p.motion[3 + k].derivative(time, 1);
       acceleration[static_cast<int>(k)] = p.motion[3 + k].derivative(time, 2);
     }
-    // Inertial angular velocity of exp(psi): omega = T^T psidot; R_start only changes the axes that it is seen in.
+    // The inertial angular velocity of exp(psi) is omega = T^T psidot; R_start only changes the axes of its components.
     const Matrix3 T = tangent(psi);
     node.Omega = node.R.transpose() * (T.transpose() * rate);
     node.Omegadot =

@@ -1,9 +1,9 @@
-// How the six directions of each node follow the independent unknowns: free, fixed, prescribed in time, or carried
-// rigidly.
+// Dependence of the six directions of each node on the independent unknowns: free, fixed, prescribed in time, or
+// carried rigidly.
 //
-// A node that moves by itself has independent increments dp with dz = [dx; dTheta] = G dp, G (6,n) constant: unit
-// columns for free directions; a node that may turn about one inertial axis e only has the column [0; R_start^T e]. A
-// node j carried by i at (c, R_c) (in i's axes) has x_j = x_i + R_i c, R_j = R_i R_c, hence
+// A node that is not carried has independent increments dp with dz = [dx; dTheta] = G dp, G (6,n) constant: unit
+// columns for free directions; a node that may only rotate about one inertial axis e has the column [0; R_start^T e].
+// For a node j carried by i at (c, R_c) (in i's axes): x_j = x_i + R_i c, R_j = R_i R_c, hence
 //     dz_j = A dz_i,                      A = [I, -R_i c~; 0, R_c^T]
 //     v_j = A v_i,                        dv_j = A dv_i + V dz_i,        V   = [0, -R_i (Omega~ c)~; 0, 0]
 //     a_j = A a_i + [R_i Omega~ Omega~ c; 0],  da_j = A da_i + W_v dv_i + W_z dz_i,
@@ -17,13 +17,13 @@
 
 namespace bielle::mechanism {
 
-/// Columns of G of one node and where its independent increments stand among the unknowns.
+/// Columns of G of one node, and the indices of its independent increments among the unknowns.
 struct NodeFreedom {
   int begin = 0;          ///< first independent unknown
-  int count = 0;          ///< 0..6
+  int count = 0;          ///< number of unknowns, 0..6
   int rotations = 0;      ///< 0, 1 (about one axis) or 3: the last columns of G
-  bool all_free = false;  ///< G = I
-  Eigen::Matrix<double, 6, 6> G = Eigen::Matrix<double, 6, 6>::Zero();  ///< first `count` columns
+  bool all_free = false;  ///< whether G = I
+  Eigen::Matrix<double, 6, 6> G = Eigen::Matrix<double, 6, 6>::Zero();  ///< its first `count` columns are used
 };
 
 /// A rigid carry: node `node` follows `carrier` at offset `c` and relative rotation `R_c`.
@@ -35,44 +35,47 @@ struct Carry {
 
 class NodeKinematics {
  public:
-  /// @throws InputError for holds that have no meaning (one free rotation and a prescribed one, carried in a circle)
+  /// @throws InputError for invalid supports (one free rotation and a prescribed one, a circle of carriers)
   explicit NodeKinematics(const Model& model);
 
   int unknowns() const { return unknowns_; }
   const NodeFreedom& freedom(int node) const { return freedom_[static_cast<std::size_t>(node)]; }
   /// The node that an independent unknown moves.
   int node_of(int unknown) const { return node_of_unknown_[static_cast<std::size_t>(unknown)]; }
-  /// A node that is free in all directions, and its first unknown: most nodes are, and the loops over them are short.
+  /// A node that is free in all directions, and its first unknown: most nodes are, so that they have loops of their
+  /// own.
   struct FreeNode {
     std::size_t node;
     Eigen::Index begin;
   };
   const std::vector<FreeNode>& all_free() const { return all_free_; }
-  /// The carry of a node, or nullptr.
+  /// Returns the carry of a node, or nullptr.
   const Carry* carry(int node) const;
   bool any_prescribed() const { return !prescribed_.empty(); }
 
-  /// Start positions and rates of all nodes at the given time.
+  /// Sets start positions and rates of all nodes at the given time.
   void start(std::vector<NodeState>& nodes, double time) const;
-  /// nodes = base o exp(G dp), prescribed and carried nodes following. @param dp (unknowns)
-  /// @param motion_factor  part of the prescribed motions that is made
+  /// Sets nodes = base o exp(G dp); prescribed and carried nodes follow. @param dp (unknowns)
+  /// @param motion_factor  fraction of the prescribed motions that is applied
   void displace(std::vector<NodeState>& nodes, const std::vector<NodeState>& base, const Eigen::Ref<const VectorX>& dp,
                 double time, double motion_factor) const;
-  /// Rates of all nodes from the independent ones. @param v,a (unknowns)
+  /// Sets the rates of all nodes from the independent ones. @param v,a (unknowns)
   void set_rates(std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a,
                  double time) const;
-  /// Independent rates of the free directions (inverse of set_rates on them).
+  /// Gets the independent rates of the free directions (inverse of set_rates).
   void get_rates(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
 
-  /// Forces on all nodes in one vector: those on nodes that are free in all directions stand where their unknowns do,
-  /// those on others after all unknowns. First of the six rows [force (inertial); moment (node axes)] of a node.
+  /// Forces on all nodes are stored in one vector: those on nodes that are free in all directions at the indices of
+  /// their unknowns, those on other nodes after all unknowns. Returns the first of the six rows [force (inertial);
+  /// moment (node axes)] of a node.
   int force_row(int node) const { return force_row_[static_cast<std::size_t>(node)]; }
   int force_rows() const { return unknowns_ + 6 * static_cast<int>(held_.size()); }
-  /// Hands the forces on carried nodes to their carriers. @param forces (force_rows)
+  /// Transfers the forces on carried nodes to their carriers. @param forces (force_rows)
   void carry_forces(const std::vector<NodeState>& nodes, Eigen::Ref<VectorX> forces) const;
-  /// Forces along the independent increments: G^T f of each node. @param forces (force_rows) @param r (unknowns)
+  /// Computes the forces along the independent increments: G^T f of each node. @param forces (force_rows) @param r
+  /// (unknowns)
   void reduce_forces(const Eigen::Ref<const VectorX>& forces, Eigen::Ref<VectorX> r) const;
-  /// Power [W] that supports put in: forces of held directions times their prescribed velocities. @param forces
+  /// Power [W] supplied by supports: forces in held directions times their prescribed velocities. @param forces
   /// (force_rows)
   double support_power(const std::vector<NodeState>& nodes, const Eigen::Ref<const VectorX>& forces) const;
 
@@ -95,8 +98,8 @@ class NodeKinematics {
   std::vector<NodeFreedom> freedom_;
   std::vector<int> node_of_unknown_;
   std::vector<FreeNode> all_free_;
-  std::vector<std::size_t> held_;  ///< the others
-  std::vector<int> force_row_;     ///< of each node
+  std::vector<std::size_t> held_;  ///< nodes that are not free in all directions
+  std::vector<int> force_row_;     ///< first row of the force on each node
   std::vector<Carry> carries_;
   std::vector<int> carry_of_node_;  ///< index into carries_, or -1
   std::vector<Prescribed> prescribed_;

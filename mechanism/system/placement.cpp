@@ -5,7 +5,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Whether every node of a component, and of those that it refers to, is free or held in all directions.
+/// Whether every node of a component and of its references is free in all directions or held in all.
 bool is_plain(const NodeKinematics& kinematics, const Slots& slots) {
   const auto plain_node = [&](int node) {
     return !kinematics.carry(node) && (kinematics.freedom(node).all_free || kinematics.freedom(node).count == 0);
@@ -125,8 +125,8 @@ LocalPattern Placement::pattern(const Component& component, const Slots& slots) 
   return pattern;
 }
 
-/// Where nodes are held in some directions or carried by others, what a carrier takes over mixes directions: everything
-/// is taken to be there, but for what passes between two nodes.
+/// Pattern for nodes that are held in some directions or carried by others. A carrier mixes the directions of the
+/// forces that it takes over: all entries of a node are therefore kept, and the entries between two nodes as declared.
 LocalPattern Placement::related_pattern(const Component& component, const Slots& slots) const {
   LocalPattern reduced(reduced_size());
   LocalPattern local(slots.size());

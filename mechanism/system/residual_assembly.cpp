@@ -5,13 +5,14 @@
 
 namespace bielle::mechanism {
 
-/// Largest contributions: of any component, by direction; and of what components add to others.
+/// Largest contributions of any component, by direction, and largest contributions of components to equations of
+/// others.
 struct ResidualAssembly::Largest {
   Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
   ResidualScale of_references;
 };
 
-/// What the parts of the members are added to.
+/// The global vectors to which the parts of the members are added.
 class ResidualAssembly::Sums {
  public:
   Sums(const ResidualAssembly& assembly, VectorX& forces, Eigen::Ref<VectorX>& r)
@@ -23,12 +24,13 @@ class ResidualAssembly::Sums {
         first_order_row_(assembly.unknowns_.first_first_order()),
         multiplier_row_(assembly.unknowns_.first_multiplier()) {}
 
-  /// Adds a member's part. @param local  its part; zero afterwards
+  /// Adds a member's part. @param local  its part; set to zero by this function
   void add(const Acting& acting, const Slots& slots, double* local) {
     double *part = local, *const forces = forces_.data();
     const int* force_row = force_rows_ + acting.nodes_begin;
     for (const int* const end = force_row + slots.nodes.size(); force_row != end; ++force_row, part += 6) {
-      // In threes, as components write them: a read that spans two writes has to wait for both.
+      // Three entries are read at a time, as components write them: a read that spans two writes would have to wait for
+      // both.
       const Vector3 force = Eigen::Map<const Vector3>(part), moment = Eigen::Map<const Vector3>(part + 3);
       std::fill_n(part, 6, 0.0);
       Eigen::Map<Vector3>(forces + *force_row) += force;
@@ -73,7 +75,7 @@ void ResidualAssembly::complete() {
   std::erase_if(small_, [&](const Acting& acting) { return work_.is_costly(acting.member); });
 }
 
-/// @param local  zero; the member's part where it does not throw
+/// @param local  zero on entry; then the member's part, or zero if the component throws
 void ResidualAssembly::evaluate(std::size_t member, const State& state, const Environment& environment,
                                 Eigen::Ref<VectorX> local) const {
   try {
@@ -85,7 +87,7 @@ void ResidualAssembly::evaluate(std::size_t member, const State& state, const En
 }
 
 void ResidualAssembly::add_small(const State& state, const Environment& environment, Sums& sums) const {
-  // Zero but while a component's part is in it. (Components do not evaluate systems.)
+  // The buffer is zero except while it holds a component's part. (Components do not evaluate systems.)
   thread_local VectorX buffer;
   if (buffer.size() < unknowns_.largest_local()) buffer.setZero(unknowns_.largest_local());
   double* const local = buffer.data();
@@ -105,7 +107,7 @@ void ResidualAssembly::node_forces(const State& state, const Environment& enviro
   } else {
     thread_local VectorX costly_parts;
     costly_parts.setZero(work_.row_begin(costly_.size()));
-    VectorX& parts = costly_parts;  // the calling thread's, in all threads
+    VectorX& parts = costly_parts;  // the calling thread's buffer, in all threads
     const auto evaluate_costly = [&](std::size_t k) {
       evaluate(costly_[k].member, state, environment,
                parts.segment(work_.row_begin(k), work_.row_begin(k + 1) - work_.row_begin(k)));
@@ -122,7 +124,7 @@ void ResidualAssembly::set_scale(const Largest& largest, const Eigen::Ref<Vector
   const ResidualScale& of_references = largest.of_references;
   scale[Kind::translation] = std::max(largest.force.maxCoeff(), of_references[Kind::translation]);
   scale[Kind::rotation] = std::max(largest.moment.maxCoeff(), of_references[Kind::rotation]);
-  // What is one component's in the other rows; others may have added to them.
+  // Each of the other rows contains the contribution of its own component, to which other components may have added.
   const auto of_rows = [&](Kind kind, int begin, int count) {
     const double all = count > 0 ? r.segment(begin, count).lpNorm<Eigen::Infinity>() : 0.0;
     scale[kind] = std::max(all, of_references[kind]);
@@ -132,8 +134,8 @@ void ResidualAssembly::set_scale(const Largest& largest, const Eigen::Ref<Vector
   of_rows(Kind::multiplier, unknowns_.first_multiplier(), unknowns_.multipliers());
 }
 
-/// What a component adds to equations of those that it refers to, and they in turn.
-/// @param slots,part  of the one that refers: its local vector begins at `part`
+/// Adds the contributions of a component to equations of those that it refers to, recursively.
+/// @param slots,part  slots of the referring component, and its local vector
 void ResidualAssembly::add_referenced(const Slots& slots, const double* part, VectorX& forces, Eigen::Ref<VectorX> r,
                                       ResidualScale& scale) const {
   for (std::size_t k = 0; k < slots.references.size(); ++k) {
@@ -175,7 +177,7 @@ void ResidualAssembly::set_part(std::size_t member, const State& state, const En
   const std::vector<Acting>& acting = work_.is_costly(member) ? costly_ : small_;
   const auto found =
       std::find_if(acting.begin(), acting.end(), [&](const Acting& each) { return each.member == member; });
-  if (found == acting.end()) return;  // it adds to no equation
+  if (found == acting.end()) return;  // the member adds to no equation
   forces.setZero(kinematics_.force_rows());
   local.setZero(unknowns_.slots()[member].size());
   evaluate(member, state, environment, local);

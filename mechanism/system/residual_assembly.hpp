@@ -1,5 +1,5 @@
-// The residual of the whole from those of the components: local forces are added node by node, carried nodes hand
-// theirs to their carriers, and G^T keeps the free directions.
+// Assembly of the global residual from those of the components: local forces are added node by node, carried nodes
+// transfer theirs to their carriers, and G^T selects the free directions.
 #pragma once
 
 #include <vector>
@@ -10,24 +10,24 @@ namespace bielle::mechanism {
 
 class ResidualAssembly {
  public:
-  /// Keeps references.
+  /// The object keeps references to its arguments.
   ResidualAssembly(const Model& model, const NodeKinematics& kinematics, const Unknowns& unknowns,
                    const SharedWork& work)
       : model_(model), kinematics_(kinematics), unknowns_(unknowns), work_(work) {}
   ResidualAssembly(const ResidualAssembly&) = delete;
   ResidualAssembly& operator=(const ResidualAssembly&) = delete;
 
-  /// Notes what the next member of the model declares.
+  /// Adds the nodes that the next member of the model declares.
   void add(const Declaration& declaration);
-  /// To be called when all members are numbered and it is known which are costly.
+  /// Call it when all members are numbered and the costly ones are known.
   void complete();
 
-  /// r (size) of all equations, those of idle constraints as if they were active.
+  /// Computes r (size) of all equations, those of idle constraints as if they were active.
   /// @param scale  if given, receives the largest contributions
   void add_all(const State& state, const Environment& environment, Eigen::Ref<VectorX> r, ResidualScale* scale) const;
-  /// The part of one member in r (size).
+  /// Sets r (size) to the part of one member.
   void set_part(std::size_t member, const State& state, const Environment& environment, Eigen::Ref<VectorX> r) const;
-  /// Power [W] of the supports that move nodes.
+  /// Power [W] of the supports that prescribe motions of nodes.
   double support_power(const State& state, const Environment& environment) const;
 
  private:
@@ -36,7 +36,7 @@ class ResidualAssembly {
   /// A member that adds to the equations.
   struct Acting {
     std::size_t member;
-    std::size_t nodes_begin;  ///< of its nodes among force_rows_
+    std::size_t nodes_begin;  ///< index of its first node in force_rows_
   };
   void node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
                    ResidualScale* scale) const;
@@ -52,8 +52,8 @@ class ResidualAssembly {
   const Unknowns& unknowns_;
   const SharedWork& work_;
   std::size_t members_ = 0;
-  std::vector<Acting> small_, costly_;  ///< these in the order of SharedWork
-  std::vector<int> force_rows_;         ///< of their nodes, one member after another: NodeKinematics::force_row
+  std::vector<Acting> small_, costly_;  ///< costly members are in the order of SharedWork
+  std::vector<int> force_rows_;         ///< NodeKinematics::force_row of the nodes, member after member
 };
 
 }  // namespace bielle::mechanism

@@ -5,11 +5,12 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Local rows from which on a member is a piece of work.
+/// A member with at least this many local rows is a separate piece of work.
 constexpr int least_rows = 30;
 
-/// A residual or tangent takes a time in proportion to the entries of the local matrix, some nanoseconds each. To wake
-/// another thread takes some microseconds: so many entries of work must be taken over.
+/// A residual or tangent takes a time in proportion to the entries of the local matrix, some nanoseconds for each
+/// entry. Waking another thread takes some microseconds: at least this many entries of work must be moved to other
+/// threads.
 constexpr double least_saving = 4000;
 
 }  // namespace
@@ -25,7 +26,7 @@ void SharedWork::complete() {
   for (std::size_t m = 0; m < acting_.size(); ++m) {
     if (!acting_[m].acts) continue;
     all += cost(m);
-    // Blocks that go straight to their places have no matrix of their own to wait in.
+    // Blocks that are added in place have no buffer of their own.
     if (acting_[m].in_blocks || unknowns_.slots()[m].own_size() < least_rows) continue;
     is_costly_[m] = true;
     costly_.push_back(m);

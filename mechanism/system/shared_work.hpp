@@ -1,9 +1,9 @@
-// Which members are evaluated by several threads, and how their work is shared out.
+// Distribution of the evaluation of members over several threads.
 //
 // A member with a large dense tangent (a superelement with its modes) takes as long as hundreds of joints. Such members
-// are pieces of work, the most costly first; the calling thread evaluates the small ones meanwhile, one after the
-// other, and then helps. What members of either sort compute is added up in one order: the small ones', then the
-// pieces'. So no result depends on the number of threads.
+// are separate pieces of work, the most costly first; meanwhile the calling thread evaluates the small members one
+// after the other, and then helps. The contributions are always added in the same order: those of the small members,
+// then those of the pieces. Therefore no result depends on the number of threads.
 #pragma once
 
 #include <exception>
@@ -19,26 +19,26 @@ namespace bielle::mechanism {
 
 class SharedWork {
  public:
-  /// Keeps a reference.
+  /// The object keeps a reference.
   explicit SharedWork(const Unknowns& unknowns) : unknowns_(unknowns) {}
   SharedWork(const SharedWork&) = delete;
   SharedWork& operator=(const SharedWork&) = delete;
 
-  /// Notes what the next member of the model declares.
+  /// Adds the properties that the next member of the model declares.
   void add(const Declaration& declaration) { acting_.push_back({!declaration.passive, declaration.in_blocks}); }
-  /// To be called when all members are numbered.
+  /// Call it when all members are numbered.
   void complete();
   void use_threads(int threads) { workers_ = std::make_unique<Workers>(threads); }
   Workers& workers() const { return *workers_; }
 
-  /// Members that are pieces of work, the most costly first; of equal ones the first of the model.
+  /// Members that are pieces of work, the most costly first; members of equal cost are in the order of the model.
   const std::vector<std::size_t>& costly() const { return costly_; }
   bool is_costly(std::size_t member) const { return is_costly_[member]; }
-  /// Local rows of the costly members before the k-th; k = costly().size(): of all.
+  /// Number of local rows of the costly members before the k-th; k = costly().size() gives the number of all.
   int row_begin(std::size_t k) const { return row_begin_[k]; }
 
-  /// Calls piece(k) for each costly member and `small`, which may throw. What `small` throws comes first; else what the
-  /// piece of the lowest member throws.
+  /// Calls piece(k) for each costly member and `small`, which may throw. An exception of `small` has priority;
+  /// otherwise that of the piece of the lowest member is rethrown.
   template <class Piece, class Small>
   void share(const Piece& piece, const Small& small) const {
     if (costly_.empty()) {
@@ -79,11 +79,11 @@ class SharedWork {
   };
 
   const Unknowns& unknowns_;
-  std::vector<Acting> acting_;  ///< of each member
+  std::vector<Acting> acting_;  ///< properties of each member
   std::vector<bool> is_costly_;
   std::vector<std::size_t> costly_;
   std::vector<int> row_begin_;
-  bool worthwhile_ = false;  ///< waking the others takes less than they save
+  bool worthwhile_ = false;  ///< waking the other threads takes less time than they save
   std::unique_ptr<Workers> workers_ = std::make_unique<Workers>();
 };
 

@@ -1,4 +1,4 @@
-// The pattern of a sparse matrix from its entries, by counting: in a time and memory that grow with their number.
+// Builds the pattern of a sparse matrix from its entries, by counting: time and memory grow with their number.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace bielle::mechanism {
 
-/// @param for_each_entry  calls its argument with row and column of each entry, in any order, repeated or not. Called
-///                        twice, and must give the same entries both times
+/// @param for_each_entry  calls its argument with row and column of each entry, in any order, possibly repeated. It is
+///                        called twice, and must give the same entries both times
 template <class ForEachEntry>
 SparsePattern gather_columns(int size, const ForEachEntry& for_each_entry) {
   std::vector<int> start(static_cast<std::size_t>(size) + 1, 0);
@@ -20,7 +20,7 @@ SparsePattern gather_columns(int size, const ForEachEntry& for_each_entry) {
   for_each_entry(
       [&](int row, int column) { rows[static_cast<std::size_t>(next[static_cast<std::size_t>(column)]++)] = row; });
   next = {};
-  // Each column in ascending order, what is repeated once; the columns move up.
+  // Each column is sorted and its duplicates are removed; the columns are moved together.
   auto end = rows.begin();
   for (std::size_t column = 0; column < static_cast<std::size_t>(size); ++column) {
     const auto first = rows.begin() + start[column], last = rows.begin() + start[column + 1];

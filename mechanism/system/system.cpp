@@ -43,7 +43,7 @@ void System::build_pattern() {
 
 void System::set_aside(const std::vector<int>& multipliers) {
   idle_.set_aside(multipliers);
-  // Rows that may be set aside later have to be carried, too.
+  // Rows that may be set aside later must also be formulated along carried axes.
   unknowns_.carry_axes(idle_.possible());
   build_pattern();
 }
@@ -118,7 +118,7 @@ bool is_finite(const Energy& e) {
   return std::isfinite(e.kinetic + e.elastic + e.gravity) && std::isfinite(e.dissipation) && std::isfinite(e.input);
 }
 
-/// Energies that are no numbers would leave a balance that says nothing: the first component that has one.
+/// Throws for the first component with an energy that is not finite: an energy balance with it would be meaningless.
 [[noreturn]] void throw_without_energy(const System& system, const State& state, const Environment& environment) {
   const auto& members = system.model().members();
   for (std::size_t m = 0; m < members.size(); ++m) {
@@ -146,7 +146,7 @@ bool is_finite(const Energy& e) {
 Energy System::energy(const State& state, const Environment& environment) const {
   thread_local std::vector<Energy> costly;
   costly.assign(work_.costly().size(), {});
-  std::vector<Energy>& parts = costly;  // the calling thread's, in all threads
+  std::vector<Energy>& parts = costly;  // the calling thread's buffer, in all threads
   Energy energy;
   const auto add_one = [&](std::size_t m, Energy& sum) {
     model_.members()[m].component->add_energy(LocalState(state, slots()[m], environment), sum);
@@ -190,14 +190,14 @@ bool System::begin_motion(State& state, const Environment& environment, bool kno
     if (was_off != (state.idle[k] == Idle::switched_off)) switched = true;
   }
   if (switched || before.empty()) return switched;
-  state.idle = before;  // with what is redundant
+  state.idle = before;  // includes the redundant constraints
   state.multiplier = multiplier;
   return false;
 }
 
 bool System::accept(State& state, const Environment& environment) const {
   const bool branches_left = branches_.accept(state, environment);
-  // One Newton step of the polar decomposition removes the rounding that products of rotations gather.
+  // One Newton step of the polar decomposition removes the rounding errors that accumulate in products of rotations.
   for (NodeState& node : state.nodes) {
     const Matrix3 excess = node.R.transpose() * node.R;
     node.R = node.R * (1.5 * Matrix3::Identity() - 0.5 * excess);

@@ -1,7 +1,7 @@
-// A mechanism ready to compute: numbered unknowns, residual, weighted tangent, energies, and names for messages.
+// A mechanism ready for computation: numbered unknowns, residual, weighted tangent, energies, and names for messages.
 //
-// Unknowns, in this order: independent increments of the nodes, amplitudes, first-order unknowns, multipliers.
-// Equations likewise. "dofs" are the first two: what has inertia.
+// The order of unknowns is: independent increments of the nodes, amplitudes, first-order unknowns, multipliers.
+// Equations have the same order. The first two are called "dofs": they have inertia.
 #pragma once
 
 #include <memory>
@@ -18,20 +18,20 @@ namespace bielle::mechanism {
 
 class System {
  public:
-  /// Declares and numbers all components. Keeps a reference: the model must outlive the system.
-  /// @throws InputError when components refer to each other in a circle
+  /// Declares and numbers all components. The object keeps a reference: the model must outlive the system.
+  /// @throws InputError if components refer to each other in a circle
   explicit System(const Model& model);
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  /// Threads that evaluate costly components and condense their amplitudes; one, unless this is called. Results are the
-  /// same for any number.
+  /// Sets the number of threads that evaluate costly components and condense their amplitudes; the default is one.
+  /// Results are the same for any number of threads.
   void use_threads(int threads) { work_.use_threads(threads); }
   Workers& workers() const { return work_.workers(); }
 
   const Model& model() const { return model_; }
   const NodeKinematics& kinematics() const { return kinematics_; }
-  const std::vector<Slots>& slots() const { return unknowns_.slots(); }  ///< of the model's members, in their order
+  const std::vector<Slots>& slots() const { return unknowns_.slots(); }  ///< slots of the members, in their order
 
   int dofs() const { return unknowns_.dofs(); }
   int first_orders() const { return unknowns_.first_orders(); }
@@ -39,27 +39,29 @@ class System {
   int size() const { return unknowns_.size(); }
   Kind kind(int unknown) const { return unknowns_.kind(unknown); }
   ConstraintKind constraint_kind(int multiplier) const { return unknowns_.constraint_kind(multiplier); }
-  bool yields(int multiplier) const { return unknowns_.yields(multiplier); }  ///< to constraints that it repeats
-  /// Typical size of an unknown [its units], as its component declares it; 0: none is known.
+  bool yields(int multiplier) const { return unknowns_.yields(multiplier); }  ///< if it repeats others
+  /// Typical size of an unknown [its units], as its component declares it; 0 if none is known.
   double scale(int unknown) const { return unknowns_.scale(unknown); }
-  /// First-order unknowns whose equations hold no rates of theirs, ascending, counted among the first-order ones.
+  /// First-order unknowns whose equations do not contain their rates, ascending, numbered among the first-order ones.
   const std::vector<int>& algebraic() const { return unknowns_.algebraic(); }
-  /// Those that a static analysis may leave where they are (Declaration::Scalar::holdable), likewise.
+  /// First-order unknowns that may keep their values in a static analysis (Declaration::Scalar::holdable), ascending,
+  /// numbered among the first-order ones.
   const std::vector<int>& holdable() const { return unknowns_.holdable(); }
   /// "rotation y of node 'pin'", "mode 3 of element 'rod'"
   std::string unknown_name(int unknown) const { return unknowns_.name(unknown); }
   /// "moment y at node 'pin'", "constraint x of joint 'main'"
   std::string equation_name(int equation) const { return unknowns_.equation_name(equation); }
-  /// As declared. Otherwise N and N m of nodes; of amplitudes in m, rad and m kg^0.5: N, N m and N/sqrt(kg); of
-  /// first-order unknowns their units per second, or as they are where the equation holds no rate; of constraints m or
-  /// rad, of those that relate velocities m/s or rad/s.
+  /// Units of an equation, as declared by its component. Otherwise the units are N and N m for nodes; N, N m and
+  /// N/sqrt(kg) for amplitudes in m, rad and m kg^0.5; for first-order unknowns their units per second, or their units
+  /// if the equation does not contain the rate; m or rad for constraints, m/s or rad/s for those that relate
+  /// velocities.
   std::string equation_units(int equation) const { return unknowns_.equation_units(equation); }
-  /// The first component whose position is on a wrong branch, with what is wrong: "joint 'main': its axes point in
-  /// opposite directions"; or nothing.
+  /// Describes the first component whose position is on a wrong branch, with the reason: "joint 'main': its axes point
+  /// in opposite directions"; empty if there is none.
   std::string wrong_branch(const State& state, const Environment& environment) const;
 
-  /// Takes redundant constraints out of the equations: their multipliers stay zero. Components none of whose rows are
-  /// among them may choose the axes of their rows from here on. Call before solvers are made.
+  /// Takes redundant constraints out of the equations: their multipliers stay zero. Components without such constraints
+  /// may choose the axes of their rows after this call. Call this function before solvers are created.
   void set_aside(const std::vector<int>& multipliers);
   const std::vector<int>& set_aside() const { return idle_.set_aside(); }
   /// Calls act(multiplier) for each constraint that is out of the equations at a state, ascending.
@@ -67,7 +69,7 @@ class System {
   void for_each_idle(const State& state, const Act& act) const {
     idle_.for_each(state, act);
   }
-  /// Calls act(multiplier) for those of them that are redundant.
+  /// Calls act(multiplier) for each constraint that is out of the equations because it is redundant.
   template <class Act>
   void for_each_redundant(const State& state, const Act& act) const {
     for_each_idle(state, [&](int multiplier) {
@@ -76,69 +78,74 @@ class System {
   }
   /// Whether constraints can be switched off and on during a run.
   bool switches() const { return idle_.switches(); }
-  /// Sets `idle` of the switched constraints from what components remember; the others count as active. Nothing where
-  /// no constraint can be switched.
+  /// Sets `idle` of the switched constraints from the memory of their components; the others count as active. The
+  /// function does nothing if no constraint can be switched.
   void switch_constraints(State& state, const Environment& environment) const {
     idle_.switch_constraints(state, environment);
   }
-  /// Whether forces depend on reactions, or have kinks that end no step.
+  /// Whether forces depend on reactions, or have kinks at which no step ends.
   bool reads_reactions() const { return branches_.reads_reactions(); }
   bool has_kinks() const { return branches_.has_kinks(); }
-  /// Whether values of crossings depend on reactions.
+  /// Whether values of event functions depend on reactions.
   bool crossings_read_reactions() const { return branches_.crossings_read_reactions(); }
 
   const std::vector<MemberCrossing>& crossings() const { return branches_.crossings(); }
-  /// Values of all crossings (crossings().size()).
+  /// Computes the values of all event functions (crossings().size()).
   void calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const {
     branches_.calc_crossings(state, environment, values);
   }
-  /// The value of one, by number.
+  /// Computes the value of one event function, by number.
   double calc_crossing(const State& state, const Environment& environment, int crossing) const {
     return branches_.calc_crossing(state, environment, crossing);
   }
-  /// Components renew what they remember where a branch of the motion begins. @param crossed  numbers of crossings
+  /// Components update their memory at the beginning of a branch of the motion. @param crossed  numbers of the event
+  /// functions that crossed zero
   void begin_branch(State& state, const Environment& environment, const std::vector<int>& crossed = {}) const;
-  /// Components forget what they remember of rates, or choose by those that are known (Component::begin_motion).
+  /// Components reset the part of their memory that depends on rates, or set it from known rates
+  /// (Component::begin_motion).
   /// @returns whether constraints have been switched
   bool begin_motion(State& state, const Environment& environment, bool known) const;
-  /// The member that a component is; the component must be of the model.
+  /// Index of the member whose component is given; the component must belong to the model.
   std::size_t member_of(const Component& component) const { return unknowns_.member_of(component); }
-  /// The slots of a component of the model.
+  /// Slots of a component of the model.
   const Slots& slots_of(const Component& component) const { return slots()[member_of(component)]; }
 
-  /// State of the input file at a time: positions and rates as given, start values of scalars, multipliers zero.
+  /// Returns the state of the input file at a time: positions and rates as given, start values of scalars, multipliers
+  /// zero.
   State start(double time) const;
-  /// state = base o exp(dq) at state.time, with the part state.motion_factor of prescribed motions. @param dq (dofs)
+  /// Sets state = base o exp(dq) at state.time, with the fraction state.motion_factor of prescribed motions. @param dq
+  /// (dofs)
   void displace(State& state, const State& base, const Eigen::Ref<const VectorX>& dq) const;
   void set_rates(State& state, const Eigen::Ref<const VectorX>& v, const Eigen::Ref<const VectorX>& a) const;
   void get_rates(const State& state, Eigen::Ref<VectorX> v, Eigen::Ref<VectorX> a) const;
 
-  /// r (size) of all equations. @param scale  if given, receives the largest contributions
+  /// Computes r (size) of all equations. @param scale  if given, receives the largest contributions
   void residual(const State& state, const Environment& environment, Eigen::Ref<VectorX> r,
                 ResidualScale* scale = nullptr) const;
-  /// The part of one member of the model in it.
+  /// Computes the part of one member of the model in the residual.
   void residual_part(std::size_t member, const State& state, const Environment& environment,
                      Eigen::Ref<VectorX> r) const {
     residual_.set_part(member, state, environment, r);
   }
   const SparsePattern& pattern() const { return tangent_.pattern(); }
-  /// The same, with the amplitudes that are condensed before a factorisation.
+  /// The pattern of the tangent, with the amplitudes that are condensed before a factorisation.
   const CondensedPattern& condensed_pattern() const { return *condensed_; }
-  /// Amplitudes of each component that couple to its own unknowns alone, ascending.
+  /// Amplitudes of each component that couple only to its own unknowns, ascending.
   std::vector<std::vector<int>> lone_amplitudes() const { return tangent_.lone_amplitudes(); }
-  /// Values of the weighted tangent in the pattern's order.
+  /// Computes the values of the weighted tangent in the pattern's order.
   /// @param dq  increment since the base of the step, for T(Dq); nullptr: zero
   void tangent(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
                std::vector<double>& values) const;
-  /// First and second time derivatives of the constraint rows at the state's rates. Vectors (multipliers).
+  /// Computes first and second time derivatives of the constraint rows at the state's rates. Both vectors have one
+  /// entry for each multiplier.
   void constraint_rates(const State& state, const Environment& environment, Eigen::Ref<VectorX> velocity,
                         Eigen::Ref<VectorX> acceleration) const;
-  /// Sums of the components, and the power of the supports that move nodes.
+  /// Sums the energies of the components, and the power of the supports that move nodes.
   Energy energy(const State& state, const Environment& environment) const;
   /// Times at which forces or prescribed motions have kinks, ascending, each once.
   std::vector<double> break_points() const;
-  /// Ends a converged step: components renew their memory; rotation matrices are made orthonormal again.
-  /// @returns whether a component has left the branch that the step was computed on: the motion is started anew
+  /// Ends a converged step: components update their memory; rotation matrices are made orthonormal again.
+  /// @returns whether a component has left the branch on which the step was computed: the motion must then be restarted
   bool accept(State& state, const Environment& environment) const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace bielle::mechanism {
 
-/// Which reduced entries of each member belong to the pattern, a bit each.
+/// For each member, which reduced entries belong to the pattern, one bit each.
 class TangentAssembly::KeptEntries {
  public:
   KeptEntries(const TangentAssembly& assembly) : placements_(assembly.placements_) {
@@ -24,12 +24,13 @@ class TangentAssembly::KeptEntries {
   }
   /// Whether some entry of a member is zero most of the time.
   bool any_passing(std::size_t member) const { return passing_.contains(member); }
-  /// Whether an entry is. @param entry  the member's own, by columns
+  /// Whether this entry is zero most of the time. @param entry  index among the member's own entries, by columns
   bool passes(std::size_t member, int entry) const {
     const auto found = passing_.find(member);
     return found != passing_.end() && found->second[static_cast<std::size_t>(entry)];
   }
-  /// Calls act(entry, row, column): the member's own, by columns, and where it stands in the whole.
+  /// Calls act(entry, row, column) for each kept entry: its index among the member's own, by columns, and its global
+  /// row and column.
   template <class Act>
   void for_each(std::size_t member, const Act& act) const {
     const std::vector<int>& unknown = placements_[member].unknown;
@@ -44,8 +45,8 @@ class TangentAssembly::KeptEntries {
   }
 
  private:
-  /// A constraint does not depend on multipliers: that block stays out of the pattern, but for those that may be out of
-  /// the equations. Nobody adds to the constraints of others.
+  /// A constraint does not depend on multipliers: that block is not in the pattern, except the diagonal entries of
+  /// constraints that may be out of the equations. No component adds to the constraints of others.
   void add(std::size_t member, const LocalPattern& pattern) {
     const Placement& placement = placements_[member];
     const int n = placement.reduced_size();
@@ -71,8 +72,8 @@ class TangentAssembly::KeptEntries {
   const std::vector<Placement>& placements_;
   int first_multiplier_;
   std::vector<bool> kept_;
-  std::vector<std::size_t> begin_;                    ///< of each member's, and the end
-  std::map<std::size_t, std::vector<bool>> passing_;  ///< of the members that have such entries
+  std::vector<std::size_t> begin_;                    ///< first bit of each member, and the end
+  std::map<std::size_t, std::vector<bool>> passing_;  ///< passing entries of the members that have some
 };
 
 void TangentAssembly::complete() {
@@ -113,7 +114,7 @@ void TangentAssembly::build_pattern(const std::vector<bool>& may_be_idle) {
   pattern_ = gather_columns(unknowns_.size(), [&](const auto& act) {
     for (std::size_t m = 0; m < placements_.size(); ++m)
       kept.for_each(m, [&](int, int row, int column) { act(row, column); });
-    for (int i = 0; i < unknowns_.dofs(); ++i) act(i, i);  // solvers add to it
+    for (int i = 0; i < unknowns_.dofs(); ++i) act(i, i);  // solvers add to the diagonal
     for (int k = 0, row = unknowns_.first_multiplier(); row < unknowns_.size(); ++k, ++row)
       if (may_be_idle[static_cast<std::size_t>(k)]) act(row, row);
   });
@@ -124,7 +125,7 @@ void TangentAssembly::build_pattern(const std::vector<bool>& may_be_idle) {
   for (const std::size_t m : work_.costly()) waiting_.push_back(waiting_.back() + placements_[m].targets.count());
 }
 
-/// Entries of the whole that are zero most of the time: those of which nobody says that they last.
+/// Finds the global entries that are zero most of the time: those for which every contribution is declared as passing.
 void TangentAssembly::find_passing(const KeptEntries& kept, const std::vector<bool>& may_be_idle) {
   bool any = false;
   for (std::size_t m = 0; m < placements_.size(); ++m) any = any || kept.any_passing(m);
@@ -150,7 +151,7 @@ void TangentAssembly::set_places(const KeptEntries& kept, std::size_t member) {
   const std::vector<int>& rows = pattern_.row();
   int place = -1;
   kept.for_each(member, [&](int entry, int row, int column) {
-    // Rows follow each other more often than not.
+    // Consecutive rows are frequent.
     const bool follows = place >= 0 && place + 1 < pattern_.column_start()[static_cast<std::size_t>(column) + 1] &&
                          place >= pattern_.column_start()[static_cast<std::size_t>(column)] &&
                          rows[static_cast<std::size_t>(place) + 1] == row;
@@ -161,7 +162,7 @@ void TangentAssembly::set_places(const KeptEntries& kept, std::size_t member) {
   if (!targets.empty() && !work_.is_costly(member)) small_.push_back(member);
 }
 
-/// Each block goes straight to its places.
+/// Adds each block directly to its places.
 void TangentAssembly::add_in_place(const Placement& placement, const LocalState& local, const TangentWeights& weights,
                                    const Component& component, const Matrix3* turns,
                                    std::vector<double>& values) const {
@@ -200,7 +201,7 @@ void TangentAssembly::set_values(const State& state, const Environment& environm
   }
   const TangentRequest request{kinematics_, weights, dq, dq ? step_tangent.data() : nullptr};
   waiting_entries.assign(waiting_.back(), 0.0);
-  std::vector<double>& waiting = waiting_entries;  // the calling thread's, in all threads
+  std::vector<double>& waiting = waiting_entries;  // the calling thread's buffer, in all threads
   const auto evaluate_costly = [&](std::size_t k) {
     const std::size_t m = work_.costly()[k];
     const LocalState local(state, unknowns_.slots()[m], environment);

@@ -1,4 +1,4 @@
-// The tangent of the whole from those of the components: its pattern, and its values.
+// Assembly of the global tangent from those of the components: its pattern, and its values.
 #pragma once
 
 #include <vector>
@@ -13,26 +13,25 @@ namespace bielle::mechanism {
 
 class TangentAssembly {
  public:
-  /// Keeps references.
+  /// The object keeps references to its arguments.
   TangentAssembly(const Model& model, const NodeKinematics& kinematics, const Unknowns& unknowns,
                   const SharedWork& work)
       : model_(model), kinematics_(kinematics), unknowns_(unknowns), work_(work) {}
   TangentAssembly(const TangentAssembly&) = delete;
   TangentAssembly& operator=(const TangentAssembly&) = delete;
 
-  /// Notes what the next member of the model declares.
+  /// Adds the properties that the next member of the model declares.
   void add(const Declaration& declaration) { placements_.emplace_back(declaration); }
-  /// To be called when all members are numbered.
+  /// Call it when all members are numbered.
   void complete();
-  /// Finds the pattern of the whole and the places of all entries.
-  /// @param may_be_idle  multipliers whose diagonal entries are wanted
+  /// Finds the global pattern and the places of all entries.
+  /// @param may_be_idle  multipliers whose diagonal entries are required
   void build_pattern(const std::vector<bool>& may_be_idle);
 
   const SparsePattern& pattern() const { return pattern_; }
-  /// Amplitudes of each member with which nothing else in the equations has to do, ascending: they couple to the
-  /// member's own unknowns alone.
+  /// Amplitudes of each member that couple only to the member's own unknowns, ascending.
   std::vector<std::vector<int>> lone_amplitudes() const;
-  /// Values in the pattern's order; constraints that are idle count as if they were active.
+  /// Computes the values in the pattern's order; idle constraints are treated as if they were active.
   /// @param dq  increment since the base of the step, for T(Dq); nullptr: zero
   void set_values(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
                   std::vector<double>& values) const;
@@ -51,9 +50,9 @@ class TangentAssembly {
   const NodeKinematics& kinematics_;
   const Unknowns& unknowns_;
   const SharedWork& work_;
-  std::vector<Placement> placements_;  ///< of the members
+  std::vector<Placement> placements_;  ///< placement of each member
   std::vector<std::size_t> small_;     ///< members that have entries and are not costly
-  std::vector<std::size_t> waiting_;   ///< where entries of the costly members wait that others may add to, too
+  std::vector<std::size_t> waiting_;   ///< buffer for entries of the costly members to whose places others may add
   SparsePattern pattern_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
-/// Units of a scalar's equation where its component says none.
+/// Units of a scalar's equation if its component declares none.
 std::string usual_equation_units(Kind kind, const Declaration::Scalar& scalar) {
   if (kind == Kind::amplitude) return scalar.units == "m" ? "N" : scalar.units == "rad" ? "N m" : "N/sqrt(kg)";
   if (kind == Kind::first_order) return scalar.algebraic ? scalar.units : scalar.units + "/s";
@@ -22,7 +22,7 @@ std::string usual_equation_units(Kind kind, const Declaration::Scalar& scalar) {
 }  // namespace
 
 std::string describe(const Member& member) {
-  // What is neither element nor joint is named by its type.
+  // A member that is neither element nor joint is named by its type.
   const Section section = member.entry.section;
   return fmt::format("{} '{}'",
                      section == Section::elements ? "element"
@@ -33,7 +33,7 @@ std::string describe(const Member& member) {
 
 Unknowns::Unknowns(const Model& model, const NodeKinematics& kinematics)
     : model_(model), kinematics_(kinematics), nodes_(kinematics.unknowns()) {
-  slots_.reserve(model.members().size());  // references point to them
+  slots_.reserve(model.members().size());  // references point to these elements
   member_index_.reserve(model.members().size());
 }
 

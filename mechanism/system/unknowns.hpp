@@ -1,8 +1,8 @@
 // The unknowns of a mechanism and their equations: numbers, kinds, names, units, sizes, start values.
 //
-// Order: independent increments of the nodes, amplitudes, first-order unknowns, multipliers; each in the order of the
-// members. "dofs" are the first two: what has inertia. Whatever is asked of one unknown takes a time that does not grow
-// with the model.
+// The order is: independent increments of the nodes, amplitudes, first-order unknowns, multipliers; each in the order
+// of the members. The first two are called "dofs": they have inertia. A query about one unknown takes a time that does
+// not grow with the model.
 #pragma once
 
 #include <array>
@@ -16,26 +16,27 @@
 
 namespace bielle::mechanism {
 
-/// "joint 'main'", "element 'rod'": how a message names a member.
+/// Name of a member in messages: "joint 'main'", "element 'rod'".
 std::string describe(const Member& member);
 
 class Unknowns {
  public:
-  /// Keeps references to both.
+  /// The object keeps references to both.
   Unknowns(const Model& model, const NodeKinematics& kinematics);
   Unknowns(const Unknowns&) = delete;
   Unknowns& operator=(const Unknowns&) = delete;
 
-  /// Numbers what the next member of the model declares.
+  /// Numbers the unknowns that the next member of the model declares.
   void add(const Declaration& declaration);
-  /// To be called when all members are added: what they refer to is looked up.
-  /// @throws InputError when components refer to each other in a circle
+  /// Call it when all members are added: it looks up their references.
+  /// @throws InputError if components refer to each other in a circle
   void complete();
-  /// Members whose constraint rows must hold along axes that ride on their nodes (Slots::carried_axes).
+  /// Sets Slots::carried_axes of the members with the given constraints: their rows must hold along axes that are
+  /// attached to their nodes.
   void carry_axes(const std::vector<bool>& of_multiplier);
 
-  const std::vector<Slots>& slots() const { return slots_; }  ///< of the model's members, in their order
-  /// The member that a component is; the component must be of the model.
+  const std::vector<Slots>& slots() const { return slots_; }  ///< slots of the model's members, in their order
+  /// Index of the member whose component is given; the component must belong to the model.
   std::size_t member_of(const Component& component) const { return member_index_.at(&component); }
 
   int dofs() const { return nodes_ + amplitudes_; }
@@ -46,7 +47,7 @@ class Unknowns {
   int first_amplitude() const { return nodes_; }
   int first_first_order() const { return dofs(); }
   int first_multiplier() const { return dofs() + first_orders_; }
-  /// Rows of the largest local vector of any member.
+  /// Number of rows of the largest local vector of any member.
   int largest_local() const { return largest_local_; }
 
   Kind kind(int unknown) const { return kinds_[static_cast<std::size_t>(unknown)]; }
@@ -59,11 +60,11 @@ class Unknowns {
   std::string equation_name(int equation) const;
   std::string equation_units(int equation) const;
 
-  /// Start values of all scalars and of what components remember, rates zero.
+  /// Sets the start values of all scalars and of the components' memory; rates are zero.
   void start(State& state) const;
 
  private:
-  /// An unknown that is none of a node. Words stand in words_: few differ.
+  /// An unknown that does not belong to a node. Its texts are stored in words_, because only few are different.
   struct Scalar {
     double start, scale;
     const std::string *name, *equation_units;
@@ -86,7 +87,8 @@ class Unknowns {
   std::vector<Scalar> scalars_;  ///< in the order of the unknowns
   std::vector<int> algebraic_, holdable_;
   std::vector<double> start_memory_;
-  /// While members are added: scalars by kind; of each reference, who refers to whom.
+  /// Used while members are added: scalars by kind; for each reference, the member that refers and the component
+  /// referred to.
   std::array<std::vector<Scalar>, 3> added_;
   std::vector<std::pair<std::size_t, const Component*>> references_;
 };

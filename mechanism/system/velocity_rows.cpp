@@ -1,11 +1,11 @@
-// Rows of holonomic constraints one level up: the derivatives of dPhi/dt = B v.
+// Rows of holonomic constraints differentiated once: the derivatives of dPhi/dt = B v.
 #include <algorithm>
 
 #include "mechanism/system/member_tangent.hpp"
 
 namespace bielle::mechanism {
 
-/// Velocities of the local layout, zero where an unknown is none of positions.
+/// Gets the velocities in the local layout, zero for unknowns that are no positions.
 void MemberTangent::get_velocities(Eigen::Ref<VectorX> v) const {
   const State& state = local_.global();
   v.setZero();
@@ -27,8 +27,8 @@ void MemberTangent::add_probed_stiffness(const LocalState& probed, Map& sum) {
   component_.add_tangent(probed, tangent);
 }
 
-/// K <- d(B v)/dq, C <- B in the rows of holonomic constraints. d(B^T lambda)/dq of one multiplier at a time has the
-/// same derivatives of B in it: with H_k = d(B_k)/dq, it is H_k for lambda = e_k, and d(B_k v)/dq = H_k^T v.
+/// K <- d(B v)/dq, C <- B in the rows of holonomic constraints. The matrix d(B^T lambda)/dq of one multiplier at a time
+/// contains the same derivatives of B: with H_k = d(B_k)/dq, it is H_k for lambda = e_k, and d(B_k v)/dq = H_k^T v.
 void MemberTangent::set_velocity_rows() {
   const int first = slots_.multiplier_row();
   Map unloaded = matrix(work_.columns), loaded = matrix(work_.sum);

@@ -1,10 +1,10 @@
-// Drives that act with a force or torque Q on a joint's coordinate: the second node is pushed along it, the first
-// pulled.
+// Drives that act with a force or torque Q on a joint's coordinate: it pushes the second node along the coordinate, and
+// pulls the first.
 //
-//     Q = s min(max(u, lower), upper),    u what the law asks for (an effort),  s the load factor of a static analysis
-// At the limits Q is continuous and its slope jumps: such a kink costs a step O(h^2) of the velocity, once, and leaves
-// the order of the scheme. No step ends there: the velocities that u depends on are corrected where a branch begins
-// (solvers/README.md), which may lead back across the limit.
+//     Q = s min(max(u, lower), upper),    u the effort required by the law,  s the load factor of a static analysis
+// At the limits Q is continuous and its slope jumps: such a kink causes an error of O(h^2) in the velocity, once, and
+// does not change the order of the scheme. No step ends there: the velocities that u depends on are corrected at the
+// beginning of a branch (solvers/README.md), which may lead back across the limit.
 #pragma once
 
 #include <limits>
@@ -13,14 +13,15 @@
 
 namespace bielle::mechanism {
 
-/// What a law asks for, with its derivatives over the drive's local layout. Reused from call to call.
+/// The effort required by a law, with its derivatives over the drive's local layout. The object is reused from call to
+/// call.
 struct Effort {
   double value = 0;
-  VectorX by_position;  ///< by positions, amplitudes, first-order unknowns and multipliers
-  VectorX by_rate;      ///< by velocities and rates
+  VectorX by_position;  ///< derivatives by positions, amplitudes, first-order unknowns and multipliers
+  VectorX by_rate;      ///< derivatives by velocities and rates
 };
 
-/// Ends of the range of a drive's force or torque.
+/// Range of a drive's force or torque.
 struct ForceLimit {
   double lower = -std::numeric_limits<double>::infinity();  ///< [N] or [N m]
   double upper = std::numeric_limits<double>::infinity();
@@ -35,30 +36,30 @@ class ActuatorDrive : public Drive {
       : Drive(std::move(name), joint, coordinate), limit_(limit) {}
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   std::unique_ptr<Gatherer> make_gatherer() const final;
-  /// Force or torque, and value of the coordinate.
+  /// Returns force or torque, and value of the coordinate.
   std::pair<double, double> watched(const LocalState& state) const { return {force(state), value(state).value}; }
 
  protected:
   virtual double effort(const LocalState& state) const = 0;
-  /// @param effort  receives the value and, of an effort that depends on the state, the derivatives
+  /// @param effort  receives the value and, if the effort depends on the state, the derivatives
   virtual void calc_effort(const LocalState& state, Effort& effort) const = 0;
-  /// Whether the effort has derivatives at all.
+  /// Whether the effort has derivatives.
   virtual bool reads_state() const = 0;
 
   void declare_actuator(Declaration& declaration) const;
   const ForceLimit& limit() const { return limit_; }
-  /// -1 beyond the lower limit, 1 beyond the upper one, 0 between them. @param u  the effort
+  /// Returns -1 beyond the lower limit, 1 beyond the upper one, 0 between them. @param u  effort
   double side(double u) const { return u > limit_.upper ? 1 : u < limit_.lower ? -1 : 0; }
   double limited(double side, double u) const { return side > 0 ? limit_.upper : side < 0 ? limit_.lower : u; }
   double force(const LocalState& state) const final;
-  /// "within -5 to 5", or nothing.
+  /// Returns "within -5 to 5", or an empty text.
   std::string limit_text() const;
 
  private:
   ForceLimit limit_;
 };
 
-/// `limit: 5` or `limit: [-2, 5]`, one end of which may be open (`~`). @throws InputError
+/// Reads `limit: 5` or `limit: [-2, 5]`, in which one end may be open (`~`). @throws InputError
 ForceLimit read_force_limit(const YamlValue& value);
 
 }  // namespace bielle::mechanism

@@ -1,7 +1,7 @@
-// What acts on one coordinate of a joint, whatever the joint's type: drives, springs and dampers, stops, locks.
+// Actions on one coordinate of a joint, independent of the joint's type: drives, springs and dampers, stops, locks.
 //
-// It refers to the joint: after its own unknowns its local layout holds the joint's, and generalised forces on the
-// coordinate are added along the gradients g and w there (coordinate.hpp).
+// An action refers to the joint: its local layout contains its own unknowns, then the joint's, and generalised forces
+// on the coordinate are added along the gradients g and w there (coordinate.hpp).
 #pragma once
 
 #include <utility>
@@ -17,28 +17,28 @@ class CoordinateAction : public Component {
   const Joint& joint() const { return joint_; }
   const JointCoordinate& coordinate() const { return joint_.coordinates()[coordinate_]; }
 
-  /// Of a multiplier that is a force or torque along the coordinate.
+  /// Adds the norm of a multiplier that is a force or torque along the coordinate.
   void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
 
  protected:
-  /// What it refers to: the joint first.
+  /// References of the action: the joint is the first.
   References& references() { return references_; }
-  void declare_references(Declaration& declaration) const;  ///< with a stiffness
-  /// The coordinate, without derivatives.
+  void declare_references(Declaration& declaration) const;  ///< and a stiffness
+  /// Returns the coordinate, without derivatives.
   CoordinateRate value(const LocalState& state) const { return joint_.coordinate(coordinate_, state.of(0)); }
-  /// With derivatives: valid until the next call in this thread.
+  /// Returns the coordinate with derivatives: valid until the next call in this thread.
   CoordinateDerivatives& calc(const LocalState& state) const;
   /// First local row of the joint.
   static int row(const LocalState& state) { return state.slots().reference_row(0); }
-  /// v^T W of a jet: derivatives of the rate by positions.
+  /// Returns v^T W of a jet: derivatives of the rate by positions.
   static const VectorX& rate_slope(const LocalState& state, CoordinateDerivatives& jet);
-  // A constraint on the coordinate, `distance` = 0, as the component's only row.
+  // Adds a constraint on the coordinate, `distance` = 0, as the component's only row.
   static void add_kept(const LocalState& state, CoordinateDerivatives& jet, double distance, Eigen::Ref<VectorX> r);
   static void add_kept_tangent(const LocalState& state, CoordinateDerivatives& jet, LocalTangent& tangent);
-  /// First and second time derivative of the coordinate.
+  /// Computes first and second time derivative of the coordinate.
   std::pair<double, double> calc_kept_rates(const LocalState& state) const;
 
-  /// A force on the coordinate as one of the results of the joint, which are the sums of what acts there.
+  /// Output field of a force on the coordinate among the results of the joint, which are sums over the actions.
   OutputField force_field(const std::string& name, const std::string& description) const {
     return joint_.force_field(name, description);
   }

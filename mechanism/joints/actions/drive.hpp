@@ -1,12 +1,12 @@
-// Drives: what moves a joint's coordinate c.
+// Drives, which move a joint's coordinate c.
 //
 //   angle or displacement (t):  constraint c(q) - f(t) = 0, motion_drive.hpp
 //   rate or speed (t):          constraint cdot - f(t) = 0, motion_drive.hpp
 //   torque or force:            a formula of t and the state, force_drive.hpp
-//   torque or force, sought:    found by inverse dynamics for the motion of nodes, sought_drive.hpp
-//   pid:                        a controller with states of its own, pid_drive.hpp
+//   torque or force, sought:    determined by inverse dynamics for the motion of nodes, sought_drive.hpp
+//   pid:                        a controller with its own states, pid_drive.hpp
 //
-// Any of them may let go of its joint: at a time, or where a measure crosses a value. From there on it does nothing.
+// Each drive may release its joint: at a time, or when a measure crosses a value. From then on it has no effect.
 #pragma once
 
 #include <limits>
@@ -17,20 +17,22 @@
 
 namespace bielle::mechanism {
 
-/// What all drives are: a law on one coordinate of a joint. Drives of one joint record their forces together.
+/// Common base of all drives: a law on one coordinate of a joint. The forces of all drives of one joint are recorded
+/// together.
 ///
-/// Memory: [whether it has let go, where it can (see released)], then what the kind of drive needs.
+/// Memory: [whether it has been released, if this is possible (see released)], followed by the memory of the kind of
+/// drive.
 class Drive : public CoordinateAction {
  public:
   Drive(std::string name, const Joint& joint, std::size_t coordinate)
       : CoordinateAction("drive", std::move(name), joint, coordinate) {}
-  /// It lets go at this time [s].
+  /// Sets the time at which the drive is released [s].
   void release_at(double time) { release_time_ = time; }
-  /// It lets go where the measure crosses a value. Called once the model is read.
+  /// Releases the drive when the measure crosses a value. The function is called once after the model has been read.
   void release_when(const Measure& measure, double value, Crossing::Direction direction);
 
-  /// Adds `force` along the coordinate, and its power. Drives that keep a motion by a constraint have rows in its
-  /// place.
+  /// Adds `force` along the coordinate, and its power. Drives that prescribe a motion by a constraint have rows
+  /// instead.
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
 
@@ -43,20 +45,20 @@ class Drive : public CoordinateAction {
   bool leaves_branch(const LocalState& state) const final;
 
  protected:
-  virtual double force(const LocalState& state) const = 0;  ///< along the coordinate [N] or [N m]
-  /// Times at which the law has kinks.
+  virtual double force(const LocalState& state) const = 0;  ///< force along the coordinate [N] or [N m]
+  /// Adds the times at which the law has kinks.
   virtual void add_kinks(std::vector<double>& times) const = 0;
-  /// What is driven, the law as the user wrote it, and its units: {"rate of angle", "speed*t", "rad/s"}.
+  /// The driven quantity, the law as the user wrote it, and its units: {"rate of angle", "speed*t", "rad/s"}.
   struct LawText {
     std::string driven, law, units;
   };
   virtual LawText law_text() const = 0;
 
-  /// References, with a stiffness, and what letting go needs: first of memory and crossings.
+  /// Declares references, a stiffness, and the memory and event functions of the release, which come first.
   void declare_drive(Declaration& declaration) const;
   bool can_release() const { return release_measure_ || release_time_ < std::numeric_limits<double>::infinity(); }
   bool released(const LocalState& state) const { return can_release() && state.memory()[0] != 0; }
-  /// How many numbers of the memory are taken.
+  /// Number of memory entries that are used by this class.
   Eigen::Index own_memory() const { return can_release() ? 1 : 0; }
 
  private:

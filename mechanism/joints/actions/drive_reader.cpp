@@ -22,7 +22,7 @@ const std::vector<std::string> drive_laws = {"angle", "rate", "torque", "displac
 
 bool is_turning(const std::string& law) { return law == "angle" || law == "rate" || law == "torque"; }
 
-/// The one law that a drive has.
+/// Returns the only law of a drive.
 std::string find_law(const YamlValue& entry) {
   std::string law;
   for (const std::string& key : drive_laws) {
@@ -37,7 +37,8 @@ std::string find_law(const YamlValue& entry) {
   return law;
 }
 
-/// The coordinate that a law drives. @param place  where `coordinate` may stand: the drive, or its `pid`
+/// Returns the coordinate that a law drives. @param place  the map that may contain `coordinate`: the drive, or its
+/// `pid`
 std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, const std::string& law,
                             const Joint& joint) {
   const bool any = law == "pid", turning = is_turning(law);
@@ -57,7 +58,7 @@ std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, cons
                                     : names.front());
 }
 
-/// Notes that the coordinate is driven. @param contradicts_lock  a clause on drives that leave no lock, or nothing
+/// Records that the coordinate is driven. @param contradicts_lock  a clause on drives that permit no lock, or nullptr
 void take_coordinate(const YamlValue& entry, const std::string& name, const char* contradicts_lock, Joint& joint,
                      std::size_t coordinate) {
   const std::string& chosen = joint.coordinates()[coordinate].name;
@@ -70,7 +71,7 @@ void take_coordinate(const YamlValue& entry, const std::string& name, const char
         fmt::format("the {} of joint '{}' is `locked` for a time, which {}", chosen, joint.name(), contradicts_lock));
 }
 
-/// `release: 1.5`, `{event: name}` or `{when: formula, crosses: value, direction: ..}`.
+/// Reads `release: 1.5`, `{event: name}` or `{when: formula, crosses: value, direction: ..}`.
 void read_release(const YamlValue& value, Drive& drive, Model& model) {
   if (!value.is_map()) {
     if (!value.is_scalar() || value.is_null())
@@ -83,7 +84,7 @@ void read_release(const YamlValue& value, Drive& drive, Model& model) {
   if (const auto event = value.find("event")) {
     for (const char* key : {"crosses", "direction"})
       if (value.has(key)) value.at(key).fail("belongs to `when`; an event has its own");
-    // Events are read with the formulas, after the drives: once all of them are there.
+    // Events are read with the formulas, after the drives: the action is deferred once more.
     model.when_read(Model::Stage::formulas, [event = *event, &drive, &model] {
       model.when_read(Model::Stage::formulas, [event, &drive, &model] {
         const auto& found = dynamic_cast<const MeasureEvent&>(component_named_by(Section::events, event, model));
@@ -139,7 +140,7 @@ std::unique_ptr<Drive> make_force(const std::string& name, const YamlValue& entr
   return drive;
 }
 
-/// `torque: sought`
+/// Whether the law is `torque: sought`.
 bool is_sought(const YamlValue& law) { return law.is_scalar() && law.text() == "sought"; }
 
 std::unique_ptr<Drive> make_sought(const std::string& name, const YamlValue& entry, const Joint& joint,

@@ -1,4 +1,4 @@
-// A drive by a force or torque: a formula of time and measures, within limits if wanted.
+// A drive by a force or torque: a formula of time and measures, optionally within limits.
 #pragma once
 
 #include "mechanism/joints/actions/actuator_drive.hpp"
@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 class ForceDrive final : public ActuatorDrive, public TimeDependent {
  public:
   using ActuatorDrive::ActuatorDrive;
-  /// Takes its law, once the model is read. @param law  of t and measures
+  /// Reads its law, after the model has been read. @param law  formula of t and measures
   void read(const YamlValue& law, Model& model);
   void declare(Declaration& declaration) const override;
   std::vector<Formula> time_formulas() const override;

@@ -16,14 +16,15 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Of each coordinate by itself.
+/// These keys are read for each coordinate separately.
 const std::vector<std::string> keys = {"stiffness", "damping", "rest",  "preload",
                                        "stops",     "locked",  "start", "start_rate"};
 
-/// Of each coordinate, what the keys say: the value itself in a joint with one coordinate, else a map by their names.
+/// Values of the keys for each coordinate: the value itself in a joint with one coordinate, otherwise a map by their
+/// names.
 using ByKey = std::map<std::string, YamlValue>;
 
-/// Whether a map names coordinates, rather than being the value of the only one.
+/// Whether a map contains names of coordinates, or is the value of the only one.
 bool names_coordinates(const YamlValue& value, const std::vector<std::string>& names) {
   if (!value.is_map()) return false;
   const auto is_name = [&](const auto& item) {
@@ -78,7 +79,7 @@ StopRange read_stop_range(const YamlValue& entry) {
   entry.check_keys({"range", "stiffness", "damping"}, "`stops`");
   const YamlValue range = entry.at("range");
   if (!range.is_sequence() || range.size() != 2) range.fail("expected [lower, upper]");
-  // One end may be left open: `~`.
+  // One end may be open: `~`.
   const auto end = [&](std::size_t k, double open) { return range.at(k).is_null() ? open : range.at(k).number(); };
   constexpr double infinity = std::numeric_limits<double>::infinity();
   StopRange stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").non_negative_number(), 0};
@@ -89,7 +90,7 @@ StopRange read_stop_range(const YamlValue& entry) {
 }
 
 LockTimes read_lock_times(const YamlValue& entry) {
-  if (entry.is_scalar() && !entry.is_null() && entry.boolean()) return {};  // all the time
+  if (entry.is_scalar() && !entry.is_null() && entry.boolean()) return {};  // always locked
   if (!entry.is_map()) entry.fail("expected `true`, or times: {from, to, release}");
   entry.check_keys({"from", "to", "release"}, "`locked`");
   LockTimes times;

@@ -13,7 +13,7 @@ void JointLock::declare(Declaration& declaration) const {
   Declaration::Scalar row{coordinate().name + " locked", coordinate().force_units()};
   row.switched = true;
   declaration.multipliers.push_back(row);
-  declaration.memory = {open, 0};  // status, and the value of the coordinate that is kept
+  declaration.memory = {open, 0};  // status, and locked value of the coordinate
   if (!std::isfinite(times_.release)) return;
   Crossing release{coordinate().name + " is released", Crossing::Direction::rising};
   release.begins_on = -1;
@@ -70,7 +70,7 @@ void JointLock::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> valu
 
 bool JointLock::is_due(double time) const { return time >= times_.from && time < times_.to; }
 
-/// Only where steps do not end on break points.
+/// This only occurs if steps do not end on break points.
 bool JointLock::leaves_branch(const LocalState& state) const {
   const double status = state.memory()[0];
   return status != released && is_due(state.time()) != (status == locked);

@@ -1,8 +1,8 @@
-// A coordinate that is locked for a time, at the value that it then has.
+// A coordinate that is locked for an interval of time, at its value when the lock closes.
 //
-// A constraint q - q_lock = 0 that is switched on and off (Component::is_on). Relative motion at the moment of locking
-// is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a force, even
-// if the force jumps beyond it.
+// The lock is a constraint q - q_lock = 0 that is switched on and off (Component::is_on). When the lock closes,
+// relative motion is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a
+// force, even if the force jumps beyond it.
 #pragma once
 
 #include <limits>
@@ -15,14 +15,14 @@ namespace bielle::mechanism {
 struct LockTimes {
   double from = 0;                                           ///< [s]
   double to = std::numeric_limits<double>::infinity();       ///< [s]
-  double release = std::numeric_limits<double>::infinity();  ///< force or torque at which it opens for good [N], [N m]
+  double release = std::numeric_limits<double>::infinity();  ///< force or torque that opens it permanently [N], [N m]
 };
 
 class JointLock final : public CoordinateAction {
  public:
   JointLock(std::string name, const Joint& joint, std::size_t coordinate, const LockTimes& times)
       : CoordinateAction("lock", std::move(name), joint, coordinate), times_(times) {}
-  /// What a lock that is closed from the beginning keeps, where the file gives the coordinate's start value.
+  /// Sets the value of a lock that is closed from the beginning, if the file gives the coordinate's start value.
   void close_at(double value) { start_ = value; }
 
   void declare(Declaration& declaration) const override;
@@ -40,7 +40,7 @@ class JointLock final : public CoordinateAction {
   bool is_on(const LocalState& state, int row) const override;
 
  private:
-  static constexpr double open = 0, locked = 1, released = 2;  ///< status, in the memory
+  static constexpr double open = 0, locked = 1, released = 2;  ///< status in the memory
   bool is_due(double time) const;
   double distance(const LocalState& state, double value) const;
   LockTimes times_;

@@ -27,7 +27,7 @@ void JointSpring::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) c
     of_joint += law.N * jet.g();
 }
 
-// dN = N_x g + N_v (v^T W dz + w dv) + measures;   d(N g) = N S + g dN, and likewise along w
+// dN = N_x g + N_v (v^T W dz + w dv) + measures;   d(N g) = N S + g dN; the terms along w are similar
 void JointSpring::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
   CoordinateDerivatives& jet = calc(state);
@@ -45,7 +45,7 @@ void JointSpring::add_tangent(const LocalState& state, LocalTangent& tangent) co
   }
   if (tangent.wants_C) tangent.C.dense().block(at, at, n, n) += law.N_v * jet.w() * jet.w().transpose();
   if (law_.reads_state()) {
-    const VectorX w = jet.w();  // measures may be of the same joint
+    const VectorX w = jet.w();  // measures may belong to the same joint
     law_.add_measures(state, x, v, w, at, tangent);
   }
 }

@@ -1,7 +1,7 @@
 // Spring, damper and preload in a joint, on one of its coordinates q: resisting force N(q - rest, qdot, t, measures).
 //
-// On a displacement or angle the force acts along the coordinate. On a component of a rotation vector the elastic part
-// is the gradient of its potential, along g, and the rest is a moment about the joint's axis, along w
+// For a displacement or angle the force acts along the coordinate. For a component of a rotation vector the elastic
+// part is the gradient of its potential, along g, and the rest is a moment about the joint's axis, along w
 // (measures/coordinate.hpp): the energies are exact in both cases.
 #pragma once
 
@@ -14,10 +14,10 @@ namespace bielle::mechanism {
 
 class JointSpring final : public CoordinateAction, public TimeDependent {
  public:
-  /// @param rest  value of the coordinate at which the spring is free [m] or [rad]
+  /// @param rest  value of the coordinate at which the spring is unloaded [m] or [rad]
   JointSpring(std::string name, const Joint& joint, std::size_t coordinate, double rest, double preload)
       : CoordinateAction("spring", std::move(name), joint, coordinate), rest_(rest), law_(0, 0, preload) {}
-  /// Adds what a key `stiffness` or `damping` says, once the model is read.
+  /// Adds the term of a key `stiffness` or `damping`, after the model has been read.
   void read(const YamlValue& value, bool damping, Model& model);
 
   void declare(Declaration& declaration) const override;

@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The drive of a kind on a coordinate, or nullptr.
+/// Returns the drive of a kind on a coordinate, or nullptr.
 template <class Kind>
 const Kind* drive_of(const Joint& joint, std::size_t coordinate, const Model& model) {
   for (const Component* component : model.components_of({Section::joints, joint.name()}))
@@ -21,7 +21,7 @@ const Kind* drive_of(const Joint& joint, std::size_t coordinate, const Model& mo
   return nullptr;
 }
 
-/// A drive by motion says itself where a coordinate starts, or how fast.
+/// A drive by motion already determines the start value or rate of a coordinate.
 void check_drives(const std::optional<YamlValue>& value, const std::optional<YamlValue>& rate, const Joint& joint,
                   std::size_t coordinate, const Model& model) {
   const std::string& name = joint.coordinates()[coordinate].name;

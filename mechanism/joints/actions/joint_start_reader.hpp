@@ -1,8 +1,8 @@
-// `start` and `start_rate` of a joint's coordinate, and `carries`: where it stands, how fast it goes and what goes with
-// it when the first analysis starts.
+// Reader of `start` and `start_rate` of a joint's coordinate, and of `carries`: its value, its rate and the parts that
+// move with it at the start of the first analysis.
 //
-// Both are conditions of that start alone (mechanism/model/start_condition.hpp), and count as coordinates always do:
-// zero where the joint's frames coincide. An angle may be given beyond half a turn; turns are counted from there.
+// Both are conditions of that start only (mechanism/model/start_condition.hpp), with the usual zero of coordinates: the
+// joint's frames coincide. An angle may be given beyond half a turn; turns are counted from it.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,14 @@
 
 namespace bielle::mechanism {
 
-/// Notes what the entry of a joint asks of one of its coordinates. @param value,rate  empty: nothing is asked
-/// @throws InputError, also when all entries are read and a drive says otherwise
+/// Adds the start conditions of a joint's entry for one of its coordinates. @param value,rate  empty: no condition
+/// @throws InputError, also after all entries have been read, if a drive contradicts the condition
 void read_joint_start(const std::optional<YamlValue>& value, const std::optional<YamlValue>& rate, Joint& joint,
                       std::size_t coordinate, Model& model);
 
-/// `carries: all`: what is behind the joint starts with it as one rigid body (mechanism/model/carried_start.hpp).
-/// @throws InputError for a joint of other than two nodes
+/// Reads `carries: all`: the part behind the joint starts with it as one rigid body
+/// (mechanism/model/carried_start.hpp).
+/// @throws InputError for a joint that does not have two nodes
 void read_carried_start(const YamlValue& carries, const Joint& joint, Model& model);
 
 }  // namespace bielle::mechanism

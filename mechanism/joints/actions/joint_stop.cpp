@@ -12,8 +12,8 @@ namespace bielle::mechanism {
 void JointStop::declare(Declaration& declaration) const {
   declare_references(declaration);
   declaration.damping = range_.damping > 0;
-  declaration.kinks = true;  // where the damper lets go
-  declaration.memory = {0};  // side in contact
+  declaration.kinks = true;  // at zero total force
+  declaration.memory = {0};  // side of the contact
   if (std::isfinite(range_.upper)) declaration.crossings.push_back({coordinate().name + " at its upper stop"});
   if (std::isfinite(range_.lower)) declaration.crossings.push_back({coordinate().name + " at its lower stop"});
 }
@@ -56,7 +56,7 @@ void JointStop::add_energy(const LocalState& state, Energy& energy) const {
   const auto [q, v] = value(state);
   const Contact c = contact(state, q, v);
   if (c.side == 0) return;
-  // A spring that the damper keeps from pushing gives its energy to the damper.
+  // The energy of a spring that the damper keeps from pushing is dissipated by the damper.
   energy.elastic += 0.5 * range_.stiffness * c.penetration * c.penetration;
   energy.dissipation += (c.N - c.side * range_.stiffness * c.penetration) * v;
 }
@@ -94,8 +94,8 @@ bool JointStop::leaves_branch(const LocalState& state) const {
 
 void JointStop::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                              Eigen::Ref<VectorX> memory) const {
-  // After a crossing the coordinate is slightly beyond the stop, or short of it. On the stop itself its rate decides;
-  // what rests there is in contact, and leaves the branch if it is not pressed in.
+  // After an event the coordinate is slightly beyond the stop, or before it. Exactly at the stop its rate decides; a
+  // part at rest there is in contact, and leaves the branch if it is not pressed against the stop.
   const auto [q, v] = value(state);
   const auto beyond = [](double p, double rate) { return p > 0 || (p == 0 && rate >= 0); };
   memory[0] = beyond(q - range_.upper, v) ? 1 : beyond(range_.lower - q, -v) ? -1 : 0;

@@ -1,8 +1,8 @@
-// Stops at the ends of a coordinate's range [lower, upper]: linear spring and damper that only push.
+// Stops at the ends of a coordinate's range [lower, upper]: linear spring and damper with unilateral force.
 //
-//     upper, p = q - upper:   N = max(0, k p + d qdot)  while in contact, 0 otherwise;  lower likewise.
-// Contact begins and ends where p changes its sign: steps end there (crossings), because the damper's force jumps. At
-// rest the sign of p alone decides. Reference of the model: linear Kelvin-Voigt contact without adhesion.
+//     upper, p = q - upper:   N = max(0, k p + d qdot)  in contact, 0 otherwise;  lower stop similarly.
+// Contact begins and ends when p changes its sign: steps end there (events), because the damper's force jumps. At rest
+// only the sign of p matters. Reference of the model: linear Kelvin-Voigt contact without adhesion.
 #pragma once
 
 #include "mechanism/joints/actions/coordinate_action.hpp"
@@ -10,7 +10,7 @@
 namespace bielle::mechanism {
 
 struct StopRange {
-  double lower, upper;  ///< [m] or [rad]; infinite: none
+  double lower, upper;  ///< ends [m] or [rad]; infinite: no stop
   double stiffness;     ///< [N/m] or [N m/rad]
   double damping;       ///< [N s/m] or [N m s/rad]
 };
@@ -33,8 +33,8 @@ class JointStop final : public CoordinateAction {
 
  private:
   struct Contact {
-    double side = 0;         ///< +1 at the upper stop, -1 at the lower one, 0 at none
-    double penetration = 0;  ///< p, positive in contact
+    double side = 0;         ///< +1 at the upper stop, -1 at the lower one, 0 at neither
+    double penetration = 0;  ///< penetration p, positive in contact
     double N = 0;            ///< resisting force along the coordinate, with the sign of `side`
     bool pushes = false;
   };

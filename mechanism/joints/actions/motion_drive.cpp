@@ -30,9 +30,9 @@ void MotionDrive::calc_time_formulas(const LocalState& state, std::span<double> 
 
 double PositionDrive::distance(const LocalState& state, double principal) const {
   const double target = state.motion_factor() * law()(state.time());
-  // An angle is prescribed modulo turns: the drive counts them by time, not by memory, so that the result does not
-  // depend on step sizes or restarts. Whole turns are taken off the target by itself: rounding of large angles would
-  // otherwise keep Newton's method from its tolerance.
+  // An angle is prescribed modulo turns: the drive counts turns by time, not by memory, so that the result does not
+  // depend on step sizes or restarts. Whole turns are subtracted from the target separately: otherwise rounding of
+  // large angles would prevent Newton's method from reaching its tolerance.
   if (coordinate().kind == JointCoordinate::Kind::angle)
     return std::remainder(principal - std::remainder(target, 2 * M_PI), 2 * M_PI);
   return principal - target;

@@ -1,12 +1,12 @@
-// Drives by motion: constraints on a joint's coordinate c, kept by a multiplier.
+// Drives by motion: constraints on a joint's coordinate c with a multiplier.
 //
 //   angle or displacement (t):  constraint c(q) - f(t) = 0; its multiplier is the drive's torque or force on the
-//                               coordinate, negated (the residual holds + B^T lambda). In a static analysis: c = s
-//                               f(t), s the fraction of the motion applied so far
-//   rate or speed (t):          constraint cdot - f(t) = 0, non-holonomic; in statics the joint stays where it is
+//                               coordinate, negated (the residual contains + B^T lambda). In a static analysis: c = s
+//                               f(t), with the fraction s of the motion applied so far
+//   rate or speed (t):          constraint cdot - f(t) = 0, non-holonomic; in statics the joint keeps its position
 //
-// A position drive begins where f(t_start) says: the assembly moves the joint there, and the joint counts turns from
-// there. A drive that has let go is a constraint that is switched off.
+// A position drive begins at f(t_start): the assembly moves the joint to this value, and the joint counts turns from
+// it. A released drive is a constraint that is switched off.
 #pragma once
 
 #include "mechanism/joints/actions/drive.hpp"
@@ -14,7 +14,7 @@
 
 namespace bielle::mechanism {
 
-/// What drives by motion are: a function of time, kept by a multiplier.
+/// Common base of drives by motion: a function of time as a constraint with a multiplier.
 class MotionDrive : public Drive, public TimeDependent {
  public:
   MotionDrive(std::string name, const Joint& joint, std::size_t coordinate, Expression f)
@@ -25,7 +25,7 @@ class MotionDrive : public Drive, public TimeDependent {
 
  protected:
   const Expression& law() const { return f_; }
-  virtual Part part() const = 0;  ///< of the law
+  virtual Part part() const = 0;  ///< role of the law
   double force(const LocalState& state) const final { return -state.reaction()[0]; }
   void add_kinks(std::vector<double>& times) const final;
   void declare_row(Declaration& declaration, const std::string& row, ConstraintKind kind) const;
@@ -48,7 +48,7 @@ class PositionDrive final : public MotionDrive {
  private:
   Part part() const override { return Part::position; }
   LawText law_text() const override { return {coordinate().name, law().text(), coordinate().units()}; }
-  /// Of the coordinate from the value that the law prescribes.
+  /// Distance of the coordinate from the value that the law prescribes.
   double distance(const LocalState& state, double principal) const;
 };
 

@@ -124,7 +124,7 @@ void PidDrive::calc_effort(const LocalState& state, Effort& effort) const {
   effort.by_position[0] += gains_.integral;
 }
 
-// -- its states
+// -- states of the controller
 
 bool PidDrive::keeps_integral(const LocalState& state) const {
   return state.held(0) || (state.environment().statics && released(state));
@@ -185,7 +185,7 @@ void PidDrive::add_start_values(const LocalState& state, Eigen::Ref<VectorX> cha
   if (filters() && (statics || state.memory()[own_memory()] == 0))
     change[filter_row()] += error - state.first_order()[filter_row()];
   if (!statics || !integrates() || keeps_integral(state)) return;
-  // The search sets off between the limits: at one of them nothing answers to the position.
+  // The search starts between the limits: at a limit the effort does not depend on the position.
   const double u = gains_.proportional * error + gains_.integral * state.first_order()[0], side = this->side(u);
   if (side == 0) return;
   const bool both = limit().has_lower() && limit().has_upper();

@@ -1,14 +1,16 @@
-// A motor with a PID controller: a torque or force on a joint's coordinate that brings what is controlled, the
-// coordinate c itself or a measure, to its target.
+// A motor with a PID controller: a torque or force on a joint's coordinate that controls the coordinate c itself, or a
+// measure, to a target.
 //
 //     e = target - controlled,     u = kp e + ki z + kd D,     Q = min(max(u, lower), upper)
 //     z' = e + (Q - u)/(ki T_w)                         integral; with anti-windup by back-calculation at a limit
 //     d' = (e - d)/T_f,  D = (e - d)/T_f                derivative, with a filter of time constant T_f
-//     D = d(target)/dt - cdot                           derivative without one, of targets that are functions of time
+//     D = d(target)/dt - cdot                           derivative without filter, for targets that are functions of
+//     time
 //
-// z and d are first-order unknowns. z begins at zero, d at e, so that the derivative does not kick. At a limit z moves
-// to where u is at the limit, within T_w (`tracking_time`, by default kp/ki). A drive that has let go keeps z.
-// In a static analysis all rates are zero, those of z as well: e = 0 where nothing else holds the coordinate.
+// z and d are first-order unknowns. z begins at zero, d at e, so that the derivative term has no initial peak. At a
+// limit z moves to the value at which u is at the limit, within T_w (`tracking_time`, by default kp/ki). After its
+// release the drive keeps z.
+// In a static analysis all rates are zero, including that of z: e = 0 if nothing else holds the coordinate.
 //
 // Reference: K. J. Astroem, T. Haegglund, PID Controllers: Theory, Design and Tuning, 1995, 3.5.
 #pragma once
@@ -26,14 +28,15 @@ struct PidGains {
   double integral = 0;       ///< ki [.../s]
   double derivative = 0;     ///< kd [... s]
   double filter = 0;         ///< T_f [s]; 0: none
-  double tracking_time = 0;  ///< T_w [s]; of no meaning without integral or limit
+  double tracking_time = 0;  ///< T_w [s]; not used without integral or limit
 };
 
 class PidDrive final : public ActuatorDrive, public TimeDependent {
  public:
   PidDrive(std::string name, const Joint& joint, std::size_t coordinate, const ForceLimit& limit, const PidGains& gains)
       : ActuatorDrive(std::move(name), joint, coordinate, limit), gains_(gains) {}
-  /// Takes its formulas, once the model is read. @param measure  what is controlled; the coordinate itself where empty
+  /// Reads its formulas, after the model has been read. @param measure  controlled measure; if empty, the coordinate
+  /// itself
   void read(const YamlValue& target, const std::optional<YamlValue>& measure, Model& model);
 
   void declare(Declaration& declaration) const override;
@@ -45,14 +48,14 @@ class PidDrive final : public ActuatorDrive, public TimeDependent {
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
 
  private:
-  /// What the controller makes of a state.
+  /// Values of the controller at a state.
   struct Loop {
     double error, derivative, effort;
   };
   Loop loop(const LocalState& state) const;
   double effort(const LocalState& state) const override { return loop(state).effort; }
   void calc_effort(const LocalState& state, Effort& effort) const override;
-  /// The error with its derivatives, which are those of an Effort.
+  /// Computes the error with its derivatives, in the form of an Effort.
   void calc_error(const LocalState& state, Effort& error) const;
   double target_rate(const LocalState& state) const;
   bool reads_state() const override { return true; }
@@ -62,9 +65,9 @@ class PidDrive final : public ActuatorDrive, public TimeDependent {
   bool integrates() const { return gains_.integral != 0; }
   bool filters() const { return gains_.derivative != 0 && gains_.filter > 0; }
   int filter_row() const { return integrates() ? 1 : 0; }
-  /// Whether z stays as it is, and its row holds its increment alone: at a static analysis.
+  /// Whether z keeps its value, so that its row contains only its increment, in a static analysis.
   bool keeps_integral(const LocalState& state) const;
-  /// z' less e: zero between the limits. @param side,u  of the actuator
+  /// Returns z' minus e: zero between the limits. @param side,u  values of the actuator
   double windup_rate(double side, double u) const;
 
   PidGains gains_;

@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The largest effort of an analysis, for its summary.
+/// Records the largest effort of an analysis, for its summary.
 class LargestEffort final : public Gatherer {
  public:
   explicit LargestEffort(const SoughtDrive& drive) : drive_(drive) {}
@@ -29,7 +29,7 @@ class LargestEffort final : public Gatherer {
   }
   std::vector<ResultArray> results() override { return {}; }
   std::string summary() override {
-    if (states_ < 2) return {};  // modes about a state, say: nothing was sought
+    if (states_ < 2) return {};  // nothing was sought, for example for modes about a state
     return fmt::format("  drive '{}' takes up to {:.6g} {} (at t = {:.6g} s)\n", drive_.name(), largest_,
                        drive_.coordinate().force_units(), time_);
   }

@@ -1,8 +1,8 @@
-// A drive whose force or torque inverse dynamics finds: `torque: sought`, `force: sought`.
+// A drive whose force or torque is determined by inverse dynamics: `torque: sought`, `force: sought`.
 //
-// It acts on the coordinate as a force drive does. Its value u stands in its memory, where the solver puts it
-// (solvers/constraints/sought_efforts.hpp): such that the supports of nodes give nothing along the `motion` that they
-// prescribe.
+// It acts on the coordinate like a force drive. Its value u is stored in its memory, where the solver sets it
+// (solvers/constraints/sought_efforts.hpp) such that the supports of nodes have no reaction along the `motion` that
+// they prescribe.
 #pragma once
 
 #include "mechanism/joints/actions/drive.hpp"
@@ -13,7 +13,7 @@ namespace bielle::mechanism {
 
 class SoughtDrive final : public Drive, public SoughtEffort {
  public:
-  /// @param moves  nodes that it moves in place of their supports; empty: all that have a `motion`
+  /// @param moves  nodes that it moves instead of their supports; empty: all that have a `motion`
   SoughtDrive(std::string name, const Joint& joint, std::size_t coordinate, std::vector<int> moves)
       : Drive(std::move(name), joint, coordinate), moves_(std::move(moves)) {}
   void declare(Declaration& declaration) const override;

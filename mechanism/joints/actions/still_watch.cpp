@@ -26,8 +26,7 @@ void StillWatch::exchange(Archive& archive) {
 }
 
 std::string StillWatch::summary() {
-  // A part that gives way at all does so by more: steel of a length of 1 m under a thousandth of what breaks it, by
-  // 1e-6 m.
+  // Any real part deforms by more: steel of a length of 1 m, at a thousandth of its strength, by 1e-6 m.
   constexpr double still = 1e-9;  // [m] or [rad]
   if (states_ < 2 || most_force_ == 0 || farthest_ > still) return {};
   return fmt::format(

@@ -1,4 +1,4 @@
-// Notices a force or torque that drives nothing: the coordinate that it acts on stands still all along a motion.
+// Detects a force or torque that drives nothing: its coordinate does not move during a motion.
 #pragma once
 
 #include "mechanism/joints/actions/actuator_drive.hpp"
@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 
 class StillWatch final : public Gatherer {
  public:
-  /// Keeps a reference.
+  /// The object keeps a reference.
   explicit StillWatch(const ActuatorDrive& drive) : drive_(drive) {}
   void begin() override;
   void add(const LocalState& state) override;
@@ -19,9 +19,9 @@ class StillWatch final : public Gatherer {
 
  private:
   const ActuatorDrive& drive_;
-  double most_force_ = 0;  ///< [N] or [N m]
-  double first_ = 0;       ///< of the coordinate
-  double farthest_ = 0;    ///< from there
+  double most_force_ = 0;  ///< largest force [N] or [N m]
+  double first_ = 0;       ///< first value of the coordinate
+  double farthest_ = 0;    ///< largest distance from it
   long states_ = 0;
 };
 

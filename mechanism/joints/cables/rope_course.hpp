@@ -1,14 +1,15 @@
-// The pulleys that a rope touches, and how far it winds round them.
+// The pulleys that a rope touches, and the angles by which it is wound on them.
 //
-// The first place and the last are touched always, and so are eyelets (radius 0). A pulley between is touched while the
-// rope bends round it. Its wrap, the angle from where the rope comes onto it to where it leaves, is counted over turns.
-// The rope leaves the pulley where the wrap has fallen to zero, and runs straight from the place before to the place
-// after it. There, a pulley of the radius rho whose centre is at the distance s from the rope, on the inner side, is
+// The first and the last place are always touched, and so are eyelets (radius 0). A pulley in between is touched as
+// long as the rope bends round it. Its wrap, the angle from the point where the rope arrives to the point where it
+// leaves, is counted over turns. The rope leaves the pulley when the wrap has decreased to zero, and then runs straight
+// from the place before to the place after it. The distance of a pulley of radius rho from the rope, with its centre at
+// the distance s on the inner side, is
 //     s - rho
-// clear of it; at zero the rope comes onto it, in the sense in which it then bends: that in which it left, or the other
-// one where it has been led round the pulley. At both zeros the way along the rim and the straight way are the same, so
-// that lengths, forces and energies go on smoothly. Distances are seen along the pulleys' axes; wheels that are offset
-// along them are as if in one plane.
+// At zero distance the rope touches it, in the sense in which it then bends: that in which it left, or the other one if
+// it has been led round the pulley. At both zeros the path along the rim and the straight path are equal, so that
+// lengths, forces and energies are continuous. Distances are projected along the pulleys' axes; wheels with an offset
+// along them are treated as if in one plane.
 #pragma once
 
 #include <span>
@@ -18,25 +19,25 @@
 
 namespace bielle::mechanism {
 
-/// Less than this is rounding: of wraps [rad], and of distances over radii. A rope that just touches a pulley stays as
-/// it is.
+/// Smaller wraps [rad] and distances relative to radii are rounding errors. A rope that just touches a pulley is not
+/// changed.
 inline constexpr double just_touching = 1e-9;
 
-/// The places that a rope touches, in order, with the radii that it winds round with their signs.
+/// The places that a rope touches, in order, with signed radii.
 struct RopeCourse {
   std::vector<int> places;
   std::vector<Pulley> pulleys;
 };
 
-/// A RopePlace tells how a rope passes a place between its ends.
+/// State of the rope at a place between its ends.
 struct RopePlace {
-  double sense = 1;  ///< +1, -1: touched, the sense in which it is turned; 0: clear of the rope
-  double wrap = 0;   ///< touched: the angle, counted [rad]; clear: the sense that it would be turned in, +1 or -1
+  double sense = 1;  ///< +1, -1: touched, with this sense of bending; 0: not touched
+  double wrap = 0;   ///< touched: wrap angle, counted [rad]; not touched: the sense of bending on contact, +1 or -1
 };
 
 class RopeCourses {
  public:
-  /// @param pulleys  all places, the ends included
+  /// @param pulleys  all places, including the ends
   explicit RopeCourses(std::vector<Pulley> pulleys) : pulleys_(std::move(pulleys)) {}
   const std::vector<Pulley>& pulleys() const { return pulleys_; }
   int last() const { return static_cast<int>(pulleys_.size()) - 1; }
@@ -46,39 +47,39 @@ class RopeCourses {
   }
   static bool touches(const RopePlace& place) { return place.sense != 0; }
 
-  /// The course by what each place does. @param places  of all, those of the ends are not looked at
+  /// Gets the course from the states of the places. @param places  all places; those of the ends are not used
   void get_course(std::span<const RopePlace> places, RopeCourse& course) const;
-  /// The wrap at a touched place between the ends, with the turns that bring it nearest to `expected`.
+  /// Returns the wrap at a touched place between the ends, with the turns that bring it closest to `expected`.
   /// @param at  inertial frames of all pulleys
   double wrap(std::span<const Frame> at, std::span<const RopePlace> places, int place, double expected) const;
-  /// How far a clear place is from the rope [m]; negative where the rope would cut through it.
+  /// Returns the distance of an untouched place from the rope [m]; negative if the rope would cut through it.
   double clearance(std::span<const Frame> at, std::span<const RopePlace> places, int place) const;
-  /// The sense in which a clear place would be turned, after a motion.
+  /// Returns the sense of bending of an untouched place, after a motion.
   double side(std::span<const Frame> at, std::span<const RopePlace> places, int place) const;
-  /// Lets the rope leave the places round which it bends backwards, and come onto those that it cuts through, until
-  /// there are none. Wraps become those at this state.
+  /// Lets the rope leave the places at which it bends backwards, and touch those that it cuts through, until there are
+  /// none. Wraps are set to those at this state.
   void settle(std::span<const Frame> at, std::span<RopePlace> places) const;
-  /// The places tell how the rope passes them as drawn: it winds by less than one turn round each pulley that it bends
-  /// round, and is clear of a pulley that it would bend round backwards.
-  /// @param turns  more turns than that, of each place
-  /// @throws std::domain_error  where pulleys overlap: which two places
+  /// Returns the initial states of the places: the rope is wound by less than one turn on each pulley that it bends
+  /// round, and does not touch a pulley that it would bend round backwards.
+  /// @param turns  additional turns on each place
+  /// @throws std::domain_error naming the two places, if pulleys overlap
   std::vector<RopePlace> as_drawn(std::span<const Frame> at, const std::vector<int>& turns) const;
 
  private:
-  /// A place relative to the straight rope between the touched places around it.
+  /// Position of a place relative to the straight rope between the neighbouring touched places.
   struct Offset {
-    double s = 0;         ///< of the rope from the centre, along u x z [m]
-    double along = 0;     ///< of the centre, from the first tangent point [m]
-    double length = 0;    ///< of the straight rope [m]
-    double to_end = 0;    ///< of the centre, from the nearer end of that rope [m]
-    bool exists = false;  ///< the places around do not overlap
+    double s = 0;         ///< distance of the rope from the centre, along u x z [m]
+    double along = 0;     ///< position of the centre, from the first tangent point [m]
+    double length = 0;    ///< length of the straight rope [m]
+    double to_end = 0;    ///< distance of the centre from the nearer end of that rope [m]
+    bool exists = false;  ///< the neighbouring places do not overlap
     bool within() const { return exists && along > 0 && along < length; }
   };
   Offset offset(std::span<const Frame> at, std::span<const RopePlace> places, int place) const;
-  /// With its sign: that of the rope's sense; of an end as given.
+  /// Signed radius: with the sign of the rope's sense; as given at an end.
   double radius(std::span<const RopePlace> places, int place) const;
   int neighbour(std::span<const RopePlace> places, int place, int step) const;
-  /// Whether pulleys leave no way between them, one of them turned in a sense.
+  /// Whether pulleys overlap so that no rope fits between them, if one of them is touched in a sense.
   bool overlap(std::span<const Frame> at, std::span<const RopePlace> places, int place, double sense, int other) const;
   std::vector<Pulley> pulleys_;
 };

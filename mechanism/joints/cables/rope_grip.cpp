@@ -9,7 +9,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Whether a rope that could slide would touch the pulley as drawn.
+/// Whether a rope that could slide would initially touch the pulley.
 bool touches_as_drawn(const RopePath& before, const RopePath& after) {
   const std::size_t p = before.nodes.size() - 2;
   const RopeCourses around({before.pulleys[p], after.pulleys[0], after.pulleys[1]});

@@ -1,10 +1,10 @@
-// Watches a pulley that a rope grips, between two of its sections: the rope is taken to stay on it.
+// Monitors a pulley that a rope grips, between two of its sections: the rope is assumed to stay on it.
 //
-// With the angle beta by which each section's end winds on the pulley (alpha + gamma of rope_span.hpp), the rope lies
+// With the angle beta by which each section's end is wound on the pulley (alpha + gamma of rope_span.hpp), the rope is
 // on the rim along
-//     theta = (as drawn) + sign(rho) (beta_after - beta_before).
-// The rope would leave the pulley where theta has fallen to zero: an event is noted. It still grips, as a cam's contact
-// still holds where it would lift off.
+//     theta = (initial) + sign(rho) (beta_after - beta_before).
+// The rope would leave the pulley when theta has decreased to zero: an event is recorded. The pulley still grips it,
+// like a cam whose contact is kept when it would lift off.
 #pragma once
 
 #include <string>
@@ -24,8 +24,8 @@ class RopeGrip final : public Component {
 
  private:
   const RopeSection &before_, &after_;
-  double radius_;      ///< signed [m]
-  double drawn_wrap_;  ///< negative: clear of it [rad]
+  double radius_;      ///< signed radius [m]
+  double drawn_wrap_;  ///< initial wrap; negative: not touched [rad]
 };
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// `belt` and `cable`: their keys.
+// Readers of `belt` and `cable`.
 #include <cmath>
 #include <stdexcept>
 
@@ -14,7 +14,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// One point for each node, in the node's axes; `~`: the node itself.
+/// Reads one point for each node, in the node's axes; `~`: the node itself.
 std::vector<Vector3> read_places(const YamlValue& entry, std::size_t count) {
   std::vector<Vector3> places(count, Vector3::Zero());
   const auto at = entry.find("at");
@@ -26,7 +26,7 @@ std::vector<Vector3> read_places(const YamlValue& entry, std::size_t count) {
   return places;
 }
 
-/// How many turns more than drawn the rope winds round each place; `~`: none.
+/// Reads the number of additional turns of the rope on each place; `~`: none.
 std::vector<int> read_turns(const YamlValue& entry, std::size_t count) {
   std::vector<int> turns(count, 0);
   const auto given = entry.find("turns");
@@ -110,7 +110,7 @@ const RopeSection& add_section(const char* type, const std::string& name, const 
   }
 }
 
-/// Watches the pulleys that the rope grips between its sections.
+/// Adds monitors of the pulleys that the rope grips between its sections.
 void add_grips(const std::string& name, const std::vector<const RopeSection*>& sections, bool closed, Model& model) {
   for (std::size_t k = closed ? 0 : 1; k < sections.size(); ++k) {
     const RopeSection &before = *sections[(k + sections.size() - 1) % sections.size()], &after = *sections[k];

@@ -1,4 +1,4 @@
-// A rope section's results: what it records, says of itself and lets formulas read.
+// Results of a rope section: recorded quantities, description and measures.
 #include <cmath>
 
 #include <fmt/format.h>

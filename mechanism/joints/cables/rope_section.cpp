@@ -60,7 +60,7 @@ void RopeSection::declare(Declaration& declaration) const {
   }
 }
 
-// -- which pulleys it touches
+// -- touched pulleys
 
 void RopeSection::get_poses(const LocalState& state, std::vector<Frame>& at) const {
   at.resize(path_.pulleys.size());
@@ -70,7 +70,7 @@ void RopeSection::get_poses(const LocalState& state, std::vector<Frame>& at) con
   }
 }
 
-/// On the branch of the motion; in statics by the position.
+/// The places are those of the present branch; in statics they follow from the position.
 void RopeSection::get_places(const LocalState& state, std::vector<RopePlace>& places) const {
   const auto memory = state.memory();
   places.assign(path_.pulleys.size(), RopePlace());
@@ -96,7 +96,7 @@ void RopeSection::calc_stretch(const LocalState& state, Stretch& stretch) const 
   calc_along(state, stretch);
 }
 
-/// @param stretch  with what each place does
+/// @param stretch  contains the states of the places
 void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
   thread_local RopeCourse course;
   courses_.get_course(stretch.places, course);
@@ -113,7 +113,7 @@ void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
   const double natural = stretch.L - stretch.E;
   if (!(natural > 0)) {
     stretch.taut = stretch.stretched = false;
-    stretch.tension = std::numeric_limits<double>::quiet_NaN();  // wound up to its end: no trial state
+    stretch.tension = std::numeric_limits<double>::quiet_NaN();  // wound to its end: not a valid trial state
     return;
   }
   const bool stretched = state.environment().statics ? stretch.E >= 0 : state.memory()[taut_memory] != 0;
@@ -123,9 +123,9 @@ void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
   stretch.tension = stretch.taut ? T : 0;
 }
 
-/// Adds a span and what winds round the place that it leaves.
-/// @param arriving  direction of the span before at that place, with its rate
-/// @returns direction at the place that it goes to
+/// Adds a span and the wrap on the place at which it begins.
+/// @param arriving  direction of the previous span at that place, with its rate
+/// @returns the direction at the place at which the span ends
 CoordinateRate RopeSection::add_span(const LocalState& state, const RopeCourse& course, std::size_t s,
                                      const CoordinateRate& arriving, Stretch& stretch) const {
   const int i = course.places[s], j = course.places[s + 1];
@@ -165,7 +165,7 @@ CoordinateRate RopeSection::add_span(const LocalState& state, const RopeCourse& 
   return there;
 }
 
-/// @throws ComputationError  where there is none
+/// @throws ComputationError if there is no straight path
 void RopeSection::check_way(const LocalState& state, int i, int j, double least) const {
   const auto point = [&](int k) -> Vector3 {
     const NodeState& node = state.node(k);
@@ -177,7 +177,7 @@ void RopeSection::check_way(const LocalState& state, int i, int j, double least)
                                      path_.names[static_cast<std::size_t>(j)]));
 }
 
-/// The wrap of a touched place at this state, from the directions in which the rope arrives and leaves.
+/// Returns the wrap of a touched place at this state, from the directions in which the rope arrives and leaves.
 double RopeSection::count_wrap(const LocalState& state, int place, double radius, const CoordinateRate& leaving,
                                const CoordinateRate& arriving, Stretch& stretch) const {
   const auto k = static_cast<std::size_t>(place);
@@ -236,7 +236,7 @@ void RopeSection::add_energy(const LocalState& state, Energy& energy) const {
   energy.dissipation += (s.tension - elastic_tension) * s.E_rate;
 }
 
-// -- what it remembers
+// -- memory
 
 void RopeSection::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   thread_local Stretch s;
@@ -264,7 +264,7 @@ bool RopeSection::leaves_branch(const LocalState& state) const {
   get_poses(state, at);
   return std::any_of(watched_.begin(), watched_.end(), [&](int place) {
     const auto k = static_cast<std::size_t>(place);
-    // Beyond where the crossing is.
+    // The limit is beyond the event.
     if (RopeCourses::touches(s.places[k])) return s.places[k].wrap < -2 * just_touching;
     return courses_.clearance(at, s.places, place) < -2 * just_touching * std::abs(path_.pulleys[k].radius);
   });
@@ -295,7 +295,7 @@ void RopeSection::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> va
   thread_local std::vector<Frame> at;
   calc_stretch(state, s);
   if (!watched_.empty()) get_poses(state, at);
-  values.setConstant(-1);  // neither leaves what it does not touch, nor comes onto what it does
+  values.setConstant(-1);  // it neither leaves untouched places, nor touches touched ones
   values[0] = s.E;
   for (std::size_t w = 0; w < watched_.size(); ++w) {
     const auto k = static_cast<std::size_t>(watched_[w]);

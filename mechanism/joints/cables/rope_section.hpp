@@ -1,15 +1,16 @@
 // A rope, belt or chain between two places that grip it, over pulleys on which it slides without friction.
 //
-// Along a section the tension is one. With the length l of its spans (rope_span.hpp), the wraps theta of the pulleys of
-// radius rho between that it touches (rope_course.hpp), and the angles alpha + gamma by which its ends wind,
-//     L = sum of l + sum of rho theta,   E = L + rho_0 (alpha_0 + gamma_0) - rho_n (alpha_n + gamma_n) - (as drawn)
+// The tension is constant along a section. With the lengths l of its spans (rope_span.hpp), the wraps theta of the
+// touched pulleys of radius rho in between (rope_course.hpp), and the angles alpha + gamma by which its ends are wound,
+//     L = sum of l + sum of rho theta,   E = L + rho_0 (alpha_0 + gamma_0) - rho_n (alpha_n + gamma_n) - (initial
+//     value)
 // are its length and its elongation, and
-//     T = max(0, EA (E + tau Edot)/(L - E)) while E > 0, and 0 otherwise;   L - E: how long that piece is without load.
-// Steps end where the rope leaves a pulley or comes onto it: the memory holds which ones it touches. Drums take up and
-// let out rope, so that the section's stiffness EA/(L - E) changes with its length. Rope that is wound up
-// keeps its strain: the energy 1/2 T^2/EA per length that goes with it is counted as input (negative when wound up).
-// A belt is a chain of sections of one span each. A rope has no mass and does not push: steps
-// end where it becomes slack or taut.
+//     T = max(0, EA (E + tau Edot)/(L - E)) while E > 0, and 0 otherwise;   L - E: unloaded length of that piece.
+// Steps end when the rope leaves a pulley or touches it: the memory contains the touched ones. Drums wind and unwind
+// rope, so that the section's stiffness EA/(L - E) changes with its length. Wound rope keeps its strain: its energy 1/2
+// T^2/EA per length is counted as input (negative when wound).
+// A belt is a chain of sections of one span each. A rope has no mass and cannot push: steps end when it becomes slack
+// or taut.
 #pragma once
 
 #include <array>
@@ -24,8 +25,8 @@ namespace bielle::mechanism {
 
 struct RopeMaterial {
   double EA;              ///< [N]
-  double damping = 0;     ///< tau: time of its Kelvin-Voigt damping [s]
-  double pretension = 0;  ///< as drawn [N]
+  double damping = 0;     ///< tau: time constant of its Kelvin-Voigt damping [s]
+  double pretension = 0;  ///< initial tension [N]
 };
 
 /// The places that a rope passes, in order.
@@ -33,14 +34,14 @@ struct RopePath {
   std::vector<int> nodes;
   std::vector<std::string> names;
   std::vector<Pulley> pulleys;
-  std::vector<Frame> drawn;  ///< of the nodes
-  std::vector<int> turns;    ///< that it winds round each more than drawn
+  std::vector<Frame> drawn;  ///< initial frames of the nodes
+  std::vector<int> turns;    ///< additional turns on each node
 };
 
 class RopeSection final : public Component {
  public:
-  /// @param path  of two places at least
-  /// @throws std::domain_error  where pulleys overlap
+  /// @param path  at least two places
+  /// @throws std::domain_error if pulleys overlap
   RopeSection(std::string type, std::string name, RopePath path, const RopeMaterial& material);
 
   void declare(Declaration& declaration) const override;
@@ -51,7 +52,7 @@ class RopeSection final : public Component {
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;
-  /// `tension` [N], `elongation` [m], `length` [m].
+  /// Outputs: `tension` [N], `elongation` [m], `length` [m].
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -65,21 +66,21 @@ class RopeSection final : public Component {
     double E = 0, E_rate = 0, L = 0, tension = 0;
     VectorX E_gradient, L_gradient;
     MatrixX E_second;
-    bool stretched = false;              ///< on the branch of E > 0
+    bool stretched = false;              ///< whether E > 0 on the present branch
     bool taut = false;                   ///< and under tension
-    std::array<CoordinateRate, 2> ends;  ///< alpha + gamma there, beyond that as drawn [rad]
+    std::array<CoordinateRate, 2> ends;  ///< alpha + gamma there, relative to the initial value [rad]
     std::vector<RopePlace> places;
-    std::vector<double> wrap_rates;  ///< of each place [rad/s]
+    std::vector<double> wrap_rates;  ///< for each place [rad/s]
   };
   void calc_stretch(const LocalState& state, Stretch& stretch) const;
   const RopeMaterial& material() const { return material_; }
   const RopePath& path() const { return path_; }
-  /// As drawn: alpha + gamma at an end.
+  /// Initial value of alpha + gamma at an end.
   double drawn_end(End end) const { return drawn_ends_[end]; }
 
  private:
-  // Memory: the time of the last accepted step, whether it is taut; then angle and rate of both ends; then sense, wrap
-  // and its rate of each place between them.
+  // Memory: the time of the last accepted step, whether the rope is taut; then angle and rate of both ends; then sense,
+  // wrap and its rate for each place between them.
   enum : Eigen::Index { time_memory, taut_memory, ends_memory, places_memory = 6 };
   static Eigen::Index memory_of(int place) { return places_memory + 3 * (place - 1); }
   void get_poses(const LocalState& state, std::vector<Frame>& at) const;
@@ -97,14 +98,14 @@ class RopeSection final : public Component {
   RopeMaterial material_;
   std::vector<RopePlace> drawn_places_;
   std::vector<int> watched_;            ///< places that the rope may leave
-  std::array<double, 2> drawn_ends_{};  ///< alpha + gamma at both ends as drawn
-  double E_drawn_ = 0;                  ///< by the pretension
+  std::array<double, 2> drawn_ends_{};  ///< initial alpha + gamma at both ends
+  double E_drawn_ = 0;                  ///< elongation by the pretension
   double drawn_length_ = 0;
 };
 
-/// `belt: {nodes, radii, axis, EA, pretension, damping}`: closed, gripping every pulley.
+/// Reads `belt: {nodes, radii, axis, EA, pretension, damping}`: closed, gripped by every pulley.
 void read_belt(const std::string& name, const YamlValue& entry, Model& model);
-/// `cable: {nodes, radii, axis, at, grips, turns, EA, pretension, damping}`: from the first node to the last.
+/// Reads `cable: {nodes, radii, axis, at, grips, turns, EA, pretension, damping}`: from the first node to the last.
 void read_cable(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -3,7 +3,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Component, along an axis of a pulley's frame on `node`, of the way from there to a point of another node.
+/// Component, along an axis of a pulley's frame on `node`, of the vector from there to a point of another node.
 PairMeasure way(const NodeState& node, const NodeState& other, const Pulley& here, const Vector3& there, int axis) {
   return measure_position(node, other, here.on_node.R.col(axis), here.on_node.x, there);
 }
@@ -23,7 +23,7 @@ SpanMeasures measure_span(const NodeState& first, const NodeState& second, const
       compose(span.length, std::atan2(difference, l), -difference / squared, 2 * l * difference / (squared * squared));
   if (from.radius != 0) span.first_turn = atan2(d[1], d[0]) + gamma;
   if (to.radius != 0) {
-    // The way from j to i, reversed.
+    // The vector from j to i, reversed.
     const PairMeasure x = exchanged(-way(second, first, to, p_i, 0)), y = exchanged(-way(second, first, to, p_i, 1));
     span.second_turn = atan2(y, x) + gamma;
   }

@@ -22,7 +22,7 @@ FlatFollower::FlatFollower(std::string name, JointFrames frames, Interpolation s
 }
 
 PairMeasure FlatFollower::calc_turn(const LocalState& state) const {
-  // From x and y of J_A turned to where the face is drawn.
+  // The axes are x and y of J_A, rotated to the initial direction of the face.
   const Matrix3 axes = frames().on_first.R * Eigen::AngleAxisd(psi_drawn_, Vector3::UnitZ());
   const auto along = [&](int axis) {
     return measure_alignment(state.node(0), state.node(1), axes.col(axis), frames().on_second.R.col(2));
@@ -127,7 +127,7 @@ void LiftedCoordinate::add_constraint_rates(const LocalState& state, Eigen::Ref<
 }
 
 void LiftedCoordinate::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
-  values[0] = -state.reaction()[0];  // the push along the coordinate
+  values[0] = -state.reaction()[0];  // force along the coordinate
 }
 
 std::vector<OutputField> LiftedCoordinate::output_fields() const {

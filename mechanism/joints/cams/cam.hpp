@@ -2,13 +2,14 @@
 //
 //   roller   the centre of a roller of the follower's node moves on the pitch curve of the contour: PointOnCurve in the
 //            plane of the cam
-//   flat     a flat face of the follower touches the contour: m . (p_F - x_A) - H(psi) = 0, m the direction from the
-//            cam towards the face, p_F a point of the face, psi the angle of m in the cam's frame. The face slides on
+//   flat     a flat face of the follower touches the contour: m . (p_F - x_A) - H(psi) = 0, with the direction m from
+//   the
+//            cam to the face, a point p_F of the face, and the angle psi of m in the cam's frame. The face slides on
 //            the contour at sdot = t . (p_F - x_A)' + H psidot, t = z x m
 //   lift     the follower's coordinate is a periodic function of the camshaft's angle, c_2 = f(c_1)
-// The contour and f ride on the second node of the camshaft's joint, about its axis (z of its frame), angles from x of
-// the frame as drawn. Contact forces load the bearings of roller and flat followers. Contact only pushes: where it
-// would have to pull, an event is noted ("lifts off").
+// The contour and f are fixed on the second node of the camshaft's joint, about its axis (z of its frame), with angles
+// from the initial x of the frame. Contact forces load the bearings of roller and flat followers. Contact can only
+// push: an event is recorded when it would have to pull ("lifts off").
 #pragma once
 
 #include "mechanism/joints/couplings/coordinate_named_by.hpp"
@@ -20,19 +21,19 @@ namespace bielle::mechanism {
 
 class FlatFollower final : public MeasuredPair {
  public:
-  /// @param frames  J_A: of the cam; J_B: origin on the face, z from the face away from the cam, y along the cam's axis
+  /// @param frames  J_A: on the cam; J_B: origin on the face, z from the face away from the cam, y along the cam's axis
   FlatFollower(std::string name, JointFrames frames, Interpolation support, const Model& model);
   void declare(Declaration& declaration) const override;
-  /// Along `displacement`.
+  /// The contact slides along `displacement`.
   std::vector<SlidingSurface> sliding_surfaces() const override { return {{{slide}}}; }
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
 
  private:
-  /// psi, counted over turns, and s, both zero as drawn.
+  /// psi, counted over turns, and s, both initially zero.
   enum Coordinate : std::size_t { turn, slide };
   void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
   PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const override;
-  /// psi less that as drawn, in (-pi, pi].
+  /// psi relative to its initial value, in (-pi, pi].
   PairMeasure calc_turn(const LocalState& state) const;
   /// x_A - p_F along an axis of J_B.
   PairMeasure calc_way_to_cam(int axis, const LocalState& state) const;
@@ -49,7 +50,7 @@ class LiftedCoordinate final : public Component {
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
-  /// `force`: of the cam on the follower's coordinate.
+  /// Output `force`: force of the cam on the follower's coordinate.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -62,8 +63,8 @@ class LiftedCoordinate final : public Component {
   int of_angle_, of_lifted_;
 };
 
-/// `cam: {joints: [camshaft, follower], profile, follower: roller | flat, radius, at, normal, friction}` or
-/// `cam: {joints: [camshaft, follower], lift}`
+/// Reads `cam: {joints: [camshaft, follower], profile, follower: roller | flat, radius, at, normal, friction}` or `cam:
+/// {joints: [camshaft, follower], lift}`
 void read_cam(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

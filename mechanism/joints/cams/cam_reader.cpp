@@ -1,4 +1,4 @@
-// `cam`: its keys, and where cam and follower are.
+// Reader of `cam`, and of the frames of cam and follower.
 #include <fmt/format.h>
 
 #include "mechanism/joints/cams/cam.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using Kind = JointCoordinate::Kind;
 
-/// @throws InputError  where cam and follower are the same
+/// @throws InputError if cam and follower are the same
 void check_two(const NamedCoordinate& angle, const NamedCoordinate& lifted, const YamlValue& joints) {
   if (angle.joint == lifted.joint)
     joints.at(1).fail("is coupled with itself: name the camshaft and the follower's joint");
@@ -43,7 +43,7 @@ void add_lift(const std::string& name, const YamlValue& entry, Model& model) {
   model.add(std::make_unique<LiftedCoordinate>(name, angle, lifted, std::move(lift)), Entry{Section::joints, name});
 }
 
-/// Adds cam and follower, and what rubs between them.
+/// Adds cam and follower, and the friction between them.
 void add_contact(std::unique_ptr<Joint> made, const YamlValue& entry, Model& model) {
   const Joint& joint = *made;
   model.add(std::move(made), Entry{Section::joints, joint.name()});

@@ -1,4 +1,4 @@
-// Coordinates of joints as the entries of other joints name them.
+// Coordinates of joints, as named in entries of other joints.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ struct NamedCoordinate {
   const JointCoordinate& coordinate() const { return joint->coordinates()[index]; }
 };
 
-/// The coordinate that a value names: `main`, a joint with one coordinate (or with one of the wanted kind);
-/// `main.angle`; or `{joint: main, coordinate: angle}`. Components of rotation vectors are none that can be coupled.
-/// Call when all joints are read (Model::Stage::connections). @throws InputError
+/// Returns the coordinate that a value names: `main`, a joint with one coordinate (or with one of the required kind);
+/// `main.angle`; or `{joint: main, coordinate: angle}`. Components of rotation vectors cannot be coupled. Call it after
+/// all joints have been read (Model::Stage::connections). @throws InputError
 NamedCoordinate coordinate_named_by(const YamlValue& value, Model& model,
                                     std::optional<JointCoordinate::Kind> wanted = {});
 

@@ -16,7 +16,7 @@ void LinearCoupling::add_term(const NamedCoordinate& coordinate, double factor) 
 void LinearCoupling::declare(Declaration& declaration) const {
   references_.declare(declaration);
   declaration.stiffness = true;
-  // In the units of the coordinate whose factor is one, or of the last.
+  // The row has the units of the coordinate whose factor is one, or of the last.
   const auto one = std::find_if(terms_.begin(), terms_.end(), [](const Term& t) { return std::abs(t.factor) == 1; });
   const Term& unit = one == terms_.end() ? terms_.back() : *one;
   declaration.multipliers.push_back({"ratio", unit.description().force_units()});
@@ -25,7 +25,7 @@ void LinearCoupling::declare(Declaration& declaration) const {
 void LinearCoupling::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   thread_local CoordinateDerivatives jet;
   const double lambda = state.multiplier()[0];
-  long double sum = 0;  // of angles of many turns, which cancel
+  long double sum = 0;  // angles of many turns cancel in the sum
   for (const Term& term : terms_) {
     term.joint->calc_coordinate(term.coordinate, state.of(term.reference), jet);
     r.segment(state.slots().reference_row(term.reference), jet.g().size()) += (lambda * term.factor) * jet.g();
@@ -109,7 +109,7 @@ YamlValue joints_of(const YamlValue& entry, std::size_t count, const char* expec
   return joints;
 }
 
-/// Names the coordinates of a coupling when all joints are there.
+/// Looks up the coordinates of a coupling after all joints have been read.
 void connect_later(LinearCoupling& coupling, const YamlValue& joints, std::vector<double> factors,
                    std::vector<std::optional<Kind>> kinds, Model& model) {
   model.when_read(Model::Stage::connections, [&coupling, joints, factors, kinds, &model] {
@@ -131,7 +131,7 @@ double other_than_zero(const YamlValue& value) {
   return number;
 }
 
-/// The rate of the second wheel over that of the first.
+/// Returns the ratio of the second wheel's rate to the first's.
 double ratio_of_gear(const YamlValue& entry) {
   if (entry.has("ratio") == entry.has("teeth"))
     entry.fail("a gear takes `ratio` (rate of the second joint over that of the first), or `teeth`, or `factors`");

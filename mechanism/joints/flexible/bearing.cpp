@@ -90,7 +90,7 @@ void Bearing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const 
 
 namespace {
 
-/// `{stiffness, damping}` or the stiffness alone, of one direction or of two that are alike.
+/// Reads `{stiffness, damping}` or only the stiffness, for one direction or for two equal ones.
 void read_bearing_part(const YamlValue& entry, const char* key, std::span<const int> directions, ElasticLaw& law) {
   const auto value = entry.find(key);
   if (!value) return;

@@ -1,11 +1,11 @@
-// A block of rubber, a flexible coupling, a mount between two nodes: six stiffnesses, full coupling, damping, curves
-// and hysteresis, without a constraint.
+// A block of rubber, a flexible coupling, or a mount between two nodes: six stiffnesses with full coupling, damping,
+// curves and hysteresis, without a constraint.
 //
 // Its measures x, y, z, rx, ry, rz are those of the frame halfway between the two nodes (measures/middle_frame.hpp):
 // displacement of the second attachment point along its axes, and the rotation vector of the second frame relative to
-// the first. Forces follow the law of measures/elastic_law.hpp in them. Hence
-// - a rigid motion of both nodes changes nothing, whatever the rotation;
-// - exchanging the nodes changes nothing but the signs;
+// the first. Forces follow the law of laws/elastic_law.hpp in these measures. Therefore
+// - a rigid motion of both nodes has no effect, for any rotation;
+// - exchanging the nodes only changes the signs;
 // - the elastic force has a potential, and its tangent is symmetric in equilibrium, at any relative rotation below half
 //   a turn. The moment about the axes of the frame is T^-T(psi) of that along psi: the two agree for small rotations.
 #pragma once
@@ -18,14 +18,14 @@ namespace bielle::mechanism {
 class Bushing final : public ElasticPair {
  public:
   Bushing(std::string name, JointFrames frames, const Model& model);
-  /// Keeps the rotation vector. @throws ComputationError from nearly half a turn on
+  /// Checks the rotation vector and stores it. @throws ComputationError for nearly half a turn or more
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
  private:
   void calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const override;
 };
 
-/// `{type: bushing, nodes, position | at, axis, second_axis, stiffness, damping, preload, curves, maxwell}`
+/// Reads `{type: bushing, nodes, position | at, axis, second_axis, stiffness, damping, preload, curves, maxwell}`.
 void read_bushing(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

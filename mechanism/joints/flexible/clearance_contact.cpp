@@ -30,7 +30,7 @@ ClearanceContact::ClearanceContact(const NodeState& first, const NodeState& seco
   const int dimensions = place.kind == Place::bore ? 2 : 3;
   Vector3 rho = Vector3::Zero();
   for (int k = 0; k < dimensions; ++k) rho[k] = s_[static_cast<std::size_t>(k)].value;
-  // Without a gap the middle itself is in contact: there the push has no direction, but its stiffness has a limit.
+  // Without a gap the centred position is in contact: the force has no direction there, but its stiffness has a limit.
   const double l = place.gap > 0 ? rho.norm() : std::hypot(rho.norm(), least_way);
   p_.value = l - place.gap;
   if (p_.value <= 0) return;

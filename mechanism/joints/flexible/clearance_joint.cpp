@@ -19,8 +19,8 @@ ClearanceJoint::ClearanceJoint(std::string type, std::string name, JointFrames f
 void ClearanceJoint::declare(Declaration& declaration) const {
   Joint::declare(declaration);
   declaration.stiffness = declaration.damping = true;
-  declaration.kinks = true;                       // where the damper lets go
-  const double time = declaration.memory.back();  // which stands last
+  declaration.kinks = true;                       // at zero total force
+  const double time = declaration.memory.back();  // the time is last
   declaration.memory.pop_back();
   for (const Place& place : places_) {
     declaration.crossings.push_back({fmt::format("contact {}", place.name)});
@@ -68,8 +68,8 @@ void ClearanceJoint::add_residual(const LocalState& state, Eigen::Ref<VectorX> r
   }
 }
 
-// With slip = P w, P = I - n n^T, and F = N f the force of friction, Y^T F its part of the residual; f = h(|slip|)
-// slip, or of the bristle P z_0 and slip:
+// With slip = P w, P = I - n n^T, and the friction force F = N f, Y^T F is its part of the residual; f = h(|slip|)
+// slip, or a function of the bristle P z_0 and slip:
 //   dN = N_p dp + N_v d(pdot),   dF = f dN + N [df/d(slip) d(slip) + df/d(P z_0) turned_sliding(z_0) dz],
 //   d(slip) = P (Y dv + [v . dY]) + turned_sliding(w) dz,   d(Y^T F) = Y^T dF + Z(F) dz
 void ClearanceJoint::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -84,7 +84,7 @@ void ClearanceJoint::add_tangent(const LocalState& state, LocalTangent& tangent)
     if (push.F == 0) continue;
     const Vector12& g = c.p().gradient;
     const Vector12 by_position = push.by_p * g + push.by_rate * (c.p().second.transpose() * v);
-    Vector12 along = g;  // of N
+    Vector12 along = g;  // derivative of N
     K += push.F * c.p().second;
     if (rubs(state)) {
       const Vector3 w = c.Y() * v, slip = c.sliding(w);
@@ -129,7 +129,7 @@ void ClearanceJoint::add_energy(const LocalState& state, Energy& energy) const {
     const double p = c.p().value, N = push(k, state, c).F;
     if (p <= 0) continue;
     energy.elastic += places_[k].law.energy(p);
-    // A spring that the damper keeps from pushing gives its energy to the damper.
+    // The energy of a spring that the damper keeps from pushing is dissipated by the damper.
     energy.dissipation += (N - places_[k].law.force(p, 0, 0).F) * c.p().rate(v);
     if (!rubs(state)) continue;
     if (has_bristles()) {
@@ -174,7 +174,7 @@ void ClearanceJoint::begin_branch(const LocalState& state, std::span<const int> 
   const Vector12 v = pair_rate(state.node(0), state.node(1));
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const bool met = std::find(crossed.begin(), crossed.end(), static_cast<int>(k)) != crossed.end();
-    // At a crossing p is zero but for rounding, and its rate tells the side. Its gradient is wanted there, too.
+    // At an event p is zero up to rounding, and its rate determines the side. Its gradient is necessary there, too.
     ClearancePlace place = places_[k].place;
     if (met) place.gap *= 0.5;
     const ClearanceContact c(state.node(0), state.node(1), frames(), place, turned, false);

@@ -1,15 +1,16 @@
-// Hinges and ball joints with play: what happens in the gap between journal and bush.
+// Hinges and ball joints with clearance: forces in the gap between journal and bush.
 //
 //   clearance_hinge      a journal in a bush, with a radial gap; it touches the bore at either end of its length, so
-//                        that it may tilt as far as the gap lets it, and with an axial gap its collars touch the bush's
+//                        that its tilt is limited by the gap, and with an axial gap its collars touch the bush's
 //                        ends. The angle about the axis is free
 //   clearance_spherical  a ball in a socket
-// In the gap nothing acts. Where surfaces press into each other by p (clearance_contact.hpp), they push with
-// N = k p^n (1 + d pdot) (laws/normal_law.hpp) and rub with N mu against the way they slide (friction_law.hpp):
-// regularised Coulomb, or bristles (bristle_step.hpp), one of each place. A bristle is zero where surfaces begin to
-// touch, rides on the bush, and follows the surface of the bore. Steps end where surfaces touch and part. With a
-// restitution, d follows from the speed of each touch: it is remembered until they part.
-// Memory: [of the joint | of each place: whether it touches, d, the bristle z in the joint's axes on the bush | time].
+// There is no force as long as there is a gap. If surfaces penetrate each other by p (clearance_contact.hpp), they have
+// the normal force N = k p^n (1 + d pdot) (laws/normal_law.hpp) and the friction force N mu against the sliding
+// velocity (friction_law.hpp): regularised Coulomb, or bristles (bristle_step.hpp), one for each place. A bristle is
+// zero at the beginning of contact, is fixed in the axes of the bush, and follows the surface of the bore. Steps end
+// when contact begins and ends. With a restitution, d follows from the approach speed of each contact: it is stored
+// until the contact ends.
+// Memory: [of the joint | for each place: whether it touches, d, the bristle z in the joint's axes on the bush | time].
 // References: P. Flores, J. Ambrosio, J. C. P. Claro, H. M. Lankarani, Kinematics and Dynamics of Multibody Systems
 // with Imperfect Joints (Springer, 2008).
 #pragma once
@@ -48,7 +49,7 @@ class ClearanceJoint final : public Joint, public OpenContact {
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;
-  /// `penetration` [m] and `normal_force` [N] of each place.
+  /// Outputs `penetration` [m] and `normal_force` [N] of each place.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -59,15 +60,15 @@ class ClearanceJoint final : public Joint, public OpenContact {
   PairRotation rotation(const LocalState& state) const;
   ClearanceContact contact(std::size_t k, const LocalState& state, const PairRotation& rotation, bool second) const;
   NormalLaw::Force push(std::size_t k, const LocalState& state, const ClearanceContact& contact) const;
-  /// First memory of a place: whether its surfaces touch, the damping d since then, and the bristle.
+  /// First memory entry of a place: whether its surfaces touch, the present damping d, and the bristle.
   Eigen::Index memory_of(std::size_t k) const {
     constexpr std::size_t of_place = 5;
     return static_cast<Eigen::Index>(2 * coordinates().size() + of_place * k);
   }
   bool has_bristles() const { return friction_ && friction_->model == FrictionLaw::Model::lugre; }
-  /// Whether friction acts: bristles stay as they are in statics, where nothing slides.
+  /// Whether friction acts: bristles keep their values in statics, without sliding.
   bool rubs(const LocalState& state) const { return friction_ && !(has_bristles() && state.environment().statics); }
-  /// The bristle of a place over this step. @param slip  [m/s]
+  /// Returns the bristle of a place over this step. @param slip  [m/s]
   BristleStep bristle(std::size_t k, const LocalState& state, const ClearanceContact& contact,
                       const Vector3& slip) const;
   Vector3 bristle_before(std::size_t k, const LocalState& state) const {
@@ -78,9 +79,9 @@ class ClearanceJoint final : public Joint, public OpenContact {
   std::optional<FrictionLaw> friction_;
 };
 
-/// `{nodes, position | at, axis, radial_gap, length, axial_gap, radius, contact, axial_contact, friction}`
+/// Reads `{nodes, position | at, axis, radial_gap, length, axial_gap, radius, contact, axial_contact, friction}`.
 void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model& model);
-/// `{nodes, position | at, axis, radial_gap, radius, contact, friction}`
+/// Reads `{nodes, position | at, axis, radial_gap, radius, contact, friction}`.
 void read_clearance_spherical(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

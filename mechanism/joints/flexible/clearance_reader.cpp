@@ -1,11 +1,12 @@
-// `clearance_hinge`, `clearance_spherical`: their keys.
+// Readers of `clearance_hinge` and `clearance_spherical`.
 //
 // Stiffness from the materials, E* = 1/((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2):
 //   ball of radius r in a socket of radius r + gap   F = 4/3 E* sqrt(r (r + gap)/gap) p^1.5 (Hertz) cylinder along a
 //   length l                        F = pi/4 E* l p
 // References: K. L. Johnson, Contact Mechanics (Cambridge, 1985), chapter 4; V. L. Popov, Contact Mechanics and
 // Friction (Springer, 2010), chapter 5; H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369, for spheres
-// in sockets. Both hold where the contact is small against the radius: gaps that are not small against the penetration.
+// in sockets. Both are valid if the contact is small relative to the radius: gaps must not be small relative to the
+// penetration.
 #include <array>
 #include <cmath>
 #include <optional>
@@ -18,7 +19,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// A number for both parts, or one of each.
+/// Reads a number for both parts, or one for each.
 std::array<double, 2> read_of_both(const YamlValue& value, const char* expected) {
   if (!value.is_sequence()) return {value.number(), value.number()};
   const Eigen::VectorXd numbers = value.vector();
@@ -41,11 +42,11 @@ double read_contact_modulus(const YamlValue& contact) {
 }
 
 struct MaterialStiffness {
-  double per_modulus;  ///< of E* [m^(2 - exponent)]
+  double per_modulus;  ///< stiffness divided by E* [m^(2 - exponent)]
   double exponent;
 };
 
-/// @param of_materials  how the stiffness follows from them, where it does
+/// @param of_materials  dependence of the stiffness on the materials, if there is one
 NormalLaw read_contact_law(const YamlValue& entry, const std::optional<MaterialStiffness>& of_materials,
                            double exponent) {
   std::vector<std::string> keys = normal_law_keys();

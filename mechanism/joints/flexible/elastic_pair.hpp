@@ -1,7 +1,7 @@
-// Joints that constrain nothing: an elastic law (measures/elastic_law.hpp) holds their two nodes together.
+// Joints without constraints: an elastic law (laws/elastic_law.hpp) connects their two nodes.
 //
-// A type computes its measures, up to six, as numbers with derivatives. What the law resists with acts along their
-// gradients: forces with a potential, and their exact tangent.
+// A type computes its measures, up to six, as numbers with derivatives. The resisting forces of the law act along their gradients: forces
+// with a potential, and their exact tangent.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
@@ -20,16 +20,16 @@ class ElasticPair : public Joint {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// `force`: what the law exerts along the measures.
+  /// Output `force`: forces of the law along the measures.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   bool reaction_has_rates() const override { return law_.has_damping(); }
 
  protected:
-  /// @param second  whether second derivatives are wanted
+  /// @param second  whether second derivatives are required
   virtual void calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const = 0;
-  /// A coordinate that is one of the measures.
+  /// Returns a coordinate that is one of the measures.
   PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const override;
 
  private:

@@ -1,7 +1,7 @@
 // The LuGre law (friction_law.hpp): a bristle z [m] along each direction of the surface, as first-order unknowns,
 //     zdot - u(z, v) = 0,   u = v - sigma_0 |v| z/mu,   R = N [sigma_0 z + sigma_1(s) u + sigma_2 v].
-// In statics the bristles stay as they are. What they take and give back elastically, N sigma_0 z . u, counts as input:
-// while N changes they have no potential. What is lost: N [sigma_0^2 |v| z^2/mu + sigma_1 u . v + sigma_2 v^2] >= 0.
+// In statics the bristles keep their values. Their elastic power, N sigma_0 z . u, counts as input: while N changes
+// they have no potential. The dissipated power is N [sigma_0^2 |v| z^2/mu + sigma_1 u . v + sigma_2 v^2] >= 0.
 #pragma once
 
 #include "mechanism/joints/friction/joint_friction.hpp"
@@ -14,12 +14,12 @@ class BristleFriction final : public JointFriction {
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
-  /// Also `bristles`: z.
+  /// The outputs include `bristles`: z.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
 
  private:
-  /// u with its derivatives.
+  /// The rate u with its derivatives.
   struct Rate {
     Vector u;
     Matrix by_v, by_z;

@@ -34,7 +34,7 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
     radius->fail(fmt::format("a {} joint does not turn: it rubs without a radius", joint.type()));
   if (!radius && any_turns)
     entry.fail(fmt::format("a {} joint turns: give the `radius` of the surface that rubs [m]", joint.type()));
-  // On a thread the axial force presses by the torque over the radius: there is no limit of none.
+  // The normal force of a thread contains the torque divided by the radius: a zero radius has no limit.
   const double r = !radius ? 0 : slides.lead != 0 ? radius->positive_number() : radius->non_negative_number();
   FrictionSurface surface;
   for (const std::size_t k : slides.coordinates)

@@ -1,6 +1,6 @@
-// `friction` of a joint: {coefficient, static, stribeck_velocity, viscous, model: coulomb | lugre | stick_slip,
-// velocity, bristle_stiffness, bristle_damping, radius, arm, preload}; joints with several surfaces that slide take it
-// for all of them, or {angle_1: {..}, ..} by coordinate.
+// Reader of `friction` of a joint: {coefficient, static, stribeck_velocity, viscous, model: coulomb | lugre |
+// stick_slip, velocity, bristle_stiffness, bristle_damping, radius, arm, preload}; in joints with several sliding
+// surfaces it is valid for all of them, or {angle_1: {..}, ..} gives it by coordinate.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"

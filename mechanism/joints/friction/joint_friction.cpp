@@ -10,7 +10,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The reaction in two parts, each of which presses by its size: forces (and the force on a thread), moments.
+/// The two parts of the reaction whose magnitudes contribute to the normal force: forces (and the force on a thread),
+/// moments.
 struct Press {
   Eigen::Vector4d force;
   Vector3 moment;
@@ -33,7 +34,7 @@ JointFriction::JointFriction(const Joint& joint, FrictionSurface surface, const 
 void JointFriction::declare(Declaration& declaration) const {
   declaration.references = {&joint_};
   declaration.stiffness = declaration.damping = true;
-  declaration.reads_reactions = declaration.kinks = true;  // N has a kink where the reaction vanishes
+  declaration.reads_reactions = declaration.kinks = true;  // N has a kink if the reaction is zero
 }
 
 JointFriction::Vector JointFriction::velocity(const LocalState& state) const {
@@ -123,7 +124,7 @@ void JointFriction::add_energy(const LocalState& state, Energy& energy) const {
   const Resistance resist = resistance(state, v);
   const double N = normal_force(state), lost = N * loss(state, v, resist);
   energy.dissipation += lost;
-  energy.input += lost - N * resist.rho.dot(v);  // what is neither lost nor stored
+  energy.input += lost - N * resist.rho.dot(v);  // power that is neither dissipated nor stored
 }
 
 OutputField JointFriction::by_coordinate(const std::string& name, const std::string& units,

@@ -1,15 +1,16 @@
-// Dry friction in a joint, driven by the joint's own reaction.
+// Dry friction in a joint, with a normal force from the joint's own reaction.
 //
 // The bodies slide on each other at a surface whose velocity v [m/s] has a component for each of some coordinates of
 // the joint, c rate: c = 1 for displacements, the radius of the bearing for angles and rotations. A thread of radius r
 // and lead l per radian slides along its helix, v = (l zdot + r^2 thetadot)/sqrt(r^2 + l^2). A roller of radius R
-// slides on its pin of radius r, v = r (sdot/R - thetadot), s the way of its middle. They are pressed by
+// slides on its pin of radius r, v = r (sdot/R - thetadot), with the displacement s of its middle. The normal force is
 //     N = |F| + |M|/arm + preload,
-// F and M the reaction of the joint's constraints. Along what is free there is none, so that F is normal to the motion
-// and M across it. In a thread F has a fourth component M_z/r: the force normal to the thread is made of F_z and it.
-// The surface resists by R = N rho(v, ..) [N], rho from the law of friction; R acts along the same combination of
-// coordinates that makes v. It is in the equations of this step, not of the step before: N depends on multipliers, and
-// its derivatives are in the tangent. Where redundancy leaves reactions undetermined, those of smallest norm are taken.
+// with the reaction F and M of the joint's constraints. There is no reaction along free coordinates: F is normal to the
+// motion, and M too. In a thread F has a fourth component M_z/r: together with F_z it gives the force normal to the
+// thread. The surface resists by R = N rho(v, ..) [N], with rho from the law of friction; R acts along the same
+// combination of coordinates as v. It is part of the equations of the present step, not of the previous one: N depends
+// on multipliers, and its derivatives are in the tangent. If redundancy leaves reactions undetermined, those of
+// smallest norm are used.
 #pragma once
 
 #include <array>
@@ -26,12 +27,12 @@ struct FrictionSurface {
   /// A part of a component of v: `arm` times the rate of a coordinate.
   struct Part {
     std::size_t coordinate;
-    int component;  ///< of v
-    double arm;     ///< c: of a displacement without dimension, else [m]
+    int component;  ///< component of v
+    double arm;     ///< c: dimensionless for a displacement, otherwise [m]
   };
   std::vector<Part> parts;                                      ///< at most three
-  int components = 1;                                           ///< of v, one to three
-  double moment_arm = std::numeric_limits<double>::infinity();  ///< [m]; infinite: moments do not press
+  int components = 1;                                           ///< number of components of v, one to three
+  double moment_arm = std::numeric_limits<double>::infinity();  ///< [m]; infinite: moments do not contribute
   double preload = 0;                                           ///< [N]
   double thread_radius = 0;                                     ///< [m]; 0: no thread
 };
@@ -44,8 +45,8 @@ class JointFriction : public Component {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// Along the joint's coordinates: `friction`, force or torque; `normal_force` N of the surface that slides along
-  /// each.
+  /// Outputs along the joint's coordinates: `friction`, force or torque; `normal_force` N of the surface that slides
+  /// along each.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -54,16 +55,16 @@ class JointFriction : public Component {
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
 
-  /// rho and its derivatives.
+  /// The resistance rho and its derivatives.
   struct Resistance {
     Vector rho;
     Matrix by_v;
-    Matrix by_z;  ///< by first-order unknowns of the kind of friction; empty where it has none
+    Matrix by_z;  ///< by first-order unknowns of the kind of friction; empty if it has none
   };
   virtual Resistance resistance(const LocalState& state, const Vector& v) const = 0;
-  /// Power that is lost per unit of N, never negative [m/s]. @param resistance  at this state
+  /// Dissipated power per unit of N, never negative [m/s]. @param resistance  at this state
   virtual double loss(const LocalState& state, const Vector& v, const Resistance& resistance) const;
-  /// Friction along the surface's directions that is no function of N: of a constraint that makes it stick [N].
+  /// Friction along the surface's directions that is no function of N: force of a constraint during sticking [N].
   /// @param lambda  the component's own multipliers: those of the equations, or the reactions of smallest norm
   virtual Vector held(const LocalState::Segment& /*lambda*/) const { return Vector::Zero(size()); }
 
@@ -71,28 +72,28 @@ class JointFriction : public Component {
   const FrictionLaw& law() const { return law_; }
   const Joint& joint() const { return joint_; }
   const FrictionSurface& surface() const { return surface_; }
-  /// A result with a number for each coordinate of the joint: that of the component of v which it is part of, zero
-  /// where the surface does not slide along it. (A joint may have several surfaces.)
+  /// Output field with a number for each coordinate of the joint: the value of the component of v that it contributes
+  /// to, zero if the surface does not slide along it. (A joint may have several surfaces.)
   OutputField by_coordinate(const std::string& name, const std::string& units, const std::string& description) const;
   void write_by_coordinate(const Vector& by_component, double* values) const;
 
-  /// v without derivatives.
+  /// Returns v without derivatives.
   Vector velocity(const LocalState& state) const;
   double normal_force(const LocalState& state) const;
 
-  /// v with its derivatives over the joint's layout: valid until the next call in this thread.
+  /// Computes v with its derivatives over the joint's layout: valid until the next call in this thread.
   struct Slip {
     Vector v;
-    MatrixX w;                                  ///< (n, components): v = w^T velocities
-    MatrixX by_position;                        ///< (n, components): dv = by_position^T increments; where asked for
-    std::array<CoordinateDerivatives, 3> jets;  ///< of the parts
+    MatrixX w;                          ///< (n, components): v = w^T velocities
+    MatrixX by_position;                ///< (n, components): dv = by_position^T increments; if requested
+    std::array<CoordinateDerivatives, 3> jets;  ///< jets of the parts
   };
   Slip& slip(const LocalState& state, bool with_positions) const;
   /// First local row of the joint.
   static int row(const LocalState& state) { return state.slots().reference_row(0); }
 
  private:
-  /// N with its derivatives over the joint's layout.
+  /// Returns N with its derivatives over the joint's layout.
   double normal_force(const LocalState& of_joint, VectorX& gradient) const;
   const Joint& joint_;
   FrictionSurface surface_;

@@ -9,9 +9,9 @@ namespace {
 
 enum StickSlipCrossing { comes_to_rest, begins_to_slip };
 
-/// The memory: direction of slip, 0 where it sticks, NaN where no motion has begun; whether it has slipped through an
-/// accepted step; when it began to; how often at this instant, one after the other, because constraints refused to let
-/// it stick; values of the coordinates where it stuck.
+/// The memory: direction of slip, 0 if it sticks, NaN if no motion has begun; whether it has slipped through an
+/// accepted step; time at which it began to slip; number of consecutive rejections of its sticking at this instant;
+/// values of the coordinates at which it stuck.
 enum StickSlipMemory { slip_direction, has_slipped, slips_since, refusals, stuck_at };
 
 }  // namespace
@@ -25,7 +25,7 @@ void StickSlipFriction::declare(Declaration& declaration) const {
   declaration.memory.assign(stuck_at + surface().parts.size(), 0.0);
   declaration.memory[slip_direction] = std::numeric_limits<double>::quiet_NaN();
   Crossing rest{name + " sticks", Crossing::Direction::falling}, slip{name + " slips", Crossing::Direction::falling};
-  rest.begins_on = slip.begins_on = 1;  // what cannot stick slips at once
+  rest.begins_on = slip.begins_on = 1;  // a joint that cannot stick slips immediately
   slip.one_by_one = true;
   rest.nearest = slip.nearest = 1e-5;
   slip.reads_reaction = true;
@@ -112,7 +112,7 @@ double StickSlipFriction::no_velocity(const LocalState& state) const {
   const LocalState of_joint = state.of(0);
   const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
   const double arm = longest_arm();
-  // Positions are rounded: over a step that is an error of velocities, whatever these are.
+  // Positions are rounded: in a step this gives an error of velocities, independent of their size.
   constexpr double per_second = 1e-11;
   return 1e-12 * (first.v.norm() + second.v.norm() + arm * (first.Omega.norm() + second.Omega.norm())) +
          per_second * (first.x.norm() + second.x.norm() + arm);
@@ -139,17 +139,17 @@ void StickSlipFriction::calc_crossings(const LocalState& state, Eigen::Ref<Vecto
     if (memory[has_slipped] != 0) {
       values[comes_to_rest] = v - rounding;
     } else {
-      // Where it has just begun to slip its velocity is rounding, or an error of the scheme: the acceleration tells.
+      // If it has just begun to slip, its velocity is rounding, or an error of the scheme: the acceleration decides.
       const double a = dir * acceleration(state) + no_acceleration(state);
       const bool just_now = state.time() <= memory[slips_since];
-      // What can neither stick nor slip goes on for a step: others may hold it.
+      // If it can neither stick nor slip, it continues for a step: others may hold it.
       constexpr double often = 2;
       values[comes_to_rest] = !just_now ? std::max(v + rounding, a) : memory[refusals] < often ? a : 1;
     }
   } else if (holds(state)) {
     values[begins_to_slip] = law().sticking * normal_force(state) - std::abs(state.reaction()[0]);
   } else if (is_on(state, 0) && std::abs(acceleration(state)) > no_acceleration(state)) {
-    values[begins_to_slip] = -1;  // what others hold at its velocity of zero moves on
+    values[begins_to_slip] = -1;  // a joint that others hold at zero velocity moves on
   }
 }
 
@@ -189,8 +189,8 @@ void StickSlipFriction::begin_branch(const LocalState& state, std::span<const in
   if (is_on(state, 0) && !holds(state)) {
     const bool again = state.time() <= state.memory()[slips_since];
     const double refused = again ? state.memory()[refusals] : 0;
-    // What velocity there is may be the scheme's error of a rate that has just passed zero: the acceleration tells. If
-    // it did so a moment ago, and was wrong, the velocity is right.
+    // The remaining velocity may be the scheme's error of a rate that has just passed zero: the acceleration decides.
+    // If this was wrong at the same time before, the velocity decides.
     if (has_crossed(begins_to_slip) && !(again && std::abs(v) > no_velocity(state))) {
       slip_along(std::copysign(1.0, acceleration(state)), false, state, memory);
       memory[refusals] = refused + 1;

@@ -119,9 +119,9 @@ ElasticGearMesh::ElasticGearMesh(std::string name, std::array<int, 3> nodes, std
 void ElasticGearMesh::declare(Declaration& declaration) const {
   GearMesh::declare(declaration);
   declaration.damping = spring_.damping > 0;
-  declaration.kinks = true;  // where a damper lets go
+  declaration.kinks = true;  // at zero total force
   const double touch = plays() ? 0 : 1;
-  declaration.memory.insert(declaration.memory.end(), {touch, touch});  // which flanks touch
+  declaration.memory.insert(declaration.memory.end(), {touch, touch});  // whether each flank touches
   if (plays()) declaration.crossings = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};
 }
 
@@ -134,7 +134,7 @@ ElasticGearMesh::Flank ElasticGearMesh::flank(int side, const LocalState& state)
   Flank flank;
   flank.p = contact().approach(normal(side), state) - 0.5 * spring_.backlash;
   flank.rate = flank.p.rate(ToothContact::rates(state));
-  // Without play one flank or the other always carries: nothing jumps where they change.
+  // Without play, one of the flanks is always loaded: nothing jumps when they change.
   flank.touches = !plays() || (state.environment().statics ? flank.p.value >= 0
                                                            : state.memory()[ToothContact::memories + side] != 0);
   const double push = spring_.stiffness * flank.p.value + spring_.damping * flank.rate;

@@ -1,16 +1,16 @@
-// A pair of toothed wheels in mesh whose tooth forces load the bearings.
+// A pair of meshing gear wheels whose tooth forces load the bearings.
 //
-// Two forms, with the geometry of tooth_contact.hpp:
-//   rigid (no `stiffness`)   u_1(t) - u_2(t) = 0, as pitch surfaces that roll on each other. Its multiplier lambda is
+// There are two forms, with the geometry of tooth_contact.hpp:
+//   rigid (no `stiffness`)   u_1(t) - u_2(t) = 0, as pitch surfaces in rolling contact. Its multiplier lambda is
 //   the
-//                            force of wheel 1 on wheel 2 along t [N]. The flank that carries is inclined: the teeth
+//                            force of wheel 1 on wheel 2 along t [N]. The loaded flank is inclined: the teeth
 //                            push each other apart along nu by |lambda| tan(alpha) (GearSeparation, which reads the
 //                            reaction)
-//   elastic                  a flank of normal n is in contact where p = u_1(n) - u_2(n) - backlash/2 > 0 and pushes
+//   elastic                  a flank of normal n is in contact if p = u_1(n) - u_2(n) - backlash/2 > 0 and pushes
 //   with
-//                            max(0, k p + d pdot): spring and damper of the teeth, and free play between the flanks
-// With backlash contact of a flank begins and ends where p changes its sign: steps end there. Both flanks may touch
-// (bearings that press the wheels together).
+//                            max(0, k p + d pdot): spring and damper of the teeth, with free play between the flanks
+// With backlash, contact of a flank begins and ends when p changes its sign: steps end there. Both flanks may touch (if
+// bearings press the wheels together).
 #pragma once
 
 #include "mechanism/joints/gears/tooth_contact.hpp"
@@ -28,7 +28,8 @@ class GearMesh : public Component {
   const ToothContact& contact() const { return contact_; }
   void declare(Declaration& declaration) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
-  /// `approach`: u_1(t) - u_2(t) [m], what wheel 1 is ahead; `force`: normal forces [N] of the flanks n_+ and n_-.
+  /// Outputs: `approach`: u_1(t) - u_2(t) [m], the lead of wheel 1; `force`: normal forces [N] of the flanks n_+ and
+  /// n_-.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -56,7 +57,7 @@ class RigidGearMesh final : public GearMesh {
   std::array<double, 2> flank_forces(const LocalState& state) const override;
 };
 
-/// What pushes the wheels of a rigid mesh apart. Its work is input: none while bearings stay where they are.
+/// Separating force on the wheels of a rigid mesh. Its work is input: zero as long as bearings do not move.
 class GearSeparation final : public Component {
  public:
   GearSeparation(std::string name, const RigidGearMesh& mesh);
@@ -71,8 +72,8 @@ class GearSeparation final : public Component {
 };
 
 struct ToothSpring {
-  double stiffness;  ///< of a pair of teeth along their normal [N/m]
-  double damping;    ///< [N s/m]
+  double stiffness;  ///< stiffness of a pair of teeth along their normal [N/m]
+  double damping;    ///< damping [N s/m]
   double backlash;   ///< free play along the normal, from flank to flank [m]
 };
 
@@ -91,10 +92,10 @@ class ElasticGearMesh final : public GearMesh {
 
  private:
   struct Flank {
-    MeshMeasure p;  ///< penetration [m]
+    MeshMeasure p;  ///< penetration p [m]
     double rate = 0;
     bool touches = false, pushes = false;
-    double force = 0;  ///< [N]
+    double force = 0;  ///< normal force [N]
   };
   bool plays() const { return spring_.backlash > 0; }
   Flank flank(int side, const LocalState& state) const;
@@ -103,8 +104,8 @@ class ElasticGearMesh final : public GearMesh {
   ToothSpring spring_;
 };
 
-/// `gear_mesh: {nodes: [wheel_1, wheel_2], carrier, axes, radii | position, internal, pressure_angle, helix_angle,
-/// stiffness, damping, backlash}`
+/// Reads `gear_mesh: {nodes: [wheel_1, wheel_2], carrier, axes, radii | position, internal, pressure_angle,
+/// helix_angle, stiffness, damping, backlash}`.
 void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

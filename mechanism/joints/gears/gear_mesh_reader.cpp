@@ -1,4 +1,4 @@
-// `gear_mesh`: its keys, and where the teeth meet.
+// Reader of `gear_mesh`, and of the position of the mesh.
 #include <cmath>
 #include <stdexcept>
 
@@ -14,22 +14,22 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double fit = 1e-6;  ///< of radii with the distance of centres, relative
+constexpr double fit = 1e-6;  ///< relative tolerance between radii and the distance of centres
 
-/// What is given in inertial components as drawn.
+/// The given data in initial inertial components.
 struct DrawnWheels {
   std::array<Vector3, 2> axis, centre;
 };
 
 std::array<Vector3, 2> read_axes(const YamlValue& axes) {
-  // One direction for both wheels, or a pair.
+  // The value is one direction for both wheels, or a pair.
   if (axes.is_sequence() && axes.size() == 2 && axes.at(0).is_sequence())
     return {axes.at(0).direction(), axes.at(1).direction()};
   const Vector3 both = axes.direction();
   return {both, both};
 }
 
-/// The pitch point of wheels on parallel axes, from their radii.
+/// Returns the pitch point of wheels on parallel axes, from their radii.
 Vector3 pitch_point_of_radii(const YamlValue& given, const DrawnWheels& wheels, bool internal) {
   const Eigen::VectorXd radii = given.positive_numbers(2, "[pitch radius of the first wheel, of the second]");
   const Vector3& z = wheels.axis[0];

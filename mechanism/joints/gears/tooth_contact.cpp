@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Of carrier and a wheel among the three nodes.
+/// Extends a measure of carrier and one wheel to the three nodes.
 MeshMeasure in_mesh(const PairMeasure& pair, int wheel) {
   const int at = wheel == 0 ? 6 : 12;
   MeshMeasure m;
@@ -26,7 +26,7 @@ MeshMeasure in_mesh(const PairMeasure& pair, int wheel) {
 
 ToothContact::ToothContact(const ToothGeometry& geometry)
     : geometry_(geometry), on_carrier_{axes_along(geometry.axis[0]), axes_along(geometry.axis[1])} {
-  // The wheels' frames are given by where they are drawn: in the axes of the wheels, those of the carrier.
+  // The wheels' frames follow from their initial positions: in the axes of the wheels, those of the carrier.
   for (std::size_t k = 0; k < 2; ++k) geometry_.wheel[k] = geometry_.wheel[k] * on_carrier_[k];
 }
 

@@ -6,9 +6,9 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double parallel_sine = 1e-6;  ///< sine of the angle below which directions are taken as parallel
+constexpr double parallel_sine = 1e-6;  ///< sine of the angle below which directions are considered parallel
 
-/// The line along which the pitch surfaces of rolling wheels touch.
+/// Returns the line of contact of the pitch surfaces of rolling wheels.
 Vector3 rolling_line(const ToothGeometry& geometry, const Vector3& v_1, const Vector3& v_2) {
   const Vector3 along = v_1.normalized();
   const double a_1 = v_1.dot(along), a_2 = v_2.dot(along);
@@ -43,7 +43,8 @@ void set_tooth_directions(ToothGeometry& geometry, double helix, bool inside) {
     g = z_1;
   }
   const Vector3 arm = geometry.P - geometry.centre[0];
-  // Away from the axis of wheel 1; of a crown wheel, whose teeth point along its axis, towards the axis of wheel 2.
+  // nu points away from the axis of wheel 1; for a crown wheel, whose teeth point along its axis, towards the axis of
+  // wheel 2.
   const Vector3 &z_2 = geometry.axis[1], arm_2 = geometry.P - geometry.centre[1];
   const double from_first = geometry.nu.dot(arm - z_1 * z_1.dot(arm)) / v[0].norm(),
                from_second = geometry.nu.dot(arm_2 - z_2 * z_2.dot(arm_2)) / v[1].norm();

@@ -2,7 +2,7 @@
 //
 //   point_on_line    x_A . d = y_A . d = 0, z along `line`     coordinate `displacement`
 //   point_on_plane   z_A . d = 0, z along `normal`             coordinates `x`, `y`
-// d is the way from the origin of J_A to that of J_B (lower_pairs.hpp has the rows).
+// d is the vector from the origin of J_A to that of J_B (lower_pairs.hpp contains the rows).
 #pragma once
 
 #include "mechanism/joints/joint.hpp"

@@ -12,7 +12,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// @throws ComputationError  where a length of time is no length any more
+/// @throws ComputationError if a function of time becomes an invalid length
 double length_at(const Expression& length, double t, const std::string& name) {
   const double L = length(t);
   if (!(L > 0))
@@ -26,7 +26,7 @@ using RowList = std::vector<MeasuredPair::Row>;
 /// (d . d - L^2)/(2 L)
 PairMeasure length_row(const PairMeasure& dd, double L) { return (0.5 / L) * (dd - L * L); }
 
-/// How fast the line between the two points turns [rad/s].
+/// Angular velocity of the line between the two points [rad/s].
 double turning_of_rod(const LocalState& state, const JointFrames& frames) {
   const NodeState &first = state.node(0), &second = state.node(1);
   const PointGap gap(first, second, frames.on_first.x, frames.on_second.x);
@@ -49,7 +49,7 @@ void DistanceJoint::calc_rows(const LocalState& state, std::span<PairMeasure> ro
   rows[0] = length_row(squared_distance(state), length_at(length_, state.time(), name()));
 }
 
-// L' d/dL of the row: -L' (1 + d.d/L^2)/2, and once more along the motion.
+// The derivative L' d/dL of the row is -L' (1 + d.d/L^2)/2; it is applied once more along the motion.
 void DistanceJoint::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                          Eigen::Ref<VectorX> acceleration) const {
   MeasuredPair::add_constraint_rates(state, velocity, acceleration);
@@ -121,7 +121,7 @@ void RevoluteSphericalLink::describe(const LocalState& state, Description& descr
 
 namespace {
 
-/// The frames of a link: inertial axes as drawn, at the two points; with the way between them.
+/// The frames of a link: initial inertial axes, at the two points; with the vector between them.
 struct LinkFrames {
   JointFrames frames;
   Vector3 d;

@@ -1,13 +1,15 @@
-// Links without a body: two points of two nodes at a distance, d from the first to the second, |d| = L.
+// Links without a body: two points of two nodes at a distance, with the vector d from the first to the second, |d| = L.
 //
 //   distance             (d . d - L^2)/(2 L) = 0: a rod with a ball at either end (`spherical_spherical`). The
 //   multiplier
-//                        is the tension [N]. L may be a formula of time: a rod that is drawn in or let out
+//                        is the tension [N]. L may be a formula of time: a rod with variable length
 //   revolute_spherical   a rod with a hinge on the first node, about z of the joint's frame (`axis`), and a ball on the
-//                        second: the ball also stays in its plane, z_A . d = h, as drawn. Coordinate `angle`: of the
-//                        rod about the hinge, from where it is drawn
+//                        second: the ball also stays in its plane, z_A . d = h, with the initial h. Coordinate `angle`:
+//                        angle of the
+//                        rod about the hinge, from its initial position
 //
-// The squared form has a derivative everywhere, at d = 0 too, and its gradient is that of |d| where the row holds.
+// The squared form has a derivative everywhere, also at d = 0, and its gradient equals that of |d| if the row is
+// satisfied.
 #pragma once
 
 #include "mechanism/joints/measured_pair.hpp"
@@ -17,7 +19,7 @@ namespace bielle::mechanism {
 
 class DistanceJoint final : public MeasuredPair, public TimeDependent {
  public:
-  /// @param length  positive [m], of t
+  /// @param length  positive [m], as a function of t
   DistanceJoint(std::string type, std::string name, JointFrames frames, Expression length, const Model& model);
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
@@ -46,10 +48,11 @@ class RevoluteSphericalLink final : public MeasuredPair {
   double length_, offset_;
 };
 
-/// `at: [[..], [..]]`: the two points in the axes of their nodes (default: the nodes). `length` (t): default as drawn.
+/// The key `at: [[..], [..]]` gives the two points in the axes of their nodes (default: the nodes). The default of
+/// `length` (t) is the initial distance.
 void read_distance(const std::string& name, const YamlValue& entry, Model& model);
 void read_spherical_spherical(const std::string& name, const YamlValue& entry, Model& model);
-/// Besides `at` and `length` the hinge's `axis`.
+/// Reads `at`, `length` and the hinge's `axis`.
 void read_revolute_spherical(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

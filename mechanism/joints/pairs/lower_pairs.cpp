@@ -12,7 +12,7 @@ LowerPair::LowerPair(std::string type, std::string name, JointFrames frames, std
   for (int k = 0; k < 3; ++k)
     if (locked.translation[static_cast<std::size_t>(k)]) rows_.push_back({true, k, 0, force_names[k]});
   if (locked.rotation != LockedMotions::Rotation::none) {
-    // y_A . z_B is a turn about x, x_A . z_B one about y, x_A . y_B one about z.
+    // y_A . z_B is a rotation about x, x_A . z_B one about y, x_A . y_B one about z.
     rows_.push_back({false, 1, 2, "rx"});
     rows_.push_back({false, 0, 2, "ry"});
   }
@@ -54,7 +54,7 @@ void LowerPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) con
     return;
   }
   const PointPair points(first, second, R_12, frames().on_second.x);
-  Vector3 force = Vector3::Zero();  // of the locked translations, first node's axes
+  Vector3 force = Vector3::Zero();  // force of the locked translations, first node's axes
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (!rows_[k].is_translation) continue;
     const auto row = static_cast<Eigen::Index>(k);
@@ -76,7 +76,7 @@ void LowerPair::add_tangent(const LocalState& state, LocalTangent& tangent) cons
     K.add_column(column, constraint, gradient);
     K.add_row(constraint, column, gradient);
   };
-  PairHessian second_derivatives;  // of all rows, each times its multiplier
+  PairHessian second_derivatives;  // sum over all rows, each times its multiplier
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (rows_[k].is_translation) continue;
     const AxisPair pair = axes(rows_[k], R_12);
@@ -149,7 +149,7 @@ void LowerPair::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX
 }
 
 std::string LowerPair::wrong_branch(const LocalState& state) const {
-  // Rows of alignment vanish for axes that are turned by half a turn as well.
+  // Rows of alignment are also zero for axes that are rotated by half a turn.
   const Matrix3 R_A = state.node(0).R * frames().on_first.R, R_B = state.node(1).R * frames().on_second.R;
   const auto opposite = [&](int axis) { return R_A.col(axis).dot(R_B.col(axis)) < 0; };
   for (const Row& row : rows_) {

@@ -1,4 +1,4 @@
-// Lower pairs: two bodies in surface contact. Each is a choice of relative translations and rotations that are locked.
+// Lower pairs: two bodies in surface contact. Each type is defined by the locked relative translations and rotations.
 //
 //   type         locked translations   locked rotations   coordinates
 //   rigid        x y z                 all                -
@@ -8,11 +8,11 @@
 //   spherical    x y z                 none               rx, ry, rz
 //   planar       z                     about x and y      x, y, angle
 //
-// Constraint rows, with the joint's axes x_A y_A z_A on the first node and x_B y_B z_B on the second, p_A and p_B the
-// attachment points:  x_A . (p_B - p_A) = 0 and likewise y, z;  about x and y: x_A . z_B = 0, y_A . z_B = 0;
-// all: also x_A . y_B = 0. Multipliers are the forces along the joint's axes [N] and moments [N m] that hold the rows.
-// Where all three translations are locked and no row may have to be set aside (Slots::carried_axes), their rows stand
-// in inertial axes, p_B - p_A = 0: the forces are the same, and the two nodes are coupled by multipliers alone.
+// Constraint rows, with the joint's axes x_A y_A z_A on the first node and x_B y_B z_B on the second, and the
+// attachment points p_A and p_B:  x_A . (p_B - p_A) = 0, with similar rows for y, z;  about x and y: x_A . z_B = 0, y_A
+// . z_B = 0; all: also x_A . y_B = 0. Multipliers are the constraint forces along the joint's axes [N] and moments [N
+// m]. If all three translations are locked and no row may have to be set aside (Slots::carried_axes), their rows are
+// written in inertial axes, p_B - p_A = 0: the forces are the same, and the two nodes are only coupled by multipliers.
 // Reference: A. Cardona, M. Geradin, D. B. Doan, CMAME 89 (1991) 395; Geradin and Cardona (2001) ch. 7.
 #pragma once
 
@@ -21,7 +21,7 @@
 
 namespace bielle::mechanism {
 
-/// Which relative motions a lower pair locks.
+/// The relative motions that a lower pair locks.
 struct LockedMotions {
   std::array<bool, 3> translation{};                                  ///< along x, y, z of the joint's frame
   enum class Rotation { none, tilt, all } rotation = Rotation::none;  ///< tilt: about x and y
@@ -44,20 +44,20 @@ class LowerPair final : public Joint {
  private:
   struct Row {
     bool is_translation;
-    int first_axis;   ///< of the joint's frame on the first node
-    int second_axis;  ///< on the second node (rotations)
+    int first_axis;   ///< axis of the joint's frame on the first node
+    int second_axis;  ///< axis on the second node (rotations)
     const char* name;
   };
   PairMeasure calc_row(const Row& row, const NodeState& first, const NodeState& second) const;
-  /// Whether the locked translations are rows in inertial axes.
+  /// Whether the rows of locked translations are written in inertial axes.
   bool inertial(const LocalState& state) const { return inertial(state.slots()); }
   bool inertial(const Slots& slots) const { return locks_point_ && !slots.carried_axes; }
-  /// Whether second derivatives couple the rotations of the two nodes: all do but those of a point in inertial axes.
+  /// Whether second derivatives couple the rotations of the two nodes: all do except those of a point in inertial axes.
   bool couples_rotations(const Slots& slots) const { return !inertial(slots) || rows_.size() > 3; }
   /// @param R_12  must outlive the pair
   AxisPair axes(const Row& row, const Matrix3& R_12) const;
   std::vector<Row> rows_;
-  bool locks_point_;  ///< all three translations, which come first
+  bool locks_point_;  ///< all three translations are locked, and are the first rows
 };
 
 void read_rigid(const std::string& name, const YamlValue& entry, Model& model);

@@ -14,9 +14,9 @@
 namespace bielle::mechanism {
 namespace {
 constexpr int parameter = 12;  ///< local row of u
-constexpr int first_row = 13;  ///< of the constraints
+constexpr int first_row = 13;  ///< first row of the constraints
 
-/// A roller also knows the angle of what bears its pin.
+/// A roller also has the angle of the part that carries its pin.
 std::vector<JointCoordinate> coordinates_of(double roller) {
   std::vector<JointCoordinate> all = {{"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}};
   if (roller > 0) all.push_back({"angle", JointCoordinate::Kind::angle, 2});
@@ -113,7 +113,7 @@ void PointOnCurve::add_constraint_rates(const LocalState& state, Eigen::Ref<Vect
 }
 
 double PointOnCurve::turning_rate(const LocalState& state) const {
-  // The curve's tangent turns as the point runs along.
+  // The curve's tangent rotates as the point moves along it.
   const Curve::Place c = curve_(state.amplitude()[0]);
   const double along = std::abs(state.amplitude_rate()[0]) * c.first.cross(c.second).norm() / c.first.squaredNorm();
   return Joint::turning_rate(state) + along;
@@ -141,7 +141,7 @@ void PointOnCurve::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> v
   if (guide_ == Guide::plane) {
     const Vector3 along = curve_(state.amplitude()[0]).first;
     const auto lambda = state.reaction();
-    values[0] = -(lambda[0] * along.y() - lambda[1] * along.x()) / along.norm();  // the push along the outward normal
+    values[0] = -(lambda[0] * along.y() - lambda[1] * along.x()) / along.norm();  // force along the outward normal
     return;
   }
   if (values.size() == 0) return;
@@ -157,7 +157,7 @@ void PointOnCurve::describe(const LocalState& state, Description& description) c
 
 namespace {
 
-/// @param frame  in whose axes the curve is wanted
+/// @param frame  frame in whose axes the curve is returned
 Curve read_curve(const YamlValue& value, bool closed, const Frame& frame) {
   return read_named_file(value, [&](const std::string& path) -> Curve {
     MatrixX points = read_table(path, 3);
@@ -174,7 +174,7 @@ void read_point_on_curve(const std::string& name, const YamlValue& entry, Model&
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::optional);
   const auto given = entry.find("closed");
   const bool closed = given && given->boolean();
-  // Of J_A, which stands where the point is drawn, or is to start (`at`).
+  // J_A is at the initial position of the point, or at its start (`at`).
   const Frame joint = model.node(frames.first).frame * frames.on_first;
   Curve curve = read_curve(entry.at("curve"), closed, joint);
   const double start = curve.nearest(Vector3::Zero());

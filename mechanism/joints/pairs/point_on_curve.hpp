@@ -2,14 +2,15 @@
 //
 // The curve c(u) is fixed in J_A (math/curve.hpp). Its parameter u is an unknown of the joint, an amplitude without
 // mass:
-//     Phi = d - c(u) = 0,   d the way from J_A to J_B along the axes of J_A                     (three rows)
+//     Phi = d - c(u) = 0,   d: the vector from J_A to J_B along the axes of J_A                 (three rows)
 // The equation of u is -c' . lambda = 0: without friction the reaction is normal to the curve; with friction, which
-// acts on u, its part along the curve bears it, and the rest presses. That holds at any curvature, and u tells places
-// apart where the curve passes the same point twice. Coordinate `displacement`: the arc length from where the point is
-// drawn. In the plane of J_A alone (a roller on a cam) there are two rows, and the curve only pushes: where it would
-// have to pull, an event is noted. A roller has no mass. Relative to the curve it turns at displacement'/R, and its pin
-// at the rate of the coordinate `angle`, of J_B relative to J_A about z. What rubs on the pin holds the roller up, so
-// that the curve drags its middle; the pin bears all of the reaction. A follower without a roller rubs on the curve.
+// acts on u, its part along the curve balances the friction, and the rest is the normal force. This is valid for any
+// curvature, and u distinguishes places if the curve passes the same point twice. Coordinate `displacement`: the arc
+// length from the initial position of the point. In the plane of J_A (a roller on a cam) there are two rows, and the
+// curve can only push: an event is recorded when it would have to pull. A roller has no mass. Relative to the curve it
+// rotates at displacement'/R, and its pin at the rate of the coordinate `angle`, of J_B relative to J_A about z.
+// Friction on the pin resists the rotation of the roller, so that the curve drags its middle; the pin carries all of
+// the reaction. A follower without a roller slides on the curve.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
@@ -20,9 +21,9 @@ namespace bielle::mechanism {
 class PointOnCurve final : public Joint {
  public:
   enum class Guide { space, plane };
-  /// @param curve  in J_A; of a plane guide closed, anticlockwise about z   @param start  the value of u next to which
-  /// the
-  ///               point is drawn
+  /// @param curve  curve in J_A; for a plane guide closed, anticlockwise about z   @param start  the value of u near
+  /// the initial
+  ///               position of the point
   /// @param roller  radius [m] of the roller about the point of a plane guide, whose middle moves on `curve`; 0: none
   PointOnCurve(std::string type, std::string name, JointFrames frames, Curve curve, double start, Guide guide,
                const Model& model, double roller = 0);
@@ -49,7 +50,7 @@ class PointOnCurve final : public Joint {
   double roller_;
 };
 
-/// `curve`: a file of three columns, inertial positions as drawn [m]; `closed`
+/// Reads `curve`: a file of three columns, initial inertial positions [m]; and `closed`.
 void read_point_on_curve(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -9,7 +9,7 @@
 
 namespace bielle::mechanism {
 namespace {
-constexpr std::size_t screw_angle = 1;  ///< among the coordinates
+constexpr std::size_t screw_angle = 1;  ///< index of the angle
 }
 
 ScrewJoint::ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model)
@@ -25,13 +25,13 @@ void ScrewJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows)
   rows[2] = alignment(1, 2, state);
   rows[3] = alignment(0, 2, state);
   PairMeasure angle = measure_angle(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R);
-  angle.value = coordinate(screw_angle, state).value;  // with its turns
+  angle.value = coordinate(screw_angle, state).value;  // including its turns
   rows[4] = position(2, state) - (pitch_ / (2 * M_PI)) * angle;
 }
 
 void ScrewJoint::start_at(std::size_t coordinate, double value, bool by_motion) {
   MeasuredPair::start_at(coordinate, value, by_motion);
-  // Where it starts along its axis says how many turns it has made.
+  // The start value along its axis determines the number of turns.
   if (coordinate != screw_angle) MeasuredPair::start_at(screw_angle, 2 * M_PI * value / pitch_, by_motion);
 }
 

@@ -12,14 +12,14 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr int slider = 1;  ///< local node
+constexpr int slider = 1;  ///< local node of the slider
 
 /// The four weights of Hermite's interpolation on an element, or their derivatives by u.
 struct Weights {
   std::array<double, 2> N, M;
 };
 
-/// @param order  of the derivative, 0 to 3
+/// @param order  order of the derivative, 0 to 3
 Weights weights(double xi, double L, int order) {
   const double scale = 1 / std::pow(L, order);
   switch (order) {
@@ -69,7 +69,7 @@ std::size_t SliderJoint::element_at(double u) const {
 
 namespace {
 
-/// Adds factor times a measure of two local nodes, and what its factor's variation along u makes.
+/// Adds factor times a measure of two local nodes, and the terms due to the variation of the factor along u.
 void add_pair_part(const PairMeasure& m, int first, int second, double factor, double by_u, double by_uu, int u,
                    VectorX& gradient, MatrixX& curvature, double& value) {
   value += factor * m.value;
@@ -100,7 +100,7 @@ void SliderJoint::calc_row(int row, const LocalState& state, Row& result) const 
     calc_tangent_row(row - 2, state, result);
 }
 
-// e . R_1^T (d - p): positions and tangents of the element's nodes as the first node of the line sees them.
+// e . R_1^T (d - p): positions and tangents of the element's nodes as seen from the first node of the line.
 void SliderJoint::calc_position_row(int axis, const LocalState& state, Row& result) const {
   const NodeState& first = state.node(0);
   const Vector3 e = frames().on_first.R.col(axis);
@@ -115,7 +115,7 @@ void SliderJoint::calc_position_row(int axis, const LocalState& state, Row& resu
   const Weights w = weights(xi, L, 0), w1 = weights(xi, L, 1), w2 = weights(xi, L, 2);
   for (std::size_t k = 0; k < 2; ++k) {
     const std::size_t end = element + k;
-    if (end == 0) {  // the first node itself: it sees its tangent at rest
+    if (end == 0) {  // the first node itself: its own tangent is constant
       const double along = e.dot(line_.tangent[0]);
       result.value -= w.M[k] * along;
       result.gradient[u] -= w1.M[k] * along;
@@ -128,7 +128,7 @@ void SliderJoint::calc_position_row(int axis, const LocalState& state, Row& resu
   }
 }
 
-// e . R_s^T p'(u): as the slider sees the element's nodes. The weights of positions add up to zero.
+// e . R_s^T p'(u): the element's nodes as seen from the slider. The weights of positions add up to zero.
 void SliderJoint::calc_tangent_row(int axis, const LocalState& state, Row& result) const {
   const NodeState& sliding = state.node(slider);
   const Vector3 e = frames().on_second.R.col(axis);
@@ -148,7 +148,7 @@ void SliderJoint::calc_tangent_row(int axis, const LocalState& state, Row& resul
   }
 }
 
-// p' along the axes of J_A stands in the rows of positions, as their derivative by u.
+// p' along the axes of J_A is the derivative of the position rows by u.
 Vector6 SliderJoint::calc_press(const LocalState& state) const {
   thread_local Row row;
   Vector3 along;
@@ -216,7 +216,7 @@ void SliderJoint::add_constraint_rates(const LocalState& state, Eigen::Ref<Vecto
 }
 
 double SliderJoint::turning_rate(const LocalState& state) const {
-  // The beam's tangent turns as the slider runs along: by the angle between the tangents of the element's nodes per
+  // The beam's tangent rotates as the slider moves along: by the angle between the tangents of the element's nodes per
   // length.
   const std::size_t element = element_at(state.amplitude()[0]);
   const Vector3 first = state.node(local(element)).R * line_.tangent[element],

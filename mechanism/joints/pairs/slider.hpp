@@ -1,17 +1,18 @@
 // A node that slides along a deforming beam.
 //
 // The beam's line is a curve through its nodes with continuous tangent: on element e between nodes k = e, e+1, with the
-// drawn arc length u from the beam's start, xi = (u - s_e)/L_e,
+// initial arc length u from the beam's start, xi = (u - s_e)/L_e,
 //     p(u) = sum_k N_k x_k + M_k t_k,   N = {1 - 3 xi^2 + 2 xi^3, 3 xi^2 - 2 xi^3},
 //                                       M = L_e {xi - 2 xi^2 + xi^3, xi^3 - xi^2},
-// t_k the unit tangent that rides on node k. u is an unknown of the joint, without mass. Rows, in the axes of J_A,
-// which rides on the beam's first node:
+// with the unit tangent t_k that is fixed on node k. u is an unknown of the joint, without mass. The rows are, in the
+// axes of J_A, which is fixed on the beam's first node:
 //     x y z     d - p(u) = 0, d to the slider's attachment point: its equation of u makes the force normal to the beam,
-//               but for friction, which acts on u (by lengths as drawn)
-//     ry rz     with `orientation: tangent`: y_B . p' = z_B . p' = 0, x_B along the beam as drawn; turning about it is
+//               except for friction, which acts on u (by initial lengths)
+//     ry rz     with `orientation: tangent`: y_B . p' = z_B . p' = 0, x_B initially along the beam; rotation about it
+//     is
 //     free
-// The force goes to the two nodes of the element as N_k f and moments M_k t_k x f: it passes from element to element
-// without a jump. Local nodes: the beam's first, the slider, the beam's others.
+// The force acts on the two nodes of the element as N_k f and moments M_k t_k x f: it is continuous between elements.
+// Local nodes: the beam's first, the slider, the beam's others.
 // Reference: the sliding joint of A. Cardona's thesis is the rigid-beam case; curves by Hermite's interpolation of node
 // frames are exact to the fourth order of the element's length.
 #pragma once
@@ -22,17 +23,18 @@
 
 namespace bielle::mechanism {
 
-/// A beam's line as drawn.
+/// The initial line of a beam.
 struct BeamLine {
-  std::vector<int> nodes;        ///< of the model, at least two
-  std::vector<Vector3> tangent;  ///< unit, in the axes of each node
+  std::vector<int> nodes;        ///< node indices in the model, at least two
+  std::vector<Vector3> tangent;  ///< unit vectors, in the axes of each node
   std::vector<double> place;     ///< arc length from the start to each node [m]
 };
 
 class SliderJoint final : public Joint {
  public:
   enum class Ends { error, stop };
-  /// @param frames  J_A on the line's first node, J_B on the slider with x_B along the line   @param start  of u [m]
+  /// @param frames  J_A on the line's first node, J_B on the slider with x_B along the line   @param start  initial u
+  ///                [m]
   SliderJoint(std::string name, JointFrames frames, BeamLine line, double start, bool tangent, Ends ends,
               const Model& model);
 
@@ -71,7 +73,7 @@ class SliderJoint final : public Joint {
   Ends ends_;
 };
 
-/// `slider: {node, beam, at, start, ends: error | stop, orientation: free | tangent}`
+/// Reads `slider: {node, beam, at, start, ends: error | stop, orientation: free | tangent}`.
 void read_slider(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// `slider`: its keys, and the beam that it slides on.
+// Reader of `slider`, and of the beam that it slides on.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,13 +14,13 @@ namespace bielle::mechanism {
 namespace {
 
 const Chain& chain_of_beam(const YamlValue& beam, const Model& model) {
-  component_named_by(Section::elements, beam, model);  // there is one of that name
+  component_named_by(Section::elements, beam, model);  // checks that the name exists
   for (const Chain& chain : model.chains())
     if (chain.entry == Entry{Section::elements, beam.text()}) return chain;
   beam.fail("is no beam: a slider needs one to slide on");
 }
 
-/// The line through the beam's nodes: tangents of the curve through three neighbours that a circle fits.
+/// Returns the line through the beam's nodes: tangents are those of the circle through three neighbours.
 BeamLine line_through(const std::vector<int>& nodes, const Model& model) {
   const std::size_t n = nodes.size();
   const auto x = [&](std::size_t k) -> const Vector3& { return model.node(nodes[k]).frame.x; };
@@ -32,8 +32,8 @@ BeamLine line_through(const std::vector<int>& nodes, const Model& model) {
     if (n == 2) {
       tangent = chord[0];
     } else {
-      // Of the circle through three points: chords weighted by the inverse squares of their lengths; at an end the
-      // tangent of the neighbour mirrored in the chord.
+      // The tangent of the circle through three points: chords weighted by the inverse squares of their lengths; at an
+      // end the tangent of the neighbour mirrored in the chord.
       const std::size_t middle = std::clamp<std::size_t>(k, 1, n - 2);
       const Vector3 before = chord[middle - 1], after = chord[middle];
       tangent = before / before.squaredNorm() + after / after.squaredNorm();
@@ -45,7 +45,7 @@ BeamLine line_through(const std::vector<int>& nodes, const Model& model) {
     }
     line.tangent[k] = model.node(nodes[k]).frame.R.transpose() * tangent.normalized();
     if (k == 0) continue;
-    // Length of the arc over the chord: by the angle between the tangents at its ends.
+    // Ratio of arc length to chord: from the angle between the tangents at its ends.
     const Vector3 first = model.node(nodes[k - 1]).frame.R * line.tangent[k - 1];
     const double half = 0.5 * std::acos(std::clamp(first.dot(tangent.normalized()), -1.0, 1.0));
     const double stretch = half > 1e-6 ? half / std::sin(half) : 1;
@@ -54,7 +54,7 @@ BeamLine line_through(const std::vector<int>& nodes, const Model& model) {
   return line;
 }
 
-/// The place on the line next to a point, and the tangent there.
+/// The place on the line closest to a point, and the tangent there.
 struct Foot {
   double u = 0;
   Vector3 tangent, point;

@@ -33,14 +33,14 @@ TyreForce::Force TyreForce::calc(const LocalState& of_wheel) const {
   const double forward = force.slip.forward.value, V = std::hypot(forward, law_.speed);
   force.sigma = v / V;
   const Vector2 s = C.cwiseProduct(force.sigma);
-  const Eigen::Matrix2d ds = (C / V).asDiagonal();      // by v
-  const Vector2 ds_forward = -s * (forward / (V * V));  // by V_x
+  const Eigen::Matrix2d ds = (C / V).asDiagonal();      // derivative by v
+  const Vector2 ds_forward = -s * (forward / (V * V));  // derivative by V_x
   double f = 1;
-  Eigen::RowVector2d df = Eigen::RowVector2d::Zero();  // by s
+  Eigen::RowVector2d df = Eigen::RowVector2d::Zero();  // derivative by s
   double df_N = 0;
   if (law_.friction) {
     const double N = std::max(0.0, of_wheel.reaction()[0]), most = 3 * *law_.friction * N, size = s.norm();
-    if (most <= 0 || size / most > 1e150) {  // the wheel is in the air
+    if (most <= 0 || size / most > 1e150) {  // the wheel has no contact
       force.F.setZero();
       force.by_v.setZero();
       force.by_forward.setZero();

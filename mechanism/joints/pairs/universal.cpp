@@ -12,9 +12,9 @@ namespace bielle::mechanism {
 namespace {
 
 using CoordinateKind = JointCoordinate::Kind;
-constexpr int x = 0, y = 1, z = 2;  ///< axes of the frames
+constexpr int x = 0, y = 1, z = 2;  ///< indices of axes of the frames
 
-/// Rows of a common point, with one more.
+/// Rows of a common point, and one further row.
 std::vector<MeasuredPair::Row> point_and(const char* torque) {
   return {{"x", "N"}, {"y", "N"}, {"z", "N"}, {torque, "N m"}};
 }
@@ -61,7 +61,7 @@ void ConstantVelocityJoint::calc_rows(const LocalState& state, std::span<PairMea
 }
 
 std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {
-  // Without twist x_A . x_B + y_A . y_B = 1 + cos(bend); turned by half a turn about the axis it is -2.
+  // Without twist x_A . x_B + y_A . y_B = 1 + cos(bend); after a rotation by half a turn about the axis it is -2.
   const Matrix3 A = state.node(0).R * frames().on_first.R, B = state.node(1).R * frames().on_second.R;
   if (A.col(x).dot(B.col(x)) + A.col(y).dot(B.col(y)) < 0)
     return "its shafts are turned by half a turn about their axis";
@@ -72,7 +72,7 @@ std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {
 void read_universal(const std::string& name, const YamlValue& entry, Model& model) {
   check_pair_keys(entry, "a universal joint", joint_frame_keys());
   const YamlValue second_axis = entry.at("second_axis"), axis = entry.at("axis");
-  // Of a pair each is made orthogonal to the axis on its node.
+  // Each direction of a pair is made orthogonal to the axis on its node.
   const auto is_pair = [](const YamlValue& value) {
     return value.is_sequence() && value.size() > 0 && value.at(std::size_t{0}).is_sequence();
   };
@@ -86,7 +86,7 @@ void read_universal(const std::string& name, const YamlValue& entry, Model& mode
 
 namespace {
 
-/// Turns the frames so that their z axes are the two shafts as drawn: the second by the bend between them.
+/// Rotates the frames so that their z axes are the two initial shafts: the second by the bend between them.
 void bend_frames(JointFrames& frames, const YamlValue& axes, const Model& model) {
   if (!axes.is_sequence() || axes.size() != 2)
     axes.fail("expected two directions: of the first shaft and of the second");

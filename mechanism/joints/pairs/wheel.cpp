@@ -26,12 +26,12 @@ std::vector<MeasuredPair::Row> wheel_rows(bool rolls) {
 /// Sine of the angle between axis and normal below which a wheel lies flat.
 constexpr double flat = 1e-3;
 
-/// Three numbers that vary with the positions: components of an axis or of an arm.
+/// Three numbers that depend on the positions: components of an axis or of a lever arm.
 using VectorJet = std::array<PairMeasure, 3>;
 
 Vector3 value_of(const VectorJet& jet) { return {jet[0].value, jet[1].value, jet[2].value}; }
 
-/// Constant axes times a vector.
+/// Multiplies a vector by constant axes.
 VectorJet turned(const Matrix3& axes, const VectorJet& vector) {
   VectorJet result;
   for (std::size_t row = 0; row < 3; ++row)
@@ -40,7 +40,7 @@ VectorJet turned(const Matrix3& axes, const VectorJet& vector) {
 }
 
 /// Velocity of the material of node 2 at the arm c, relative to node 1's material at the same place, along the axis e:
-/// the gradient of the position measure of e and c as they are now, and how it changes while they vary.
+/// the gradient of the position measure at the present e and c, and its change while they vary.
 PairMeasure material_velocity(const NodeState& first, const NodeState& second, const VectorJet& e, const VectorJet& c) {
   const Vector3 e_hat = value_of(e), c_2 = value_of(c);
   PairMeasure w = measure_position(first, second, e_hat, Vector3::Zero(), c_2);
@@ -79,7 +79,7 @@ void WheelJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> val
 WheelJoint::Slip WheelJoint::calc_slip(const LocalState& state) const {
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames().on_first, &B = frames().on_second;
-  // z_B along J_A, and z_A along J_B.
+  // Components of z_B along J_A, and of z_A along J_B.
   const PairMeasure b_x = alignment(0, 2, state), b_y = alignment(1, 2, state);
   const PairMeasure n_x = alignment(2, 0, state), n_y = alignment(2, 1, state);
   const PairMeasure s = sqrt(square(b_x) + square(b_y));
@@ -121,7 +121,8 @@ void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
   const double radius = entry.at("radius").positive_number();
   const double s = std::sqrt(std::max(0.0, 1 - std::pow(normal.dot(axis), 2)));
   if (s < flat) entry.at("axis").fail("the wheel lies flat on the plane: its axis is parallel to `normal`");
-  // Below the wheel's middle: as far as the rim says, or in the plane through `position` or the first point of `at`.
+  // The point below the wheel's middle: at the distance given by the rim, or in the plane through `position` or the
+  // first point of `at`.
   Vector3 middle = hub.x;
   double height = radius * s;
   if (const auto at = entry.find("at")) {

@@ -1,16 +1,16 @@
 // A thin wheel on a plane.
 //
-// The plane rides on the first node: J_A stands in it below the hub, z_A its `normal`. The wheel rides on the second
-// node: J_B stands in the middle of the hub, z_B along the wheel's `axis`. With c = z_A . z_B, s = sqrt(1 - c^2), which
-// is computed as the length of z_B across z_A (1 - c^2 loses its digits where the wheel is nearly flat), and the unit
-// vector from the lowest point of the rim to the hub m = (z_A - c z_B)/s:
+// The plane is fixed on the first node: J_A is in it below the hub, z_A is its `normal`. The wheel is fixed on the
+// second node: J_B is in the middle of the hub, z_B is along the wheel's `axis`. With c = z_A . z_B, s = sqrt(1 - c^2),
+// which is computed as the length of the part of z_B normal to z_A (1 - c^2 loses its digits if the wheel is nearly
+// flat), and the unit vector from the lowest point of the rim to the hub m = (z_A - c z_B)/s:
 //     normal         r s - z_A . d = 0,   d from J_A to J_B: the rim touches the plane          (holonomic)
-//     longitudinal   t . v_c = 0,   t = z_B x z_A / s: the way of a wheel that turns about +z_B (non-holonomic)
+//     longitudinal   t . v_c = 0,   t = z_B x z_A / s: direction of a wheel that rotates about +z_B (non-holonomic)
 //     lateral        l . v_c = 0,   l = z_A x t                                                 (non-holonomic)
 // v_c is the velocity, relative to the plane, of the wheel's material at the contact, p_2 - r m. Multipliers: the
-// plane's push on the wheel [N], and the friction that keeps it from slipping, negated. The contact does not let go:
-// where the push would have to become a pull, an event is noted ("lifts off").
-// A wheel that lies flat (s = 0) has no lowest point: the run ends where s falls below a thousandth.
+// normal force of the plane on the wheel [N], and the friction that prevents slip, negated. The contact is not
+// released: an event is recorded when the normal force would have to pull ("lifts off").
+// A wheel that lies flat (s = 0) has no lowest point: the run ends when s falls below a thousandth.
 // References: J. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems (1972); Geradin and Cardona (2001) ch. 7.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace bielle::mechanism {
 
 class WheelJoint final : public MeasuredPair {
  public:
-  /// @param rolls  with the two rows that keep it from slipping
+  /// @param rolls  with the two rows that prevent slip
   WheelJoint(std::string name, JointFrames frames, double radius, bool rolls, const Model& model);
   void declare(Declaration& declaration) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
@@ -29,7 +29,7 @@ class WheelJoint final : public MeasuredPair {
   /// Slip velocities as gradients w with their derivatives; the value is the velocity itself [m/s].
   struct Slip {
     PairMeasure longitudinal, lateral;
-    PairMeasure forward;  ///< of the hub along t
+    PairMeasure forward;  ///< velocity of the hub along t
   };
   Slip calc_slip(const LocalState& state) const;
 
@@ -38,9 +38,9 @@ class WheelJoint final : public MeasuredPair {
   double radius_;
 };
 
-/// `nodes: [of the plane, of the hub]`, `normal` of the plane, `position`: a point of it (default: below the hub), or
-/// `at`: a point of the plane and the middle of the wheel in the axes of their nodes,
-/// `axis` of the wheel, `radius`; inertial directions as drawn.
+/// Reads `nodes: [of the plane, of the hub]`, `normal` of the plane, `position`: a point of it (default: below the
+/// hub), or `at`: a point of the plane and the middle of the wheel in the axes of their nodes, `axis` of the wheel,
+/// `radius`; inertial directions are initial ones.
 void read_wheel(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

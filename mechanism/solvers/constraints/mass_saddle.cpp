@@ -46,13 +46,14 @@ void MassSaddle::factor(const Environment& environment, const State& state) {
   floor_ = VectorX::Zero(system_.dofs());
   if (regular(nullptr)) return;
   serves_ = false;
-  // Any small mass gives the same multipliers to its own size. Masses that there are stay as they are, if that helps.
+  // Any small mass gives the same multipliers up to its own size. The existing masses are unchanged, if that is
+  // sufficient.
   constexpr double floor = 1e-12;
   const VectorX everywhere = small_diagonal(system_, linear_, state, floor);
   floor_ = everywhere;
   for (int i = 0; i < system_.dofs(); ++i)
     if (linear_.diagonal(i) > 0) floor_[i] = 0;
-  // A dof without mass, stiffness, damping and constraint has no equation at all.
+  // A dof without mass, stiffness, damping and constraint has no equation.
   linear_.try_factor(state, environment, TangentWeights{1, 1, 1, 1, 1}, nullptr);
   VectorX sums(system_.size());
   linear_.row_sums(VectorX::Ones(system_.size()), sums);

@@ -10,14 +10,14 @@ namespace {
 
 constexpr double delta = 1e-7;
 
-/// Unknowns here: dofs, then multipliers. @returns -1 for first-order unknowns
+/// Maps an unknown to its number in this matrix: dofs, then multipliers. @returns -1 for first-order unknowns
 int number(const System& system, int unknown) {
   if (unknown < system.dofs()) return unknown;
   const int multiplier = unknown - system.dofs() - system.first_orders();
   return multiplier < 0 ? -1 : system.dofs() + multiplier;
 }
 
-/// Entries of B in one row and column of the system's pattern; B^T is its mirror image.
+/// Whether an entry of the system's pattern belongs to B; B^T is its transpose.
 bool is_constraint(const System& system, int row, int column) {
   return row >= system.dofs() + system.first_orders() && column < system.dofs();
 }
@@ -67,7 +67,7 @@ bool ReactionNorm::needed(const System& system, const State& state) {
 
 void ReactionNorm::factor(const Environment& environment, const State& state) {
   State whole = with_redundant(system_, state);
-  // A constraint that yields to others leaves all to them: it takes no share.
+  // A constraint that yields to others has no reaction.
   for (int k = 0; k < static_cast<int>(state.idle.size()); ++k)
     if (system_.yields(k)) whole.idle[static_cast<std::size_t>(k)] = state.idle[static_cast<std::size_t>(k)];
   system_.tangent(whole, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, tangent_);
@@ -90,15 +90,15 @@ void ReactionNorm::factor(const Environment& environment, const State& state) {
     if (slots.multipliers == 0) continue;
     MatrixX H = MatrixX::Zero(slots.multipliers, slots.multipliers);
     system_.model().members()[m].component->add_reaction_norm(LocalState(whole, slots, environment), arm, H);
-    // What makes no wrench is kept small all the same; relative to itself, since units part forces from moments over
-    // arms.
+    // Multipliers that cause no wrench are kept small as well. The term is relative, because forces differ in unit from
+    // moments divided by arms.
     for (int k = 0; k < slots.multipliers; ++k) H(k, k) = H(k, k) > 0 ? (1 + 1e-9) * H(k, k) : 1;
     for (int k = 0; k < H.size(); ++k)
       values_[static_cast<std::size_t>(norm_places_[static_cast<std::size_t>(norm_begin_[m] + k)])] =
           -delta * H.data()[k];
-    // A constraint that is off has no row of B: its multiplier comes out as zero.
+    // A constraint that is off has no row in B: its multiplier becomes zero.
   }
-  // Multipliers of moments are as large as arms times forces.
+  // Multipliers of moments are larger than those of forces by a factor of an arm.
   for (int k = 0; k < system_.multipliers(); ++k) {
     double largest = 0;
     const int column = n + k;
@@ -142,7 +142,7 @@ void ReactionNorm::balance(const Environment& environment, State& state) {
   state.reaction = smallest(state.multiplier);
 }
 
-/// Reactions that forces read are those with which the equations of the state have been solved: they are there.
+/// Otherwise the reactions that forces read are already set: the equations of the state were solved with them.
 bool CrossingValues::needs(const State& state) const {
   if (!system_.crossings_read_reactions() || !ReactionNorm::needed(system_, state)) return false;
   return !system_.reads_reactions() || state.reaction.size() == 0;
@@ -184,7 +184,7 @@ void ReadReactions::balance(const Environment& environment, State& state) {
 std::vector<int> ReactionNorm::not_unique(const Environment& environment, const State& state) {
   if (!needed(system_, state)) return {};
   factor(environment, state);
-  // What the projection takes from multipliers in general position makes no forces.
+  // The part that the projection removes from arbitrary multipliers causes no forces.
   VectorX any(system_.multipliers());
   for (int k = 0; k < system_.multipliers(); ++k) any[k] = scale_[system_.dofs() + k] * std::cos(1 + 2.4 * k);
   const VectorX free = any - smallest(any);

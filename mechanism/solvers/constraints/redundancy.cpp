@@ -16,10 +16,10 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The longest arm at which a component's constraints act about its nodes [m]: the quotient of what the columns of B^T
-/// that belong to it have by rotations and by translations, both in squares over all columns that have forces. It
-/// depends on neither units, the place of the origin, nor the axes that the component or the nodes have. Where there is
-/// none but rounding of positions, translations and rotations do not mix, and any length will do.
+/// Returns the longest lever arm at which a component's constraints act on its nodes [m]: the ratio of rotations to
+/// translations in its columns of B^T, as sums of squares over all columns that have forces. It is independent of
+/// units, the position of the origin, and the axes of the component and the nodes. If all arms are only rounding errors
+/// of positions, translations and rotations do not mix, and the length is arbitrary.
 double longest_arm(const System& system, const std::vector<double>& values, double positions) {
   constexpr double rounding = 1e-12;
   const SparsePattern& pattern = system.pattern();
@@ -38,7 +38,7 @@ double longest_arm(const System& system, const std::vector<double>& values, doub
         if (system.kind(row) == Kind::translation) force += square;
         if (system.kind(row) == Kind::rotation) moment += square;
       }
-      // Directions have length one; a model whose nodes stand in one point has no size to compare moments with.
+      // Directions have length one; a model with all nodes at one point has no size with which moments can be compared.
       constexpr double direction = 1e-6;
       if (!(std::sqrt(force) > direction) && !(std::sqrt(force) * positions > rounding * std::sqrt(moment))) continue;
       forces += force;
@@ -61,7 +61,7 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   const SparsePattern& pattern = system.pattern();
   const int first = system.size() - system.multipliers();
   std::vector<Eigen::Triplet<double>> entries;
-  // Of columns that repeat each other the last ones are found.
+  // The last ones of dependent columns are found.
   std::vector<int> order(static_cast<std::size_t>(system.multipliers())), place(order.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(), [&](int m) { return !system.yields(m); });
@@ -72,7 +72,7 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
     const auto end = static_cast<std::size_t>(pattern.column_start()[static_cast<std::size_t>(first + m + 1)]);
     double norm = 0;
     const auto scaled = [&](std::size_t k) {
-      // A translation's increment counts in arms.
+      // Increments of translations are divided by the arm.
       return values[k] * (system.kind(pattern.row()[k]) == Kind::translation ? length : 1.0);
     };
     for (std::size_t k = begin; k < end; ++k) norm += scaled(k) * scaled(k);
@@ -83,12 +83,13 @@ std::vector<int> find_redundant(const System& system, const Environment& environ
   }
   Eigen::SparseMatrix<double> transposed(first, system.multipliers());
   transposed.setFromTriplets(entries.begin(), entries.end());
-  // Far above rounding (of positions relative to the arms), far below what a nearly planar loop leaves.
+  // The tolerance is far above rounding (of positions relative to the arms), and far below the errors of a nearly
+  // planar loop.
   const double tolerance = std::max({1e-9, least, 1e3 * std::numeric_limits<double>::epsilon() * positions / length});
   std::vector<int> dependent = dependent_columns(transposed, tolerance);
   for (int& column : dependent) column = order[static_cast<std::size_t>(column)];
   std::sort(dependent.begin(), dependent.end());
-  // What is switched off has no entries; it repeats nothing.
+  // A constraint that is switched off has no entries; it is not redundant.
   if (!state.idle.empty())
     std::erase_if(dependent, [&](int m) { return state.idle[static_cast<std::size_t>(m)] == Idle::switched_off; });
   return dependent;
@@ -133,13 +134,13 @@ std::vector<int> take_out_redundant(System& system, const Environment& environme
 
 namespace {
 
-/// Constraints that repeat others to within `least`, and did not where redundant ones were found.
+/// Returns constraints that are redundant to within `least`, and were not when redundant ones were determined.
 std::vector<int> newly_redundant(const System& system, const Environment& environment, const State& state,
                                  double least) {
   std::vector<int> repeating = find_redundant(system, environment, state, least);
   std::vector<int> known;
   system.for_each_redundant(state, [&](int multiplier) { known.push_back(multiplier); });
-  // Which of several dependent rows comes last may differ from the start; more of them is news.
+  // The last of several dependent rows may be another one than at the start; only a larger number is new.
   if (repeating.size() <= known.size()) return {};
   std::erase_if(repeating, [&](int multiplier) { return std::binary_search(known.begin(), known.end(), multiplier); });
   return repeating;
@@ -170,10 +171,10 @@ std::string describe_singularity(const System& system, const Environment& enviro
 
 namespace {
 
-/// The member that a multiplier belongs to.
+/// Returns the member that a multiplier belongs to.
 std::size_t owner_of(const System& system, int multiplier) {
   const std::vector<Slots>& slots = system.slots();
-  // Members without multipliers begin where the next one does.
+  // Members without multipliers have the same begin as the next one.
   const auto behind = std::upper_bound(slots.begin(), slots.end(), multiplier,
                                        [](int wanted, const Slots& each) { return wanted < each.multiplier_begin; });
   return static_cast<std::size_t>(behind - slots.begin()) - 1;
@@ -202,16 +203,16 @@ std::vector<std::string> name_constraints(const System& system, const std::vecto
 
 namespace {
 
-/// Whether fewer constraints repeat others a little farther along what the rest lets free: a position in which links
-/// stand in line.
+/// Whether fewer constraints are redundant after a small motion along a direction that the other constraints permit:
+/// the mechanism is then in a singular position, for example with links in line.
 bool stands_in_singular_position(const System& system, const Environment& environment, const State& state) {
-  // On the way constraints hold to second order, so what always repeats others differs by 1e-6 there, and what does so
-  // here alone by 1e-3.
+  // Along the motion, constraints are satisfied to second order: permanently redundant ones differ by 1e-6, and those
+  // that are redundant only here by 1e-3.
   constexpr double part = 1e-3, least = 3e-5;
   if (system.dofs() == 0) return false;
   VectorX v(system.dofs());
   for (Eigen::Index k = 0; k < v.size(); ++k)
-    v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // in no direction's favour
+    v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // not aligned with any direction
   try {
     State moving = state;
     system.set_rates(moving, v, VectorX::Zero(v.size()));
@@ -223,12 +224,12 @@ bool stands_in_singular_position(const System& system, const Environment& enviro
     MassSaddle saddle(system);
     saddle.factor(environment, state);
     VectorX r = VectorX::Zero(system.size()), change(system.size());
-    r.tail(system.multipliers()) = rates - still;  // what drives prescribe stands still
+    r.tail(system.multipliers()) = rates - still;  // the prescribed rates of drives are removed
     system.for_each_redundant(state, [&](int multiplier) { r[system.size() - system.multipliers() + multiplier] = 0; });
     saddle.solve(r, change);
     v += change.head(system.dofs());
   } catch (const ComputationError&) {
-    return false;  // nothing moves
+    return false;  // there is no motion
   }
   const double largest = v.cwiseAbs().maxCoeff();
   if (!(largest > 0)) return false;
@@ -256,7 +257,7 @@ std::string describe_singular_start(const System& system, const Environment& env
 
 void check_set_aside(const System& system, const Environment& environment, const State& state) {
   if (system.set_aside().empty() && state.idle.empty()) return;
-  // Rounding and Newton's tolerance leave far less; a contradiction shows immediately.
+  // Rounding and Newton's tolerance are far smaller; a contradiction shows immediately.
   constexpr double tolerance = 1e-6;
   std::size_t evaluated = system.slots().size();
   double length = 0;  // not known yet

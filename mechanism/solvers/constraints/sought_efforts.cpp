@@ -43,7 +43,7 @@ SoughtEfforts::SoughtEfforts(const System& system) : system_(system), read_(syst
   find_directions();
 }
 
-/// The prescribed ones of the nodes, and who tells their forces.
+/// Finds the prescribed directions of the nodes, and the supports that compute their forces.
 void SoughtEfforts::find_directions() {
   const Model& model = system_.model();
   const auto is_moved = [&](int node) {
@@ -110,7 +110,7 @@ VectorX SoughtEfforts::along(const State& state, const MatrixX& reactions) const
       forces[row] = reactions(axis, column);
       continue;
     }
-    // R = exp(psi) R_start turns by T^T dpsi, inertial components.
+    // R = exp(psi) R_start rotates by T^T dpsi, inertial components.
     const Node& moved = system_.model().node(nodes_[node]);
     const Vector3 psi = state.motion_factor *
                         Vector3(moved.motion[3](state.time), moved.motion[4](state.time), moved.motion[5](state.time));
@@ -157,7 +157,7 @@ double SoughtEfforts::ratio(const VectorX& forces, const ResidualScale& scale) c
 }
 
 MatrixX SoughtEfforts::inverse_of(const MatrixX& S, const State& state) const {
-  constexpr double nothing = 1e-8;  // of what a lever of the mechanism's size makes; differences are exact to 1e-10
+  constexpr double nothing = 1e-8;  // relative to a lever of the mechanism's size; differences are exact to 1e-10
   const double length = std::max(model_extent(state), 1e-30);
   MatrixX scaled = S;
   for (Eigen::Index j = 0; j < count(); ++j) {

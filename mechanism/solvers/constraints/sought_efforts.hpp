@@ -1,11 +1,11 @@
-// Efforts (forces and torques along coordinates of joints) that are sought such that supports of nodes give nothing
-// along the motion that they prescribe: the efforts bring the motion about.
+// Efforts (forces and torques along coordinates of joints) are determined such that the supports of nodes have no
+// reaction along the motions that they prescribe: the efforts then cause the motion.
 //
-// The supports' forces s_j, j the moved directions, depend on the efforts u_k directly and through what answers to
-// them. About a state whose other unknowns x have the equations r(x, u) = 0, with J = dr/dx factorised,
+// The supports' forces s_j, where j counts the prescribed directions, depend on the efforts u_k directly and through
+// the other unknowns. At a state whose other unknowns x have the equations r(x, u) = 0, with J = dr/dx factorised,
 //     S = ds/du - ds/dx J^-1 dr/du,     du = -S^-1 s,
-// which of rigid parts is the principle of virtual power, S_jk = -d(coordinate k)/d(direction j), and exact. There are
-// as many efforts as directions. S is singular where the efforts do not move the directions independently.
+// For rigid parts this is the principle of virtual power, S_jk = -d(coordinate k)/d(direction j), and exact. The number
+// of efforts equals the number of directions. S is singular if the efforts do not move the directions independently.
 #pragma once
 
 #include <functional>
@@ -18,12 +18,13 @@
 
 namespace bielle::mechanism {
 
-/// Throws where a model seeks efforts, which the analysis does not. @param analysis  "a static analysis"
+/// Throws if a model has sought efforts, for an analysis that does not support them. @param analysis  "a static
+/// analysis"
 void refuse_sought_efforts(const Model& model, const char* analysis);
 
 class SoughtEfforts {
  public:
-  /// @throws InputError when there are not as many efforts as directions of motion
+  /// @throws InputError if the number of efforts differs from the number of directions of motion
   explicit SoughtEfforts(const System& system);
 
   const System& system() const { return system_; }
@@ -32,31 +33,31 @@ class SoughtEfforts {
   VectorX values(const State& state) const;
   void set(State& state, const VectorX& values) const;
 
-  /// Force and moment of each moved node's support (6, nodes), inertial components.
+  /// Force and moment of each moved node's support (6, nodes), in inertial components.
   MatrixX reactions(const Environment& environment, const State& state) const;
-  /// Their parts along the moved directions at a state's time (count).
+  /// Components of the reactions along the moved directions at a state's time (count).
   VectorX along(const State& state, const MatrixX& reactions) const;
   /// Derivatives of the residual by the efforts (size, count).
   MatrixX columns(const Environment& environment, const State& state) const;
-  /// dr/du at rest alone: derivatives of the supports' forces by the efforts, all else as it is (count, count).
+  /// Direct derivatives of the supports' forces by the efforts at rest, with all other unknowns fixed (count, count).
   MatrixX direct(const Environment& environment, const State& state) const;
 
-  const std::vector<int>& nodes() const { return nodes_; }  ///< whose supports are to give nothing
-  /// The largest of the supports' forces over the forces of its kind in a residual. Equations of them are satisfied
-  /// where that is `accurate`, or where Newton's method comes no nearer and it is `rounding`.
+  const std::vector<int>& nodes() const { return nodes_; }  ///< their supports must have no reaction
+  /// Ratio of the largest of the supports' forces to the forces of its kind in a residual. The equations are satisfied
+  /// if the ratio is below `accurate`, or if Newton's method does not improve it and it is below `rounding`.
   double ratio(const VectorX& forces, const ResidualScale& scale) const;
   static constexpr double accurate = 1e-11, rounding = 1e-8;
-  /// Throws where S is singular, naming what does not move. @returns S^-1
+  /// Throws if S is singular, naming the motion that the efforts do not affect. @returns S^-1
   MatrixX inverse_of(const MatrixX& S, const State& state) const;
 
  private:
   struct Effort {
-    std::size_t memory;  ///< among the state's
+    std::size_t memory;  ///< index in the state's memory
     SoughtEffort::Sought sought;
   };
   struct Direction {
-    std::size_t node;  ///< among nodes_
-    int axis;          ///< x y z rx ry rz
+    std::size_t node;  ///< index in nodes_
+    int axis;          ///< axis: x y z rx ry rz
   };
   void find_directions();
   std::string name_of(const Direction& direction) const;
@@ -67,21 +68,21 @@ class SoughtEfforts {
     const NodeSupport* support;
     std::size_t member;
   };
-  std::vector<Holder> holders_;  ///< of each node; nullptr: nothing acts there
+  std::vector<Holder> holders_;  ///< supports of each node; nullptr: no force acts there
   std::vector<Direction> directions_;
   mutable ReadReactions read_;
 };
 
-/// How supports answer to the efforts about a state.
+/// Response of the supports to the efforts at a state.
 class EffortResponse {
  public:
   using Solve = std::function<void(const VectorX& r, VectorX& step)>;  ///< step = -J^-1 r (size)
   using Answer = std::function<VectorX(const VectorX& step)>;          ///< ds/dx step (count)
   void linearise(const SoughtEfforts& efforts, const Environment& environment, const State& state, const Solve& solve,
                  const Answer& answer);
-  /// The change of the efforts that takes away forces of the supports. @param forces  (count)
+  /// Returns the change of the efforts that removes given forces of the supports. @param forces  (count)
   VectorX change(const VectorX& forces) const { return -(inverse_ * forces); }
-  /// The change of the other unknowns by it (size).
+  /// Returns the change of the other unknowns due to it (size).
   VectorX step(const VectorX& change) const { return Z_ * change; }
 
  private:

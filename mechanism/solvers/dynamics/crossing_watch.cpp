@@ -16,7 +16,7 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system), values_(sy
   last_end_.assign(system.crossings().size(), 0);
   for (Eigen::Index k = 0; k < sides_.size(); ++k)
     sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
-  std::size_t declared = system.model().members().size();  // the member whose declaration is at hand; none yet
+  std::size_t declared = system.model().members().size();  // member whose declaration is cached; initially none
   bool kinks = false;
   for (const MemberCrossing& each : system.crossings()) {
     if (each.member != declared) {
@@ -25,7 +25,7 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system), values_(sy
       kinks = declaration.kinks;
       declared = each.member;
     }
-    // Steps end as well, without a restart, where a force begins continuously (surfaces touch).
+    // A force that begins continuously (contact of surfaces) ends a step as well, without a restart.
     ends_step_.push_back(each.crossing.restarts || each.crossing.stops || kinks);
   }
 }
@@ -37,7 +37,7 @@ std::vector<int> CrossingWatch::begin(const State& state, const Environment& env
   std::vector<int> jumped;
   for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
     const double side = side_of(at_start_[k]);
-    // A crossing that ends no step may have been met at the very end of one.
+    // An event that does not end steps may have occurred exactly at the end of one.
     if (side == 0 || (side == -sides_[k] && !ends_step_[static_cast<std::size_t>(k)] && met(k))) continue;
     if (side == -sides_[k] && counts(k))
       jumped.push_back(k);
@@ -70,7 +70,7 @@ bool CrossingWatch::counts(int k) const {
 bool CrossingWatch::has_crossed(int k, double value) const {
   const double side = sides_[k];
   if (side == 0 || side * value > 0) return false;
-  // A value of zero at the start has no other side to come from: the sign tells where the motion is.
+  // If the value is zero at the start and at the end, no event has occurred: the sign defines the side later.
   if (value == 0 && at_start_[k] == 0) return false;
   return counts(k);
 }
@@ -104,10 +104,10 @@ double CrossingWatch::shortest() const {
 bool CrossingWatch::located() const {
   const double width = high_ - low_;
   if (width <= tolerance_ || high_ <= shortest()) return true;
-  double farthest = 0;  // by the secant
+  double farthest = 0;  // error estimate of the secant
   for (const int k : crossed_)
     farthest = std::max(farthest, width * std::abs(at_high_[k]) / (std::abs(at_high_[k]) + std::abs(at_low_[k])));
-  // Where a value is zero at both ends, the secant knows nothing.
+  // If a value is zero at both ends, the secant gives no information.
   return farthest <= tolerance_;
 }
 
@@ -119,7 +119,7 @@ double CrossingWatch::proposal() const {
     const bool secant = low > 0 && side_of(at_low_[k]) != side_of(at_high_[k]);
     earliest = std::min(earliest, low_ + (secant ? low / (low + high) : 0.5) * width);
   }
-  // A little past the zero, where the step is to end, and away from the ends of the bracket, so that both move.
+  // The step ends slightly past the zero, and away from the ends of the bracket, so that both ends move.
   const double least = std::min(1e-3 * width, 0.5 * tolerance_);
   return std::max(shortest(), std::clamp(earliest + 0.5 * tolerance_, low_ + least, high_ - least));
 }
@@ -130,7 +130,7 @@ void CrossingWatch::narrow(const State& end, const Environment& environment, dou
   std::vector<int> crossed;
   collect(values, crossed);
   const bool behind = !crossed.empty();
-  // An end that stays for a second time counts half.
+  // The weight of an end that is retained twice is halved.
   for (const int k : behind ? crossed : crossed_) {
     int& last = last_end_[static_cast<std::size_t>(k)];
     const int moved = behind ? 1 : -1;
@@ -157,7 +157,7 @@ double CrossingWatch::locate_noted(int k, double begin, double end, const std::f
   for (int i = 0; i < most && high - low > tolerance; ++i) {
     const bool secant = side_of(at_low) * side_of(at_high) < 0;
     const double share = secant ? std::abs(at_low) / (std::abs(at_low) + std::abs(at_high)) : 0.5;
-    // Past the zero by less than the tolerance, so that the upper end comes to it.
+    // The time is past the zero by less than the tolerance, so that the upper end converges to it.
     const double width = high - low, least = std::min(1e-3 * width, 0.5 * tolerance);
     const double time = std::clamp(low + share * width + 0.5 * tolerance, low + least, high - least);
     if (!(time > low && time < high)) break;
@@ -165,7 +165,7 @@ double CrossingWatch::locate_noted(int k, double begin, double end, const std::f
     const bool behind = sides_[k] * value <= 0;
     (behind ? high : low) = time;
     (behind ? at_high : at_low) = value;
-    // An end that stays for a second time counts half.
+    // The weight of an end that is retained twice is halved.
     if (moved == (behind ? 1 : -1)) (behind ? at_low : at_high) *= 0.5;
     moved = behind ? 1 : -1;
   }

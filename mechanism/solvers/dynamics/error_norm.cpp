@@ -31,7 +31,7 @@ void ErrorNorm::exchange(Archive& archive) {
   archive(largest_first_order_);
 }
 
-/// @param e  of the dofs
+/// @param e  error of the dofs
 double ErrorNorm::of_positions(const VectorX& e) const {
   double displacement = 0, rotation = 0;
   for (int i = 0; i < system_.dofs(); ++i)

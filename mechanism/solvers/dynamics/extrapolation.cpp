@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-// Steps that a choice holds: more each time that it is confirmed.
+// Number of steps for which a choice is valid: it is doubled each time that the choice is confirmed.
 constexpr int shortest = 16, longest = 128;
 constexpr double grown = 4;  // residual relative to that when the order was chosen
 
@@ -24,7 +24,7 @@ void Extrapolation::forget() {
 }
 
 void Extrapolation::add(double time, const VectorX& values) {
-  constexpr double hardly = 0.1;  // of the step before
+  constexpr double hardly = 0.1;  // fraction of the previous step
   const bool replaces = count_ > 1 && time - times_[place(0)] < hardly * (times_[place(0)] - times_[place(1)]);
   if (!replaces) {
     newest_ = (newest_ + 1) % (most_order + 1);

@@ -1,11 +1,12 @@
-// Where Newton's method starts in a step: accelerations, rates of first-order unknowns and multipliers extrapolated
-// over the last accepted steps.
+// Initial guess of Newton's method in a step: accelerations, rates of first-order unknowns and multipliers are
+// extrapolated over the last accepted steps.
 //
-// Of order p: the polynomial through the last p + 1 accepted values, at their times (steps may change in size). Smooth
-// motion makes the start better by a power of the step for each order. What alternates from step to step, an error e of
-// multipliers or the ringing of a stiff body, it makes worse: 2 e, 4 e, 8 e, ... Hence the order is chosen by
-// measurement: from time to time, and where the residual that a step starts with has grown, starts of the orders next
-// to the present one are evaluated too, and the smallest residual wins. After a discontinuity everything is forgotten.
+// Order p means the polynomial through the last p + 1 accepted values, at their times (the step size may change). For a
+// smooth motion, each order improves the initial guess by a power of the step. It amplifies values that alternate from
+// step to step, such as an error e of multipliers or the oscillation of a stiff body: 2 e, 4 e, 8 e, ... Therefore the
+// order is chosen by measurement: periodically, and if the initial residual of a step has grown, initial guesses of the
+// neighbouring orders are evaluated too, and the one with the smallest residual is used. After a discontinuity all
+// earlier values are discarded.
 #pragma once
 
 #include <algorithm>
@@ -23,25 +24,25 @@ class Extrapolation {
   Extrapolation(int size, int allowed);
 
   void forget();
-  /// Takes the values of an accepted state. Where that is hardly later than the last one (a step that an event has cut
-  /// short), it takes its place: polynomials through both would be of no use.
+  /// Takes the values of an accepted state. If this state is hardly later than the last one (a step that was shortened
+  /// by an event), it replaces the last one: polynomials through both would be useless.
   void add(double time, const VectorX& values);
-  /// The values of an order at a time.
+  /// Computes the values of a given order at a time.
   /// @param order  at most `highest_order()`
   void calc(int order, double time, VectorX& values) const;
-  /// The highest order that the accepted states allow; -1: there is none.
+  /// The highest order that the number of accepted states permits; -1: there is none.
   int highest_order() const { return std::min(count_ - 1, allowed_); }
-  /// The highest order that amplifies errors of the values no more than steps of equal size do. @param time  of the
-  /// start
+  /// The highest order that amplifies errors of the values no more than with steps of equal size. @param time  time of
+  /// the initial guess
   int highest_order(double time) const;
 
-  /// The order to start from at a time, where nothing else is known.
+  /// The order to use at a time without further information.
   int order(double time) const { return std::min(order_, highest_order(time)); }
-  /// Whether the order should be chosen anew. @param size  of the residual that the step starts with
+  /// Whether the order should be chosen again. @param size  size of the residual at the initial guess of the step
   bool wants_choice(double size) const;
-  /// @param size  of the residual that the step starts with in this order
+  /// @param size  size of the residual at the initial guess of this order
   void choose(int order, double size);
-  /// The step has gone on from this order as it was. @param size  as above
+  /// Notes a step whose order was not chosen again. @param size  size of the residual at the initial guess
   void note(double size);
   void exchange(Archive& archive);
 
@@ -57,10 +58,10 @@ class Extrapolation {
   std::array<double, most_order + 1> times_{};  ///< [s]
   int allowed_;
   int newest_ = 0, count_ = 0;
-  int order_ = 0, chosen_among_ = 0;  ///< the orders that there were to choose from
-  int age_ = 0;                       ///< steps since the order was chosen
-  int lasts_ = 16;                    ///< steps that the choice holds
-  double size_ = 0;                   ///< of the residual when it was
+  int order_ = 0, chosen_among_ = 0;  ///< order_: in use; chosen_among_: highest order at the choice
+  int age_ = 0;                       ///< number of steps since the order was chosen
+  int lasts_ = 16;                    ///< number of steps for which the choice is valid
+  double size_ = 0;                   ///< smallest initial residual since the choice
 };
 
 }  // namespace bielle::mechanism

@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The cubic through values and rates at both ends. @param s  0 .. 1, of a step of size h
+/// Returns the cubic through values and rates at both ends. @param s  0 .. 1, of a step of size h
 double cubic(double s, double h, double begin, double begin_rate, double end, double end_rate) {
   return (1 - s) * (1 - s) * ((1 + 2 * s) * begin + s * h * begin_rate) +
          s * s * ((3 - 2 * s) * end - (1 - s) * h * end_rate);
@@ -34,7 +34,7 @@ void FormulaLooker::look(const TimeDependent& component, const std::vector<TimeD
   bool positions = false;
   for (std::size_t k = 0; k < n; ++k) positions = positions || is_position(k);
   if (positions) {
-    // Rates from within the step, to second order.
+    // Rates are computed from values within the step, to second order.
     const double e = 0.01 * h;
     for (const auto& [values, rate, from, to] :
          {std::tuple(&begin_, &begin_rate_, first, e), std::tuple(&end_, &end_rate_, last, -e)}) {

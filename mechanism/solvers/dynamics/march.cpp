@@ -12,12 +12,12 @@
 namespace bielle::mechanism {
 namespace {
 
-/// How well times of crossings are known [s]: far below the error of a step of size h, far above rounding.
+/// Tolerance for times of events [s]: far below the error of a step of size h, far above rounding.
 double tolerance_of(double h, double time) {
   return std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
 
-/// The size for the next step after one of size h with this error over tolerance.
+/// Returns the size of the next step after one of size h with this error over tolerance.
 double proposed_size(double h, double error, double largest) {
   const double factor = 0.9 * std::cbrt(1 / std::max(error, 1e-6));
   if (error > 1) return h * std::clamp(factor, 0.1, 0.9);
@@ -51,7 +51,7 @@ MarchLog MarchLog::followed_by(const MarchLog& next) const {
   return both;
 }
 
-/// Where steps have to end: the grid of fixed steps, kinks, and the end.
+/// The times at which steps have to end: the grid of fixed steps, kinks, and the end.
 class March::Stops {
  public:
   Stops(double begin, double end, const StepOptions& options)
@@ -71,21 +71,21 @@ class March::Stops {
       stop_ = grid(k_);
     }
     at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding(stop_);
-    // A kink at a stop, up to rounding, is that stop.
+    // A kink at a stop, up to rounding, is identified with that stop.
     if (at_kink_ && kinks_[kink_] < stop_ - rounding(stop_)) stop_ = kinks_[kink_];
   }
   double time() const { return stop_; }
   bool at_kink() const { return at_kink_; }
   bool on_grid() const { return steps_ == 0 || stop_ == grid(k_); }
-  double step_size() const { return size_; }  ///< of the grid
+  double step_size() const { return size_; }  ///< step size of the grid
 
  private:
-  /// Times that differ by less are the same. Less than what tells the two sides of a kink apart.
+  /// Times that differ by less are equal. The distance is smaller than the one that separates both sides of a kink.
   double rounding(double time) const { return rounding_ + 4 * std::numeric_limits<double>::epsilon() * std::abs(time); }
-  /// Counted, not summed: the last step ends on the end.
+  /// Times are computed from the number of steps, not summed: the last step ends exactly at the end.
   double grid(long k) const { return k >= steps_ ? end_ : begin_ + static_cast<double>(k) * size_; }
   double begin_, end_, rounding_, size_ = 0, stop_ = 0;
-  long steps_ = 0, k_ = 1;  ///< of the grid; 0: there is none
+  long steps_ = 0, k_ = 1;  ///< number of steps of the grid, and next; 0: no grid
   std::vector<double> kinks_;
   std::size_t kink_ = 0;
   bool at_kink_ = false;
@@ -123,7 +123,7 @@ void March::exchange(Archive& archive) {
     before_ = whole;
     log_ = {};
   }
-  norm_.exchange(archive);  // with fixed steps as well: adaptive ones may go on where they ended
+  norm_.exchange(archive);  // also with fixed steps: adaptive ones may continue them
   watch_.exchange(archive);
   VectorX crossed = VectorX::Zero(static_cast<Eigen::Index>(integration_.system().crossings().size()));
   for (const int k : crossed_) crossed[k] = 1;
@@ -137,10 +137,10 @@ void March::exchange(Archive& archive) {
   stops_->advance(integration_.state().time);
 }
 
-/// @param before  of the branch that began here a moment ago; its own comes in its place
+/// @param before  jump of a branch that began here just before; it is replaced by the new one
 void March::begin_branch(double h, std::optional<Jump>& before) {
   if (before && jump_listener_) jump_listener_(*before);
-  std::vector<int> begins;  // those that begin it
+  std::vector<int> begins;  // events that begin the branch
   for (const int k : crossed_)
     if (integration_.system().crossings()[static_cast<std::size_t>(k)].crossing.restarts) begins.push_back(k);
   before = integration_.begin_branch(h, begins);
@@ -148,10 +148,10 @@ void March::begin_branch(double h, std::optional<Jump>& before) {
 
 void March::begin_step(MarchStep& step) {
   double h = std::min(size_, stops_->time() - integration_.state().time);
-  if (is_short(h)) h = size_;  // the scheme's own values are for the steps that come after
+  if (is_short(h)) h = size_;  // the scheme's own values are for the steps that follow
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
-  std::optional<Jump> jump;  // the last, which is followed by the step
+  std::optional<Jump> jump;  // the last one, which is followed by the step
   if (pending_ == Pending::branch) begin_branch(h, jump);
   begun_anew_ = pending_ != Pending::nothing;
   pending_ = Pending::nothing;
@@ -165,10 +165,10 @@ void March::begin_step(MarchStep& step) {
   if (jump_listener_) jump_listener_(*jump);
 }
 
-/// Crossings that were jumped over, at a discontinuity or where a short span's accelerations were solved for: they may
-/// begin further branches there.
+/// Treats events that were passed by a jump, at a discontinuity or when a short span's accelerations were solved for:
+/// they may begin further branches there.
 void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step) {
-  // Branches that all begin at once may undo each other again and again; one after the other they settle.
+  // Branches that begin simultaneously may reverse each other repeatedly; one after the other they settle.
   constexpr int together = 10, most = 100;
   for (int k = 0; !jumped.empty(); ++k) {
     if (k == most) throw_chattering(jumped.front());
@@ -182,15 +182,15 @@ void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& j
   }
 }
 
-/// Whether a span is too short for the scheme: what an event or a kink leaves, not a step that had to become short.
+/// Whether a span is too short for the scheme: the remainder after an event or a kink, not a step that was reduced.
 bool March::is_short(double h) const {
   constexpr double share = 0.01;
   return h < share * size_ && h < integration_.longest_short_span();
 }
 
 StepReport March::attempt(double h, double end, bool kink) {
-  constexpr double small = 1e-6;                      // time constants that matter are longer
-  const bool cut = !begun_anew_ && h < 0.49 * size_;  // much shorter than the step before
+  constexpr double small = 1e-6;                      // relevant time constants are longer
+  const bool cut = !begun_anew_ && h < 0.49 * size_;  // much shorter than the previous step
   const StepReport report = is_short(h) ? integration_.attempt_short(h, end, kink, h < small * size_)
                             : cut       ? integration_.attempt_settled(h, end, kink)
                                         : integration_.attempt(h, end, kink);
@@ -200,18 +200,19 @@ StepReport March::attempt(double h, double end, bool kink) {
   return report;
 }
 
-/// The scheme's values for steps of another size, unless it differs by little or is too short to have any.
+/// Computes the scheme's values for steps of another size, unless the span is too short to have any.
 void March::change_step(double h) {
   if (!is_short(h)) integration_.change_step(h);
 }
 
-/// Where the attempted step holds a crossing: attempts shorter ones until it ends just past the first.
-/// @returns the size of that step, or 0 where it holds none, or where a shorter step failed (the report then says why)
+/// If the attempted step contains an event, attempts shorter ones until it ends just past the first event.
+/// @returns the size of that step, or 0 if it contains none, or if a shorter step failed (the report then contains the
+/// reason)
 double March::locate(double time, StepReport& report) {
   const double h = report.size;
   const double tolerance = tolerance_of(h, time);
   if (watch_.idle() || !watch_.found(integration_.attempted(), integration_.environment(), h, tolerance)) return 0;
-  constexpr int most = 60;  // bisection alone takes some 35
+  constexpr int most = 60;  // bisection alone needs about 35
   integration_.share_factors(true);
   double last = h;
   for (int k = 0; k < most && !watch_.located(); ++k) {
@@ -221,13 +222,13 @@ double March::locate(double time, StepReport& report) {
     if (!report.converged()) break;
     watch_.narrow(integration_.attempted(), integration_.environment(), last);
   }
-  // The last attempt may have ended before the crossing.
+  // The last attempt may have ended before the event.
   if (report.converged() && last != watch_.behind()) report = attempt(watch_.behind(), time + watch_.behind(), false);
   integration_.share_factors(false);
   return report.converged() ? watch_.behind() : 0;
 }
 
-/// What the crossings at the end of an accepted step ask for.
+/// Processes the events at the end of an accepted step.
 void March::pass_crossings(MarchStep& step) {
   const double time = integration_.state().time;
   crossings_at_once_ = time - last_crossing_ <= 1e-7 * size_ ? crossings_at_once_ + 1 : 0;
@@ -281,7 +282,7 @@ March::Plan March::plan() const {
   Plan plan;
   plan.begin = integration_.state().time;
   const double left = stops_->time() - plan.begin;
-  // The last two steps before a stop are of one size: no sliver remains.
+  // The last two steps before a stop have the same size, so that no short step remains.
   plan.last = left <= size_ * (1 + 1e-9);
   plan.size = plan.last ? left : left < 2 * size_ ? left / 2 : size_;
   plan.end = plan.last ? stops_->time() : plan.begin + plan.size;
@@ -289,20 +290,20 @@ March::Plan March::plan() const {
   return plan;
 }
 
-/// Formulas of time may act between the ends of an attempted step and not at them: this is the error by it, relative to
-/// the tolerance. It is 0 with fixed steps, since their run tells it at its end.
+/// Formulas of time may act between the ends of an attempted step and not at them: returns the error due to this,
+/// relative to the tolerance. It is 0 with fixed steps, whose run reports it at its end.
 double March::missed(const Plan& plan) {
   if (pulses_.idle()) return 0;
   pulses_.look(integration_.attempted(), integration_.environment(), plan.begin, plan.end);
   return adaptive() ? pulses_.error(integration_.environment(), norm_, options_.tolerance) : 0;
 }
 
-/// One step as planned: tried, judged, and cut short at the first crossing within.
-/// @param too_large  errors that were too large one after the other, in this step
-/// @returns whether it is to be accepted; otherwise sizes are smaller
+/// Attempts the planned step: it is computed, its error is checked, and it is shortened to the first event within.
+/// @param too_large  number of consecutive attempts in this step with too large an error
+/// @returns whether it is to be accepted; otherwise the step size has been reduced
 bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
-  // The local error falls with the third power of the step. Where it does not do so at once, it is made of what
-  // changes of the step left in the algorithmic accelerations: these are taken anew from equilibrium.
+  // The local error decreases with the third power of the step. If it does not, the cause are errors that changes of
+  // the step size left in the algorithmic accelerations: these are recomputed from equilibrium.
   constexpr int most = 2;
   if (too_large >= most)
     integration_.restart(plan.size);
@@ -312,7 +313,7 @@ bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
   trial.report = attempt(plan.size, plan.end, plan.kink);
   if (trial.report.converged()) {
     const double pulse = missed(plan);
-    const bool judged = !is_short(plan.size);  // a series over a short span has no error that matters
+    const bool judged = !is_short(plan.size);  // the error of a series over a short span is negligible
     if (adaptive() && judged) trial.error = std::max(norm_(integration_) / options_.tolerance, pulse);
     trial.error_known = judged && integration_.first_order_error_known();
     if (trial.error > 1) {
@@ -347,7 +348,7 @@ void March::count(const Plan& plan, const Trial& trial) {
   log_.largest = std::max(log_.largest, plan.size);
 }
 
-/// The crossings within an accepted step that change nothing.
+/// Processes the events within an accepted step that change nothing.
 void March::pass_noted(double begin, MarchStep& step) {
   if (watch_.idle()) return;
   const double end = integration_.state().time;
@@ -392,7 +393,7 @@ MarchStep March::advance() {
     step.on_grid = false;
     return step;
   }
-  // A step whose error is not known says nothing for a larger one.
+  // A step with unknown error does not justify a larger one.
   if (adaptive())
     size_ = std::max(trial.error_known ? proposed_size(planned.size, trial.error, options_.largest) : planned.size,
                      planned.last ? size_ : 0);

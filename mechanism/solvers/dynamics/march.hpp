@@ -1,8 +1,9 @@
-// Steps through a span of time: fixed or adaptive steps, ends on kinks, smaller steps where Newton's method fails.
+// Time stepping over an interval: fixed or adaptive steps that end on kinks, with smaller steps if Newton's method
+// fails.
 //
-// Fixed steps keep to their grid; between two of its times smaller steps are taken only where a kink lies there or
-// where Newton's method failed. Adaptive steps keep the local error of each step (error_norm.hpp) below a tolerance:
-// the next size is h * 0.9 (tolerance/error)^(1/3), at most doubled, and stays where it would change by little, because
+// Fixed steps keep to their grid; smaller steps between two of its times are only taken if there is a kink or if
+// Newton's method failed. Adaptive steps keep the local error of each step (error_norm.hpp) below a tolerance: the next
+// size is h * 0.9 (tolerance/error)^(1/3), at most doubled, and it is not changed if the change would be small, because
 // a change costs a factorisation.
 #pragma once
 
@@ -20,99 +21,100 @@
 namespace bielle::mechanism {
 
 struct StepOptions {
-  double size = 0;                                           ///< [s] fixed, or tried first
-  double tolerance = 0;                                      ///< of the local error; 0: fixed steps
-  double largest = std::numeric_limits<double>::infinity();  ///< [s] adaptive steps only
-  /// Times at which forces or prescribed motions have kinks. Those outside the span do not matter.
+  double size = 0;                                           ///< fixed size, or size of the first step [s]
+  double tolerance = 0;                                      ///< tolerance of the local error; 0: fixed steps
+  double largest = std::numeric_limits<double>::infinity();  ///< largest step [s], adaptive steps only
+  /// Times at which forces or prescribed motions have kinks. Times outside the interval are ignored.
   std::vector<double> break_points;
 };
 
-/// A crossing that a step has ended on, or one within it that changes nothing.
+/// An event that a step has ended on, or an event within it that changes nothing.
 struct Passed {
-  double time = 0;   ///< [s]
-  int crossing = 0;  ///< by number, System::crossings
+  double time = 0;   ///< time [s]
+  int crossing = 0;  ///< index in System::crossings
 };
 
 /// An accepted step.
 struct MarchStep {
   StepReport report;
   double error = 0;            ///< local error over tolerance; 0 with fixed steps
-  bool on_grid = true;         ///< ends on a time of the fixed grid; always true with adaptive steps, but for crossings
-  std::vector<Passed> passed;  ///< the crossings within it and at its end, by their times
+  bool on_grid = true;         ///< ends on a time of the fixed grid; adaptive steps: true except for those ending on an
+                               ///< event
+  std::vector<Passed> passed;  ///< events within it and at its end, in the order of time
 };
 
-/// A step that was tried, as told to those who keep a log.
+/// An attempted step, as passed to logs.
 struct Attempt {
   enum class Outcome { accepted, refused_by_error, refused_by_newton } outcome;
-  double time;  ///< at its end [s]
+  double time;  ///< end of the step [s]
   const StepReport& report;
-  double error;  ///< as in MarchStep
+  double error;  ///< error, as in MarchStep
 };
 
-/// What a march did.
+/// Statistics of a march.
 struct MarchLog {
-  long steps = 0, iterations = 0;    ///< accepted steps; linear solves, those of refused steps included
-  long factorisations = 0;           ///< of the tangent
-  long shortened = 0;                ///< iterations whose full step was too long
-  long refused_by_error = 0;         ///< steps whose local error was too large
+  long steps = 0, iterations = 0;    ///< accepted steps; linear solves, including those of rejected steps
+  long factorisations = 0;           ///< factorisations of the tangent
+  long shortened = 0;                ///< iterations with a shortened step
+  long refused_by_error = 0;         ///< steps with too large a local error
   long refused_by_newton = 0;        ///< steps in which Newton's method failed
-  long crossings = 0;                ///< that were met
-  double smallest = 0, largest = 0;  ///< accepted steps [s], those cut short by kinks left out
-  int most_iterations = 0;           ///< of an accepted step
-  double most_iterations_at = 0;     ///< [s]
-  int slowest_equation = -1;         ///< that was the worst at the end of that step; -1: none
-  std::string hardest;               ///< why a step was last refused; empty when none was
+  long crossings = 0;                ///< number of events
+  double smallest = 0, largest = 0;  ///< range of accepted steps [s], without those shortened by kinks
+  int most_iterations = 0;           ///< largest number in an accepted step
+  double most_iterations_at = 0;     ///< time of that step [s]
+  int slowest_equation = -1;         ///< equation with the largest residual at the end of that step; -1: none
+  std::string hardest;               ///< reason of the last rejected step; empty if none was rejected
 
-  void exchange(Archive& archive, int equations);    ///< all but the text
-  MarchLog followed_by(const MarchLog& next) const;  ///< the log of both together
+  void exchange(Archive& archive, int equations);    ///< all except the text
+  MarchLog followed_by(const MarchLog& next) const;  ///< combined log of both
 };
 
 class March {
  public:
-  /// @param begin  where the grid of fixed steps has its origin: the integration's time, or before it when a motion is
-  ///               continued [s]
-  /// @param end    [s]
+  /// @param begin  origin of the grid of fixed steps: the integration's time, or earlier if a motion is continued [s]
+  /// @param end    end time [s]
   March(TimeIntegration& integration, double begin, double end, StepOptions options);
   ~March();
 
   bool done() const;
-  bool stopped() const { return stopped_; }  ///< by a crossing
-  /// Forces have changed from outside: the next step begins another branch.
+  bool stopped() const { return stopped_; }  ///< whether an event stopped it
+  /// Tells that forces have been changed from outside: the next step begins another branch.
   void begin_branch() { pending_ = pending_ == Pending::start ? pending_ : Pending::branch; }
-  /// Takes one step. What a kink at its end asks for is done when the next one begins; where a crossing stops the run
-  /// there, that is all, and the step has no size.
-  /// @throws ComputationError when Newton's method fails with the smallest steps too: 1/1024 of the fixed size,
-  ///         or 1e-10 of the span
+  /// Takes one step. A discontinuity due to a kink at its end is treated when the next step begins; if an event stops
+  /// the run there, nothing else is done, and the step has no size.
+  /// @throws ComputationError if Newton's method also fails with the smallest steps: 1/1024 of the fixed size, or 1e-10
+  ///         of the interval
   MarchStep advance();
-  /// The doubts are sentences for the user about formulas of time that change between steps, in this program's run. Of
-  /// adaptive steps there are none: they are refused.
+  /// Warnings about formulas of time that change between steps, in this program's run. Adaptive steps give no warnings:
+  /// such steps are rejected.
   std::vector<std::string> doubts() const { return adaptive() ? std::vector<std::string>() : pulses_.doubts(); }
-  /// The log is that of this program's run: it contains no steps from before a restart.
+  /// The log is that of this program's run: it contains no steps before a restart.
   const MarchLog& log() const { return log_; }
-  void count_as_before() {  ///< what it has done so far
+  void count_as_before() {  ///< moves the log so far to before_
     before_ = before_.followed_by(log_);
     log_ = {};
   }
   void observe(std::function<void(const Attempt&)> observer) { observer_ = std::move(observer); }
-  /// Called where the motion has been started anew after a discontinuity, at the beginning of the next step.
+  /// Sets a function that is called when the motion has been restarted after a discontinuity, at the beginning of the
+  /// next step.
   void on_jump(std::function<void(const Jump&)> listener) { jump_listener_ = std::move(listener); }
-  void exchange(Archive& archive);  ///< of a march with the same options; the integration has its own
+  void exchange(Archive& archive);  ///< for a march with the same options; the integration has its own
 
  private:
   class Stops;
   enum class Pending { nothing, start, restart, branch };
-  /// The step to try next.
+  /// The next step to attempt.
   struct Plan {
     double begin = 0, size = 0, end = 0;  ///< [s]
-    bool last = false;                    ///< before a stop
-    bool kink = false;                    ///< ends on one
+    bool last = false;                    ///< it is the last before a stop
+    bool kink = false;                    ///< it ends on a kink
   };
-  /// What became of it.
+  /// The result of an attempted step.
   struct Trial {
     StepReport report;
     double error = 0;          ///< local error over tolerance
-    bool error_known = false;  ///< of first-order unknowns, too
-    double crossing = 0;       ///< size of the step that ends just after its first crossing [s]; 0: none
+    bool error_known = false;  ///< also that of first-order unknowns
+    double crossing = 0;       ///< size of the step that ends just after its first event [s]; 0: none
   };
   bool adaptive() const { return options_.tolerance > 0; }
   Plan plan() const;
@@ -142,14 +144,14 @@ class March {
   Pending pending_ = Pending::start;
   CrossingWatch watch_;
   PulseWatch pulses_;
-  std::vector<int> crossed_;  ///< past which the next step begins
+  std::vector<int> crossed_;  ///< events at the start of the next step
   bool stopped_ = false;
-  bool begun_anew_ = false;     ///< the present step has start values of its own
-  double last_crossing_ = 0;    ///< [s]
-  long crossings_at_once_ = 0;  ///< that have followed each other without progress
+  bool begun_anew_ = false;     ///< the present step has its own start values
+  double last_crossing_ = 0;    ///< time of the last event [s]
+  long crossings_at_once_ = 0;  ///< consecutive events without progress
   std::function<void(const Jump&)> jump_listener_;
   double size_ = 0, smallest_ = 0;
-  MarchLog log_, before_;  ///< before_: of the runs that this one goes on from
+  MarchLog log_, before_;  ///< before_: log of the runs that this one continues
   std::function<void(const Attempt&)> observer_;
 };
 

@@ -16,13 +16,14 @@ namespace {
 const Slots no_slots;
 
 constexpr int least_parts = 4, most_parts = 20000;
-/// A force may be off the chord between the ends by this part of its range: some seven steps in a period.
+/// Permitted distance of a force from the chord between the ends, relative to its range: about seven steps in a period.
 constexpr double visible = 0.05;
-/// The same of a prescribed position, from the cubic between the ends: some five steps in a period.
+/// Permitted distance of a prescribed position from the cubic between the ends, relative to its range: about five steps
+/// in a period.
 constexpr double visible_position = 0.003;
-/// Changes below this part of |f| are none.
+/// Changes below this fraction of |f| are ignored.
 constexpr double nothing = 1e-3;
-/// Motions below this part of the model's length, or of 1 rad, are none.
+/// Motions below this fraction of the model's length, or of 1 rad, are ignored.
 constexpr double no_motion = 1e-9;
 
 }  // namespace
@@ -55,7 +56,7 @@ void PulseWatch::add_source(std::unique_ptr<TimeDependent> own, const TimeDepend
   if (own) nodes_.push_back(std::move(own));
 }
 
-/// Calls act(formula, number) for each.
+/// Calls act(formula, number) for each formula.
 template <class Act>
 void PulseWatch::for_each_formula(const Act& act) const {
   for (const Source& source : sources_)
@@ -75,7 +76,7 @@ void PulseWatch::look(const State& end, const Environment& environment, double b
     try {
       looker_.look(*source.component, source.formulas, state_, *source.slots, environment, step_, looks);
     } catch (const ComputationError&) {
-      // A formula of the state as well may have no value at times that this state is not of.
+      // A formula that also depends on the state may have no value at times that do not belong to this state.
       std::fill(looks.begin(), looks.end(), FormulaLook{});
     }
     for (std::size_t k = 0; k < looks.size(); ++k) {
@@ -94,7 +95,7 @@ double PulseWatch::error(const Environment& environment, const ErrorNorm& norm, 
 }
 
 double PulseWatch::of_motions(const ErrorNorm& norm, double tolerance) const {
-  if (step_.size() * most_parts < span_) return 0;  // shorter than what is looked for: its accelerations tell
+  if (step_.size() * most_parts < span_) return 0;  // shorter than the pulses searched for: accelerations show them
   double error = 0;
   for_each_formula([&](const TimeDependent::Formula& formula, std::size_t k) {
     if (formula.part == TimeDependent::Part::force) return;
@@ -110,12 +111,12 @@ double PulseWatch::missed_by(const Source& source) const {
   return sum;
 }
 
-/// The error of a source's impulse as its formulas have it, by the effect that they had before; negative: not known.
+/// Estimates the error of a source's impulse from its formulas, by their earlier effect; negative: not known.
 double PulseWatch::estimate(const Source& source) const { return source.gain * step_.size() * missed_by(source); }
 
-/// Whether the impulse of a source has to be computed. @param large  an estimate that matters
+/// Whether the impulse of a source must be computed. @param large  an estimate that is significant
 bool PulseWatch::wants_impulse(const Source& source, double large) const {
-  constexpr std::size_t refresh = 32;  // steps after which the effect of a formula may have become another
+  constexpr std::size_t refresh = 32;  // number of steps after which the effect of a formula may have changed
   if (source.gain < 0 || estimate(source) > large) return true;
   if (count_ % refresh == 0 &&
       count_ / refresh % sources_.size() == static_cast<std::size_t>(&source - sources_.data()))
@@ -125,7 +126,7 @@ bool PulseWatch::wants_impulse(const Source& source, double large) const {
   return false;
 }
 
-/// int r dt - h (r_n + r_{n+1})/2 of a component's part in the residual.
+/// Computes int r dt - h (r_n + r_{n+1})/2 of a component's part of the residual.
 void PulseWatch::set_impulse(const Source& source, const Environment& environment) {
   const auto add = [&](double time, double weight) {
     state_.time = time;
@@ -140,19 +141,19 @@ void PulseWatch::set_impulse(const Source& source, const Environment& environmen
   for (int i = 0; i < step_.parts; ++i) add(step_.middle(i), h / step_.parts);
 }
 
-/// Whether the impulse acts on an algebraic unknown. Where it acts on others as well, the error is theirs.
+/// Whether the impulse acts on an algebraic unknown. If it acts on other unknowns as well, their error is used.
 bool PulseWatch::acts_on_algebraic() const {
   const std::vector<int>& algebraic = system_.algebraic();
   return std::any_of(algebraic.begin(), algebraic.end(), [&](int k) { return impulse_[system_.dofs() + k] != 0; });
 }
 
 double PulseWatch::of_forces(const Environment& environment, const ErrorNorm& norm, double tolerance) {
-  constexpr double little = 0.3;  // of the tolerance
+  constexpr double little = 0.3;  // fraction of the tolerance
   double all = 0;
   for (const Source& source : sources_) all += std::max(0.0, estimate(source));
   const double large = all > little * tolerance ? little * tolerance / static_cast<double>(sources_.size())
                                                 : std::numeric_limits<double>::infinity();
-  double followed = 0;  // of the formulas that steps have to follow
+  double followed = 0;  // error of the formulas that steps have to resolve
   bool any = false;
   sum_.setZero(system_.size());
   for (Source& source : sources_) {
@@ -162,7 +163,7 @@ double PulseWatch::of_forces(const Environment& environment, const ErrorNorm& no
       try {
         set_impulse(source, environment);
       } catch (const ComputationError&) {
-        continue;  // a component refuses a state that is not of that time
+        continue;  // the component has no value for this state at that time
       }
       source.gain = norm.of_impulse(impulse_, step_.size()) / (missed * step_.size());
       source.on_algebraic = source.gain == 0 && acts_on_algebraic();
@@ -197,7 +198,7 @@ void PulseWatch::add(double end_time) {
 
 std::vector<std::string> PulseWatch::doubts() const {
   std::vector<std::string> doubts;
-  std::set<std::string> named;  // elements of one beam have one name
+  std::set<std::string> named;  // elements of one beam have the same name
   for_each_formula([&](const TimeDependent::Formula& formula, std::size_t k) {
     const Total& total = totals_[k];
     if (formula.part == TimeDependent::Part::position) {

@@ -1,13 +1,13 @@
-// Formulas of time between the ends of a step: pulses that begin and end there are not felt.
+// Formulas of time between the ends of a step: the scheme does not notice pulses that begin and end there.
 //
-// A formula that has moved by more than the ends of a step tell (formula_look.hpp) is told at the end of a run of fixed
-// steps. Adaptive steps are judged by the error that this leaves, relative to the tolerance (error_norm.hpp):
+// For fixed steps, a formula that has changed by more than the ends of a step show (formula_look.hpp) is reported at
+// the end of a run. Adaptive steps are controlled by the resulting error, relative to the tolerance (error_norm.hpp):
 //     in a residual    the impulse int r dt - h (r_n + r_{n+1})/2 of the component, as an error of positions or of
 //                      first-order unknowns
 //     rates            |T - Q| as an error of a position
 //     positions        |f - H|
-// An impulse on algebraic unknowns alone (pressures of junctions, given pressures) is no error of its own, and what
-// they lead to is not known: there steps have to follow the formula itself, some seven in a period.
+// An impulse on algebraic unknowns only (pressures of junctions, given pressures) has no error of its own, and its
+// consequences are unknown: steps then have to resolve the formula itself, with about seven in a period.
 #pragma once
 
 #include <memory>
@@ -22,44 +22,44 @@ namespace bielle::mechanism {
 
 class PulseWatch {
  public:
-  /// @param begin,span  of the motion [s]: pulses of less than some 1/20000 of it may go unseen
-  /// @param length      of the model, as the error norm has it [m]
+  /// @param begin,span  start and duration of the motion [s]: pulses shorter than about 1/20000 of it may be missed
+  /// @param length      length of the model, as in the error norm [m]
   PulseWatch(const System& system, double begin, double span, double length);
   bool idle() const { return sources_.empty(); }
 
-  /// Looks at all formulas over a step, with the state at its end.
+  /// Evaluates all formulas over a step, with the state at its end.
   void look(const State& end, const Environment& environment, double begin_time, double end_time);
-  /// The error that the last look has found, relative to the tolerance.
+  /// Returns the error found in the last evaluation, relative to the tolerance.
   double error(const Environment& environment, const ErrorNorm& norm, double tolerance);
-  /// Adds the last look to what the run has missed. @param end_time  of that step [s]
+  /// Adds the last evaluation to the totals of the run. @param end_time  end of that step [s]
   void add(double end_time);
-  /// The doubts hold one sentence for each formula that steps have missed much of, for the user at the end of a run.
+  /// Returns one warning for each formula of which steps have missed a large part, for the end of a run.
   std::vector<std::string> doubts() const;
 
  private:
   struct Source {
     const TimeDependent* component;
-    std::size_t member;  ///< of the model; none of a node
+    std::size_t member;  ///< member of the model; none for a node
     const Slots* slots;
     std::vector<TimeDependent::Formula> formulas;
-    std::size_t first;          ///< of its formulas among all
-    bool forces = false;        ///< any of them in its residual
-    double gain = -1;           ///< error of its impulse over what its formulas have missed [-/s]; negative: not known
-    bool on_algebraic = false;  ///< its impulses act on algebraic unknowns alone
+    std::size_t first;          ///< index of its first formula
+    bool forces = false;        ///< whether any of them is in its residual
+    double gain = -1;           ///< ratio of impulse error to missed part of its formulas [-/s]; negative: not known
+    bool on_algebraic = false;  ///< its impulses act only on algebraic unknowns
   };
-  /// The run's looks at a formula, summed up.
+  /// Totals of a formula over the run.
   struct Total {
     std::string name;
     double low = 0, high = 0, largest = 0;  ///< range of its change, and of |f| [units]
-    double missed = 0, whole = 0;           ///< [units s]; of a position the largest |f - H| [units]
-    double most = 0, most_at = 0;           ///< missed in one step, and its end [s]
-    double off = 0;                         ///< farthest in one step [units]
+    double missed = 0, whole = 0;           ///< [units s]; for a position the largest |f - H| [units]
+    double most = 0, most_at = 0;           ///< largest part missed in one step, and the end of that step
+    double off = 0;                         ///< largest distance in one step [units]
   };
   template <class Act>
   void for_each_formula(const Act& act) const;
   void add_source(std::unique_ptr<TimeDependent> own, const TimeDependent& component, const std::string& name,
                   std::size_t member, const Slots& slots);
-  /// A formula's changes are judged relative to this.
+  /// Range relative to which a formula's changes are judged.
   static double range(const Total& total);
   double of_motions(const ErrorNorm& norm, double tolerance) const;
   double of_forces(const Environment& environment, const ErrorNorm& norm, double tolerance);
@@ -74,9 +74,9 @@ class PulseWatch {
   std::vector<std::unique_ptr<TimeDependent>> nodes_;
   std::vector<Source> sources_;
   std::vector<Total> totals_;
-  // The last look.
+  // The last evaluation.
   LookedStep step_;
-  State state_;  ///< at its end, but for its time
+  State state_;  ///< state at its end, except its time
   std::vector<FormulaLook> looks_;
   FormulaLooker looker_;
   std::size_t count_ = 0;

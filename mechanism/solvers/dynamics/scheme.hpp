@@ -14,7 +14,8 @@ namespace bielle::mechanism {
 struct Scheme {
   double alpha_m, alpha_f, gamma, beta;
 
-  /// @param rho  spectral radius at infinite frequency, in [0, 1]: 0 annihilates, 1 keeps. @throws InputError
+  /// @param rho  spectral radius at infinite frequency, in [0, 1]: 0 annihilates high frequencies, 1 preserves them.
+  ///             @throws InputError
   static Scheme generalized_alpha(double rho);
   /// @param alpha  in [0, 1/3]: 0 is Newmark's trapezoidal rule. @throws InputError
   static Scheme hht(double alpha);
@@ -22,12 +23,12 @@ struct Scheme {
   static Scheme newmark();
 
   double delta() const { return alpha_m - alpha_f; }  ///< A_n = a(t_n + delta h) + O(h^2)
-  /// Local error of q: C_q h^3 da/dt = C_q h^2 (A_{n+1} - A_n), exact minus computed.
+  /// Coefficient of the local error of q: C_q h^3 da/dt = C_q h^2 (A_{n+1} - A_n), exact minus computed.
   double position_error() const { return -(1 + 3 * delta() * delta()) / 12; }
-  /// Turn per step of the direction of a constraint of index 3 up to which errors of its multiplier fade (for the
-  /// pendulum whose mass stands in a point, the worst case; measured as 0.154 with rho = 0.8) [rad]
+  /// Largest rotation per step of the direction of a constraint of index 3 for which errors of its multiplier decay
+  /// (for the pendulum with a point mass, the worst case; measured as 0.154 with rho = 0.8) [rad]
   double most_turn() const;
-  /// Local error of v (and of first-order unknowns): C_v h^3 d2a/dt2, exact minus computed.
+  /// Coefficient of the local error of v (and of first-order unknowns): C_v h^3 d2a/dt2, exact minus computed.
   double velocity_error() const { return 1.0 / 6 - delta() * (alpha_m - 0.5) - gamma * (0.5 + delta()); }
 };
 

@@ -5,7 +5,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// w.M w of the dofs. @param values  of the tangent, M alone
+/// Returns w.M w of the dofs. @param values  values of the tangent, M alone
 double mass_form(const System& system, const std::vector<double>& values, const VectorX& w) {
   const SparsePattern& pattern = system.pattern();
   const int n = system.dofs();

@@ -76,7 +76,7 @@ void SchemeStep::move(const VectorX& delta_of_all, double part) {
   const double to_rate = part * rate_factor_, to_acceleration = part * acceleration_factor_;
   const double* __restrict delta = delta_of_all.data();
   double* __restrict dq = dq_.data(), * __restrict v = v_.data(), * __restrict a = a_.data();
-  for (int i = 0; i < n; ++i) {  // in one pass: the nearest cache does not hold the vectors for long
+  for (int i = 0; i < n; ++i) {  // in one pass, because the first-level cache is small
     dq[i] += part * delta[i];
     v[i] += to_rate * delta[i];
     a[i] += to_acceleration * delta[i];
@@ -129,7 +129,7 @@ void SchemeStep::for_each_rotation(const Act& act) const {
 
 void SchemeStep::check_turns() const {
   constexpr double most_turn = 0.9 * 2 * 3.14159265358979324;  // [rad]
-  if (dq_.lpNorm<Eigen::Infinity>() < most_turn / 2) return;   // as nearly always
+  if (dq_.lpNorm<Eigen::Infinity>() < most_turn / 2) return;   // nearly always
   for_each_rotation([&](std::size_t node, int k) {
     if (const double turn = dq_.segment<3>(k).norm(); turn > most_turn)
       throw ComputationError(fmt::format(
@@ -168,7 +168,7 @@ void SchemeStep::accept() {
   std::swap(state_, trial_);
 }
 
-// -- errors, and what lies between
+// -- errors and interpolation
 
 VectorX SchemeStep::position_error() const {
   const double h = trial_size_;
@@ -183,7 +183,7 @@ VectorX SchemeStep::first_order_error() const {
   const double h = trial_size_;
   if (!rates_.Y_rate_known) return VectorX::Zero(system_.first_orders());
   const VectorX rate = (algorithmic_rate() - rates_.Y) / h;
-  // The two rates stand at the middles of the two steps.
+  // The two rates belong to the middles of the two steps.
   return scheme_.velocity_error() * h * h * h * (rate - rates_.Y_rate) / (0.5 * (h + size_));
 }
 

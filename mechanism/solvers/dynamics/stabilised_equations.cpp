@@ -6,7 +6,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Constraints that may be kept on the level of velocities as well: holonomic ones that are not out for good.
+/// Finds the constraints that may also be satisfied on the velocity level: holonomic ones that are not permanently
+/// removed.
 std::vector<bool> find_holonomic(const System& system) {
   std::vector<bool> holonomic(static_cast<std::size_t>(system.multipliers()));
   for (int k = 0; k < system.multipliers(); ++k)
@@ -32,7 +33,7 @@ SparsePattern large_pattern(const System& system, const std::vector<bool>& holon
   return SparsePattern(mu + system.multipliers(), std::move(entries));
 }
 
-/// Amplitudes that may be condensed, each with its eta.
+/// Finds amplitudes that may be condensed, each with its eta.
 std::vector<std::vector<int>> with_corrections(const System& system) {
   std::vector<std::vector<int>> blocks = system.lone_amplitudes();
   for (std::vector<int>& block : blocks) {
@@ -84,7 +85,7 @@ void StabilisedEquations::begin(const State& state, const Environment& environme
   active_ = holonomic_;
   system_.for_each_idle(state, [&](int k) { active_[static_cast<std::size_t>(k)] = false; });
   system_.tangent(state, environment, TangentWeights{0, 0, 1, 0, 1}, nullptr, constraint_);
-  // Any positive weights serve; masses let the positions move as an impulse would.
+  // Any positive weights are possible; with masses, positions move as by an impulse.
   constexpr double floor = 1e-6;
   weight_.setZero(n);
   std::array<double, kind_count> largest{};
@@ -126,7 +127,7 @@ void StabilisedEquations::factor(const SchemeStep& step, const Environment& envi
   system_.tangent(trial, environment, velocity, dq, velocity_);
   system_.tangent(trial, environment, velocity_position, dq, velocity_position_);
   put_values();
-  // lambda in the size of the forces that move the dofs (see LinearStep), mu in that of their weights.
+  // lambda is scaled by the size of the forces that move the dofs (see LinearStep), mu by that of their weights.
   const double weight = weight_.size() > 0 ? weight_.maxCoeff() : 1;
   scale_.segment(system_.size() - system_.multipliers(), system_.multipliers()).setConstant(linear_.scale());
   scale_.tail(system_.multipliers()).setConstant(weight);

@@ -1,9 +1,9 @@
-// The equations of a step in the stabilised form of index 2 (Gear, Gupta and Leimkuhler): the increment of a step is
-// Dq = u + eta, where u belongs to velocities and accelerations (v = gamma' u + ..., a = beta' u + ...) and eta
-// brings the positions back on their constraints,
+// The equations of a step in the stabilised form of index 2 (Gear, Gupta and Leimkuhler): the increment of a step is Dq
+// = u + eta. The part u belongs to velocities and accelerations (v = gamma' u + ..., a = beta' u + ...), and eta
+// corrects the positions such that they satisfy their constraints,
 //     W eta = B_n^T mu,   so that both   Phi(q) = 0   and   dPhi/dt = B v + c = 0   hold at the end of the step.
-// B_n at the start of the step, W the diagonal of the mass matrix, with a floor. The matrix of (u, y, lambda | eta,
-// mu):
+// Here B_n is taken at the start of the step, and W is the diagonal of the mass matrix, with a minimum. The matrix for
+// (u, y, lambda | eta, mu) is
 //     [ J       J_q     0    ]     J the step's tangent, rows of dofs, y and Phi
 //     [ 0       W      -B_n^T ]    J_q its part by positions alone
 //     [ J_v     N T     0    ]     J_v = gamma' B + N T, N = d(B v)/dq
@@ -17,46 +17,46 @@
 
 namespace bielle::mechanism {
 
-/// Rows and unknowns come in the order: those of the system, eta, mu.
+/// The order of rows and unknowns is: those of the system, eta, mu.
 class StabilisedEquations final : public StepEquations {
  public:
   explicit StabilisedEquations(const System& system);
 
   int size() const override { return system_.size() + system_.dofs() + system_.multipliers(); }
-  /// Takes B_n and W from the start of a step. What has no mass gets a floor.
+  /// Computes B_n and W at the start of a step. Dofs without mass get a minimum mass.
   void begin(const State& state, const Environment& environment) override;
-  /// Rows after those of the system: W eta - B_n^T mu, and dPhi/dt.
+  /// Computes the rows after those of the system: W eta - B_n^T mu, and dPhi/dt.
   void calc_residual(const State& trial, const Environment& environment, VectorX& r,
                      ResidualScale& scale) const override;
   void factor(const SchemeStep& step, const Environment& environment) override;
   void solve(const VectorX& r, VectorX& delta) const override;
   void move(SchemeStep& step, const VectorX& delta, double part) override;
   void follow(SchemeStep& step) const override { step.follow(&eta_); }
-  /// What the rates of constraints make of them within a step is judged like the constraints themselves.
+  /// The rates of constraints are judged by their effect on the constraints within a step.
   const VectorX& judged(const VectorX& r, double h) override;
   void choose_pivots_anew() override;
 
  private:
-  /// An entry of the system's pattern with its places in the large one, -1 where it has none.
+  /// An entry of the system's pattern with its places in the large one, -1 if it has none.
   struct Places {
-    int tangent = -1;                           ///< in J
-    int position = -1;                          ///< in J_q
-    int velocity = -1, velocity_position = -1;  ///< constraint rows: in J_v and N T
-    int constraint = -1;                        ///< constraint rows: in -B_n^T
+    int tangent = -1;                           ///< place in J
+    int position = -1;                          ///< place in J_q
+    int velocity = -1, velocity_position = -1;  ///< constraint rows: places in J_v and N T
+    int constraint = -1;                        ///< constraint rows: place in -B_n^T
   };
   bool holds(int multiplier) const { return active_[static_cast<std::size_t>(multiplier)]; }
   void put_values();
 
-  std::vector<bool> holonomic_;  ///< multipliers of constraints of positions that are not set aside for good
-  std::vector<bool> active_;     ///< of these, those in the equations of the present step
+  std::vector<bool> holonomic_;  ///< multipliers of position constraints that are not set aside permanently
+  std::vector<bool> active_;     ///< those of them in the equations of the present step
   SparsePattern pattern_;
-  std::vector<Places> places_;                    ///< of each entry of the system's pattern
-  std::vector<int> weight_places_, idle_places_;  ///< diagonals of W, and of mu (put where it has no constraint)
+  std::vector<Places> places_;                    ///< for each entry of the system's pattern
+  std::vector<int> weight_places_, idle_places_;  ///< diagonals of W, and of mu (used if it has no constraint)
   CondensedPattern condensed_;
   CondensedLU factors_;
-  VectorX eta_, mu_;  ///< of the trial
+  VectorX eta_, mu_;  ///< values of the trial
   VectorX weight_, scale_, judged_;
-  std::vector<double> constraint_;  ///< B_n among the values of the system's pattern
+  std::vector<double> constraint_;  ///< B_n, in the order of the system's pattern
   std::vector<double> position_, velocity_, velocity_position_, values_;
 };
 

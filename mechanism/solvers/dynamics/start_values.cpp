@@ -10,8 +10,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Forward differences of the consistent accelerations along the motion: functions of time may not exist before the
-/// start. The step has to be small relative to h only.
+/// Computes forward differences of the consistent accelerations along the motion: functions of time may not exist
+/// before the start. The difference step only has to be small relative to h.
 VectorX acceleration_rate(const SchemeStep& step, const Environment& environment, MassSaddle& saddle, double h) {
   const System& system = step.system();
   const State& state = step.state();
@@ -32,9 +32,9 @@ VectorX acceleration_rate(const SchemeStep& step, const Environment& environment
   return (4 * ahead[0] - ahead[1] - 3 * a) / (2 * e);
 }
 
-/// Whether accelerations change little within a step. Per kind: they change by less than themselves, or the velocities
-/// by little where accelerations happen to vanish (an oscillator on its way through the middle: h^2 j / v =
-/// (omega h)^2).
+/// Whether accelerations change little within a step. The criterion for each kind is that they change by less than
+/// their size, or that the velocities change little if accelerations happen to vanish (an oscillator at its centre: h^2
+/// j / v = (omega h)^2).
 bool resolved(const SchemeStep& step, const VectorX& j, double h) {
   constexpr double little = 0.01;
   const System& system = step.system();
@@ -60,8 +60,8 @@ void set_start_values(SchemeStep& step, const Environment& environment, Velocity
   try {
     rates.j = acceleration_rate(step, environment, saddle, h);
   } catch (const ComputationError&) {
-    // A component refuses what lies ahead, or it has no accelerations: steps of this size will tell, and become
-    // shorter.
+    // A component has no value at the later time, or there are no accelerations: the steps of this size will fail and
+    // become shorter.
     rates.j.setZero(step.rates().a.size());
   }
   if (resolved(step, rates.j, h)) {

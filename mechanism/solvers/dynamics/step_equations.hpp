@@ -2,7 +2,8 @@
 //
 //   r(q, v, a, lambda, y, y', t)_{n+1} = 0,   Phi(q, t)_{n+1} = 0
 // solved for Dq, the first-order unknowns and lambda_{n+1} with the matrix K T(Dq) + gamma' C + beta' M. This form, of
-// index 3, keeps the constraints of positions; the stabilised form (stabilised_equations.hpp) those of velocities too.
+// index 3, satisfies the constraints of positions; the stabilised form (stabilised_equations.hpp) satisfies those of
+// velocities too.
 #pragma once
 
 #include "mechanism/solvers/dynamics/scheme_step.hpp"
@@ -19,20 +20,21 @@ class StepEquations {
 
   /// Number of equations. Those of the system come first.
   virtual int size() const { return system_.size(); }
-  /// A step begins from the accepted state.
+  /// Begins a step from the accepted state.
   virtual void begin(const State& /*state*/, const Environment& /*environment*/) {}
   /// @param r  (size)
   virtual void calc_residual(const State& trial, const Environment& environment, VectorX& r,
                              ResidualScale& scale) const;
-  /// Assembles and factorises at the trial. @throws ComputationError naming an unknown where the matrix is singular
+  /// Assembles and factorises the matrix at the trial. @throws ComputationError naming an unknown if the matrix is
+  /// singular
   virtual void factor(const SchemeStep& step, const Environment& environment);
   /// delta = -(matrix)^-1 r. @param r,delta (size)
   virtual void solve(const VectorX& r, VectorX& delta) const { linear_.solve(r, delta); }
-  /// Moves the trial by a part of the solution.
+  /// Moves the trial by a fraction of the solution.
   virtual void move(SchemeStep& step, const VectorX& delta, double part) { step.move(delta, part); }
-  /// Makes the trial's rates those of its increments again.
+  /// Recomputes the trial's rates from its increments.
   virtual void follow(SchemeStep& step) const { step.follow(nullptr); }
-  /// The residual as it is judged (system.size()). @param h  size of the step [s]
+  /// Returns the residual that is compared with the tolerance (system.size()). @param h  size of the step [s]
   virtual const VectorX& judged(const VectorX& r, double /*h*/) { return r; }
   virtual void choose_pivots_anew() { linear_.choose_pivots_anew(); }
   const LinearStep& linear() const { return linear_; }  ///< the tangent of the system's own equations

@@ -7,15 +7,15 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Steps after which the rounding of residuals is measured again.
+/// Number of steps after which the rounding of residuals is measured again.
 constexpr int floor_lasts = 64;
 
-/// What a factorisation with its tangent costs, in iterations with old factors (2.5 to 5 for chains of rigid and
-/// elastic links).
+/// Cost of a factorisation with its tangent, in iterations with old factors (2.5 to 5 for chains of rigid and elastic
+/// links).
 constexpr double factorisation_cost = 4;
 
-/// Whether old factors will do in a step: at the rate at which they brought a residual from `before` to `now` (over its
-/// tolerance), they need no more further iterations than a factorisation costs.
+/// Whether old factors are good enough in a step: at the rate at which they reduced a residual from `before` to `now`
+/// (over its tolerance), the further iterations cost no more than a factorisation.
 bool worthwhile(double before, double now) {
   constexpr double slowest = 0.5;
   return now < slowest * before && std::log(now) < factorisation_cost * std::log(before / now);
@@ -50,7 +50,7 @@ void StepNewton::begin(const State& state) {
 void StepNewton::evaluate(SchemeStep& step, StepReport& report) {
   ++report.evaluations;
   step.show();
-  // There may be no balance while the other unknowns are not yet what they will be: then the trial is taken as it is.
+  // There may be no balance while the other unknowns have not converged: the trial is then used unchanged.
   if (searches_) search_->find(environment_, step.trial());
   h_ = step.trial_size();
   ResidualScale scale;
@@ -68,7 +68,7 @@ void StepNewton::factor(SchemeStep& step, StepReport& report) {
   factored_for_ = step.trial_size();
   ++report.factorisations;
   if (floor_age_ < floor_lasts && same_size(step.size(), step.trial_size())) return;
-  // With the accepted state's multipliers: what a trial starts from may be far off.
+  // The multipliers of the accepted state are used: those of the initial guess may have large errors.
   convergence_.measure_rounding(equations_->linear(), step.state());
   floor_age_ = 0;
 }
@@ -95,7 +95,7 @@ void StepNewton::solve(SchemeStep& step, StepReport& report) {
     }
   }
   if (report.converged()) {
-    // What is left so far below the tolerance does no harm.
+    // A residual far below the tolerance is harmless.
     constexpr double little = 0.03;
     if (options_.reuse_tangent && convergence_.worst_ratio() > little) polish(step, report);
     step.check_turns();
@@ -125,8 +125,8 @@ bool StepNewton::search_balances(bool wanted) {
   return searches_;
 }
 
-/// Factors have served their time when a step with them takes more than steps have taken on the average since they were
-/// made, their own cost included: from there on that average would grow.
+/// Factors are discarded when a step with them takes more than the average cost of the steps since they were computed,
+/// their own cost included: from then on the average would grow.
 void StepNewton::judge_factors(const StepReport& report) {
   if (report.factorisations > 0) {
     spent_ = factorisation_cost;
@@ -145,8 +145,8 @@ void StepNewton::explain(SchemeStep& step, StepReport& report) {
   report.refusal += "; before the iteration went there the largest residual was: " + convergence_.worst();
 }
 
-/// Where a full step made the residual larger than it was `before`, or was refused: shorter ones, if they make it
-/// smaller.
+/// If a full step has increased the residual above `before`, or could not be evaluated, shorter steps are tried and
+/// kept if they reduce it.
 void StepNewton::shorten(SchemeStep& step, double before, std::exception_ptr refusal, StepReport& report) {
   const double full = size_;
   double part = 1;
@@ -169,13 +169,13 @@ void StepNewton::shorten(SchemeStep& step, double before, std::exception_ptr ref
     evaluate(step, report);
     std::rethrow_exception(refusal);
   }
-  // Newton's method may have to pass over a hill.
+  // Newton's method may have to increase the residual temporarily.
   move_and_follow(step, 1 - part);
   evaluate(step, report);
   size_ = full;
 }
 
-/// Where forces have kinks, the tangent may be of the other side: there the residual has to become smaller indeed.
+/// If forces have kinks, the tangent may belong to the other side: the residual must then really decrease.
 void StepNewton::polish(SchemeStep& step, StepReport& report) {
   solve_with_factors(report);
   equations_->move(step, delta_, 1);
@@ -188,15 +188,15 @@ void StepNewton::polish(SchemeStep& step, StepReport& report) {
     evaluate(step, report);
     if (size_of_residual() <= before) return;
   } catch (const ComputationError&) {
-    // refused: not there, then
+    // the corrected state cannot be evaluated
   }
   move_and_follow(step, -1);
   evaluate(step, report);
 }
 
-/// An iteration of Newton's method.
+/// Makes one iteration of Newton's method.
 void StepNewton::improve(SchemeStep& step, StepReport& report) {
-  // Late in a step that is hard to solve, old factors are not to blame.
+  // Old factors are not the cause of slow convergence late in a difficult step.
   const bool renew = !options_.reuse_tangent || !same_size(step.trial_size(), factored_for_, factors_serve_within_) ||
                      report.iterations >= options_.iterations / 2;
   if (renew) factor(step, report);
@@ -215,7 +215,7 @@ void StepNewton::improve(SchemeStep& step, StepReport& report) {
     evaluate(step, report);
     size_ = size_of_residual();
   } catch (const ComputationError&) {
-    // A component refuses what it is asked for (a beam whose ends turn too far).
+    // A component cannot be evaluated (a beam whose ends rotate too far).
     if (renew && !options_.line_search) throw;
     refusal = std::current_exception();
     size_ = std::numeric_limits<double>::infinity();
@@ -223,7 +223,7 @@ void StepNewton::improve(SchemeStep& step, StepReport& report) {
   if (!renew && !worthwhile(before, size_)) {
     factored_for_ = 0;
     if (size_ < before) return;
-    // The old tangent led astray.
+    // The old tangent gave a wrong direction.
     move_and_follow(step, -1);
     evaluate(step, report);
     size_ = size_of_residual();
@@ -234,7 +234,7 @@ void StepNewton::improve(SchemeStep& step, StepReport& report) {
 
 bool StepNewton::reached(const SchemeStep& step, const StepReport& report) {
   if (report.iterations == 0) return false;
-  // Where nothing more is gained, what is left may be rounding.
+  // If the residual does not decrease any more, it may be rounding.
   const bool stalled = report.iterations >= 3 && !(size_ < 0.5 * size_before_);
   if (!stalled && convergence_.out_of_reach(size_, scale_)) return false;
   if (within_tolerance()) return true;
@@ -247,7 +247,7 @@ bool StepNewton::reached(const SchemeStep& step, const StepReport& report) {
 
 bool StepNewton::within_tolerance() { return convergence_.reached(equations_->judged(r_, h_), scale_); }
 
-/// No number among the residuals makes their size infinite; before the first iteration there is no size.
+/// A residual that is not a number makes the size infinite; before the first iteration there is no size.
 bool StepNewton::finite(const StepReport& report) const {
   return report.iterations == 0 ? r_.allFinite() : std::isfinite(size_);
 }

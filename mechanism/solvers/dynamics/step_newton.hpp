@@ -1,9 +1,9 @@
-// Newton's method in a step: from a trial that has begun to one in equilibrium.
+// Newton's method in a step: from the beginning of a trial to its equilibrium.
 //
-// Factors of the tangent are kept from step to step as long as the residual falls fast enough with them, and as they
-// save more than they cost. After the last iteration, what is left of the residual is taken out once more unless it is
-// little relative to the tolerance: a tangent that is not of this iterate leaves a residual of the tolerance's size, of
-// the same sign step after step.
+// Factors of the tangent are reused from step to step as long as the residual decreases fast enough with them, and as
+// they save more than they cost. After the last iteration, the remaining residual is corrected once more unless it is
+// small relative to the tolerance: a tangent of another iterate leaves a residual of the tolerance's size, with the
+// same sign in every step.
 #pragma once
 
 #include <cmath>
@@ -23,34 +23,34 @@ class StepNewton {
   StepNewton(const System& system, const Environment& environment, std::unique_ptr<StepEquations> equations,
              const NewtonOptions& options);
 
-  /// A step begins from the accepted state.
+  /// Begins a step from the accepted state.
   void begin(const State& state);
-  /// Evaluates the residual at the trial. @throws ComputationError when a component refuses what it is asked for
+  /// Evaluates the residual at the trial. @throws ComputationError if a component cannot be evaluated
   void evaluate(SchemeStep& step, StepReport& report);
   /// Size of the last residual, comparable between trials of the same step.
   double size_of_residual();
-  /// Whether there is something to measure residuals by: not before the first factorisation.
+  /// Whether a scale for residuals is known: not before the first factorisation.
   bool measures() const { return measures_; }
-  /// Iterates from a trial that has been evaluated. What went wrong is in the report.
-  /// @throws ComputationError when a component refuses what it is asked for, or the equations are singular
+  /// Iterates from a trial that has been evaluated. The report contains the reason of a failure.
+  /// @throws ComputationError if a component cannot be evaluated, or the equations are singular
   void solve(SchemeStep& step, StepReport& report);
-  /// What a refusal adds: where the iteration stood before it went astray.
+  /// Adds to the report of a failed step the state of the iteration before it diverged.
   void explain(SchemeStep& step, StepReport& report);
-  /// From here on, and until it is called with false: balances that may be flat (FlowBalance) are searched for at each
-  /// iterate. Slower, and the only way where they are.
-  /// @returns whether there are any
+  /// If called with true, balances that may be constant (FlowBalance) are searched for at each iterate until the
+  /// function is called with false. This is slower, but necessary for such balances.
+  /// @returns whether there are any balances
   bool search_balances(bool wanted);
-  /// The next iteration needs a tangent of its own, and measures the rounding of residuals anew: that of a step as
-  /// short as an event left it is not that of others.
+  /// The next iteration needs a new tangent, and measures the rounding of residuals again: the rounding in a very short
+  /// step after an event differs from that of other steps.
   void forget_factors() {
     factored_for_ = 0;
     floor_age_ = never_measured;
   }
-  /// What comes next owes nothing to what was before: pivots, factors, rounding.
+  /// Discards pivots, factors and rounding, so that later results do not depend on earlier ones.
   void begin_anew();
-  /// While a crossing is located, steps differ little in size: factors of the tangent serve them all.
+  /// Step sizes differ little while an event is located: one factorisation of the tangent is then used for all of them.
   void share_factors(bool shared) { factors_serve_within_ = shared ? 0.1 : same; }
-  /// Sizes of steps that differ by rounding are the same.
+  /// Whether two step sizes are equal up to rounding.
   static bool same_size(double h, double other, double within = same) { return std::abs(h - other) <= within * other; }
 
  private:
@@ -76,18 +76,18 @@ class StepNewton {
   Convergence convergence_;
   ReadReactions reactions_;
   VectorX r_, delta_;
-  VectorX r_evaluated_;  ///< an evaluation that fails leaves r_ as it was
+  VectorX r_evaluated_;  ///< keeps r_ unchanged if an evaluation fails
   ResidualScale scale_;
-  double h_ = 0;                       ///< of the trial that r_ belongs to
-  double size_ = 0, size_before_ = 0;  ///< of the residual, now and an iteration before: Convergence::size_of
+  double h_ = 0;                       ///< step size of the trial of r_
+  double size_ = 0, size_before_ = 0;  ///< size of the residual, now and one iteration before: Convergence::size_of
   bool measures_ = false;
-  double factored_for_ = 0;                ///< the step size that the factors belong to; 0: none that serve
-  double spent_ = 0;                       ///< iterations since, and what the factors took in iterations
-  int served_ = 0;                         ///< steps since
-  double factors_serve_within_ = same;     ///< relative difference of sizes that factors serve
-  std::unique_ptr<BalanceSearch> search_;  ///< made when it is first wanted
+  double factored_for_ = 0;                ///< step size of the factors; 0: there are no valid ones
+  double spent_ = 0;                       ///< iterations since then, and the cost of the factors in iterations
+  int served_ = 0;                         ///< number of steps since then
+  double factors_serve_within_ = same;     ///< relative difference of step sizes for which factors are valid
+  std::unique_ptr<BalanceSearch> search_;  ///< created on first use
   bool searches_ = false;
-  int floor_age_ = never_measured;  ///< steps since the rounding floor was measured
+  int floor_age_ = never_measured;  ///< number of steps since the rounding was measured
 };
 
 }  // namespace bielle::mechanism

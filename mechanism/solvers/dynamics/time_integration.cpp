@@ -19,7 +19,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Distance from a kink at which its two sides are told apart in spite of rounding [s].
+/// Distance from a kink at which its two sides can be distinguished despite rounding [s].
 double just_off(double time, double h) {
   return 1e-12 * h + 8 * std::numeric_limits<double>::epsilon() * std::abs(time);
 }
@@ -70,7 +70,7 @@ void TimeIntegration::exchange(Archive& archive) {
   newton_.begin_anew();
 }
 
-/// Nothing before the accepted state is known any more.
+/// Discards all data from before the accepted state.
 void TimeIntegration::extrapolate_from_here() {
   extrapolation_.forget();
   step_.get_highest(highest_);
@@ -98,7 +98,7 @@ void TimeIntegration::start_anew(double h, StartReport& report) {
 }
 
 void TimeIntegration::make_consistent_anew(StartReport& report) {
-  // One factorisation serves all of it.
+  // The same factorisation is used for all of this.
   State& state = step_.state();
   make_velocities_consistent(system_, environment_, state, report, correction_.saddle());
   make_accelerations_consistent(system_, environment_, state, correction_.saddle());
@@ -116,7 +116,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   const std::vector<char> before = state.idle;
   const bool balanced = crossing_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
-  if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // those of before
+  if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
   set_redundant_aside(system_, environment_, state);
   std::vector<int> new_holds = active_holds(system_, state);
   std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });
@@ -133,7 +133,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
       } catch (const ComputationError&) {
         state = begun;
         report = {};
-        // The new ones first.
+        // The new ones come first.
         std::vector<int> holds = active_holds(system_, state);
         if (holds.empty()) throw;
         std::stable_partition(holds.begin(), holds.end(), [&](int k) {
@@ -164,8 +164,8 @@ void TimeIntegration::start_branch(double h, double time) {
   extrapolate_from_here();
 }
 
-/// A trial whose accelerations, rates and multipliers are extrapolated, with its residual.
-/// @returns the residual's size; infinite where a component refuses the trial
+/// Begins a trial with extrapolated accelerations, rates and multipliers, and computes its residual.
+/// @returns the size of the residual; infinite if a component cannot be evaluated
 double TimeIntegration::begin_trial(double h, double end, int order, StepReport& report) {
   extrapolation_.calc(order, end, highest_);
   step_.begin(h, end, highest_);
@@ -188,7 +188,7 @@ void TimeIntegration::choose_start(double h, double end, StepReport& report) {
     if (!std::isfinite(size)) begin_trial(h, end, 0, report);
     return;
   }
-  // A higher order has to be better by as much as its evaluation and its memory of farther steps cost.
+  // A higher order must be better by enough to compensate for its evaluation and for its dependence on earlier steps.
   constexpr double clearly = 0.7;
   int best = order;
   if (order > 0)
@@ -218,8 +218,7 @@ StepReport TimeIntegration::attempt_from(double h, double end, bool extrapolated
       begin_trial(h, end, 0, report);
     newton_.solve(step_, report);
   } catch (const ComputationError& error) {
-    // A component refuses what it was asked for, or the equations are singular. Nearer to the last state that may not
-    // be so.
+    // A component cannot be evaluated, or the equations are singular. Closer to the last state this may not occur.
     report.refusal = error.what();
     newton_.explain(step_, report);
   }
@@ -240,12 +239,12 @@ StepReport TimeIntegration::attempt(double h, double end, bool kink) {
 StepReport TimeIntegration::attempt_plainly(double h, double trial_end) {
   const StepReport first = attempt_from(h, trial_end, true);
   if (first.converged() || first.order == 0) return first;
-  // What is extrapolated may lead astray where unchanged values do not.
+  // Newton's method may fail from extrapolated values and succeed from unchanged ones.
   extrapolation_.choose(0, std::numeric_limits<double>::infinity());
   return attempt_again(first, h, trial_end);
 }
 
-/// From unchanged values. @param before  of attempts that failed
+/// Attempts the step again from unchanged values. @param before  report of the failed attempts
 StepReport TimeIntegration::attempt_again(const StepReport& before, double h, double end) {
   StepReport report = attempt_from(h, end, false);
   report.iterations += before.iterations;
@@ -270,7 +269,7 @@ StepReport TimeIntegration::attempt_short(double h, double end, bool kink, bool 
     end_ = end;
     return report;
   } catch (const ComputationError&) {
-    // There are no accelerations that are consistent, or more than one set: a step asks less.
+    // Consistent accelerations do not exist or are not unique: a step of the scheme is still possible.
     return attempt(h, end, kink);
   }
 }
@@ -282,12 +281,12 @@ StepReport TimeIntegration::attempt_settled(double h, double end, bool kink) {
     short_span_.settle(step_, correction_.saddle());
     short_ = true;
   } catch (const ComputationError&) {
-    // There are no accelerations that are consistent, or more than one set: those of the step remain.
+    // Consistent accelerations do not exist or are not unique: those of the step are kept.
   }
   return report;
 }
 
-/// The scheme's own values are none of a short span's.
+/// The scheme's own values do not apply to a short span.
 bool TimeIntegration::accept_short() {
   const bool branch_left = system_.accept(step_.trial(), environment_);
   step_.trial().time = end_;

@@ -15,7 +15,7 @@ void VelocityCorrection::exchange(Archive& archive) {
   saddle_.choose_pivots_anew();
 }
 
-/// B c: what the constraint rates change by when the accelerations change by c.
+/// Computes B c: the change of the constraint rates if the accelerations change by c.
 VectorX VelocityCorrection::target(const State& state, const VectorX& v, const VectorX& a, const VectorX& j,
                                    const Scheme& scheme) const {
   VectorX c = scheme.position_error() * j;
@@ -34,15 +34,16 @@ VectorX VelocityCorrection::target(const State& state, const VectorX& v, const V
   return target;
 }
 
-/// Zero where no constraint of positions is in the equations: what relates velocities holds for those of the scheme as
-/// they are.
+/// Sets entries to zero that are not active constraints of positions: constraints of velocities are satisfied by those
+/// of the scheme.
 void VelocityCorrection::keep_holonomic(const State& state, VectorX& rows) const {
   for (int k = 0; k < system_.multipliers(); ++k)
     if (system_.constraint_kind(k) != ConstraintKind::holonomic) rows[k] = 0;
   system_.for_each_idle(state, [&](int k) { rows[k] = 0; });
 }
 
-/// What changes the least in the kinetic energy's norm, so that the constraint rates become smaller by `rate`.
+/// Returns the smallest change of velocities, in the norm of kinetic energy, that reduces the constraint rates by
+/// `rate`.
 VectorX VelocityCorrection::across_constraints(const State& state, const VectorX& rate) {
   if (!saddle_.serves()) saddle_.factor(environment_, state);
   VectorX r = VectorX::Zero(system_.size()), change(system_.size());
@@ -108,7 +109,8 @@ void VelocityCorrection::watch(SchemeStep& step) {
 }
 
 std::string VelocityCorrection::caution(const SchemeStep& step) {
-  // The stabilised form bears at least seven times as much: 0.55 rad with rho = 0.95, 1.1 with 0.8 (linearised, too).
+  // The stabilised form tolerates at least seven times as much: 0.55 rad with rho = 0.95, 1.1 with 0.8 (linearised,
+  // too).
   const double most = (form_ == ConstraintForm::stabilised ? 7 : 1) * step.scheme().most_turn();
   const double time = step.state().time;
   const std::string turns =
@@ -122,7 +124,7 @@ std::string VelocityCorrection::caution(const SchemeStep& step) {
   constexpr double tolerable = 0.01;
   const auto lag = [&](double turn) { return -step.scheme().position_error() * turn * turn; };
   if (lag(turn_) > tolerable) {
-    // A body that turns is no motion that turns: a wheel on its axle does not fall behind.
+    // The rotation of a body is no rotation of the motion: a wheel on its axle does not lag.
     if (const double turn = turn_of_motion(step); lag(turn) > tolerable)
       return fmt::format(
           "t = {:.6g} s: the path bends by {:.2g} rad in a step of {:.3g} s; such steps are stable, but positions fall "

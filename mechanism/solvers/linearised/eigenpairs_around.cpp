@@ -52,14 +52,14 @@ void EigenpairsAround::keep_out(const MatrixX& states) {
 }
 
 bool EigenpairsAround::dense() const {
-  constexpr int most = 2000;  // states, for the null space of the constraints
+  constexpr int most = 2000;  // limit of states for the null space of the constraints
   return e_.states() - 2 * e_.constraints() <= dense_ && e_.states() <= most && dense_ > 0;
 }
 
 void EigenpairsAround::set_shift(Complex shift) {
   constexpr double factors[] = {1, 1.0137, 13.7, 1370, 1.37e5};
   for (const double factor : factors) {
-    if (factor > 2 && shift.real() == 0) break;  // a frequency that was asked for
+    if (factor > 2 && shift.real() == 0) break;  // a frequency that was requested
     operator_ = std::make_unique<ShiftedOperator>(e_, factor * shift);
     if (operator_->regular()) break;
   }
@@ -119,7 +119,7 @@ EigenpairsNearby EigenpairsAround::look(Eigen::Index count, Look how) const {
     VectorXc z = found.vectors.col(k);
     if (basis) z = basis->cast<Complex>() * z;
     VectorXc x = recovered(mu, z);
-    // Nothing is left of what belongs to an infinite eigenvalue.
+    // The operator removes eigenvectors of infinite eigenvalues.
     const VectorXc once = now.apply(x) / mu;
     constexpr double same = 1e-2;
     if (!((now.apply(once) / mu - x).norm() < same * x.norm())) {
@@ -127,7 +127,7 @@ EigenpairsNearby EigenpairsAround::look(Eigen::Index count, Look how) const {
       continue;
     }
     Complex value = now.shift() + 1.0 / mu;
-    // Real eigenvalues of a complex operator are real but for rounding.
+    // Real eigenvalues of a complex operator are real up to rounding.
     constexpr double rounding = 1e-9;
     if (!now.is_real() && std::abs(value.imag()) < rounding * std::abs(value)) value = value.real();
     const auto scale = now.scale().cast<Complex>();

@@ -1,7 +1,7 @@
-// Eigenpairs of the linearised equations next to a shift, without those that are known.
+// Eigenpairs of the linearised equations next to a shift, without the known ones.
 //
-// States that are known span an invariant subspace of T (shifted_operator.hpp), whatever the shift: with an orthonormal
-// basis Q of it, (1 - Q Q^T) T has the other eigenvalues, and an eigenvector z of it belongs to the eigenvector
+// Known states span an invariant subspace of T (shifted_operator.hpp), for any shift: with an orthonormal basis Q of
+// it, (1 - Q Q^T) T has the other eigenvalues, and an eigenvector z of it belongs to the eigenvector
 //     x = z + Q c,      (mu - Q^T T Q) c = Q^T T z.
 #pragma once
 
@@ -16,31 +16,32 @@ namespace bielle::mechanism {
 struct Eigenpair {
   std::complex<double> s;
   Eigen::VectorXcd x;  ///< state [u; w]
-  Eigen::VectorXcd z;  ///< its part that, with what is known, spans an invariant subspace
-  double residual;     ///< |T x - mu x| / |mu x|, of scaled states
+  Eigen::VectorXcd z;  ///< its part that spans an invariant subspace together with the known states
+  double residual;     ///< |T x - mu x| / |mu x|, for scaled states
 };
 
-/// Nearest to the shift first, and how far around it all are known.
+/// Eigenpairs, nearest to the shift first, and the radius within which all are known.
 struct EigenpairsNearby {
   std::vector<Eigenpair> pairs;
-  bool rejected = false;  ///< some belonged to infinite eigenvalues, or to ones too large for the shift to show
-  double radius = 0;      ///< |s - sigma|; infinite where all are there
+  bool rejected = false;  ///< some eigenvalues were infinite, or too large to be resolved by the shift
+  double radius = 0;      ///< |s - sigma|; infinite if all are known
 };
 
 class EigenpairsAround {
  public:
-  /// @param dense  systems of up to so many independent states are solved densely; 0: none
+  /// @param dense  systems of up to this number of independent states are solved densely; 0: none
   EigenpairsAround(const LinearisedEquations& equations, Eigen::Index dense) : e_(equations), dense_(dense) {}
 
-  /// Leaves out states that span an invariant subspace with those before, from the next shift on. @param (states, any)
+  /// Excludes states that span an invariant subspace together with the earlier ones, from the next shift on. @param
+  /// (states, any)
   void keep_out(const MatrixX& states);
   Eigen::Index kept_out() const { return known_.cols(); }
-  /// Makes the operator, at a shift next to this one where it is an eigenvalue. @throws SingularEquations
+  /// Creates the operator, at a slightly different shift if this one is an eigenvalue. @throws SingularEquations
   void set_shift(std::complex<double> shift);
   const ShiftedOperator& T() const { return *operator_; }
 
   enum class Look { roughly, exactly };
-  /// At least so many, as far as there are so many. @throws ComputationError where ARPACK does not converge
+  /// Finds at least `count` eigenpairs, or all if there are fewer. @throws ComputationError if ARPACK does not converge
   EigenpairsNearby look(Eigen::Index count, Look how) const;
 
  private:
@@ -53,7 +54,7 @@ class EigenpairsAround {
   std::unique_ptr<ShiftedOperator> operator_;
   MatrixX Q_;            ///< (states, known), scaled
   Eigen::MatrixXcd TQ_;  ///< Q^T T Q
-  MatrixX basis_;        ///< of the states to search densely
+  MatrixX basis_;        ///< basis of the states for the dense search
 };
 
 }  // namespace bielle::mechanism

@@ -6,7 +6,7 @@ namespace {
 using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 
-/// b without its holonomic rows, or without the others.
+/// Returns b without its holonomic rows, or without the others.
 VectorXc rows_of(const LinearisedEquations& e, VectorXc b, bool nonholonomic) {
   for (int k = 0; k < e.constraints(); ++k)
     if ((e.nonholonomic[static_cast<std::size_t>(k)] != 0) != nonholonomic) b[k] = 0;

@@ -17,8 +17,8 @@ void add_block(Entries& entries, int begin, const MatrixX& block) {
       if (block(i, j) != 0) entries.emplace_back(begin + i, begin + j, block(i, j));
 }
 
-/// What turning axes make of the free translations of a node. Where some are held, these hold in the axes' motion as
-/// well, or the axes do not turn: a node in a plane may turn about its normal.
+/// Returns the effect of rotating axes on the free translations of a node. If some translations are held, they are also
+/// held along the axes' motion, or the axes do not rotate: a node in a plane may rotate about its normal.
 MatrixX turning_translations(const NodeFreedom& freedom, const Vector3& omega) {
   const int count = freedom.count - freedom.rotations;
   const MatrixX G = freedom.G.topLeftCorner(3, count);
@@ -28,7 +28,7 @@ MatrixX turning_translations(const NodeFreedom& freedom, const Vector3& omega) {
   return leaves ? MatrixX::Zero(count, count) : kept;
 }
 
-/// W and Z.
+/// Computes W and Z.
 void turning_axes(const System& system, const State& state, ModeAxes axes, Sparse& W, Sparse& Z) {
   Entries w, z;
   for (std::size_t k = 0; k < state.nodes.size(); ++k) {
@@ -36,7 +36,7 @@ void turning_axes(const System& system, const State& state, ModeAxes axes, Spars
     if (freedom.count == 0) continue;
     const NodeState& node = state.nodes[k];
     const int translations = freedom.count - freedom.rotations;
-    // About a single axis, dTheta and Omega are parallel: both vanish.
+    // About a single axis, dTheta and Omega are parallel: both terms vanish.
     const bool turns = freedom.rotations == 3;
     if (axes == ModeAxes::inertial) {
       if (turns) add_block(z, freedom.begin + translations, -skew(node.Omega));
@@ -51,7 +51,7 @@ void turning_axes(const System& system, const State& state, ModeAxes axes, Spars
   Z.setFromTriplets(z.begin(), z.end());
 }
 
-/// Takes the rows that are in the equations.
+/// Extracts the rows that are in the equations.
 Sparse chosen_rows(const Sparse& A, const std::vector<int>& number) {
   Entries entries;
   for (int j = 0; j < A.outerSize(); ++j)
@@ -72,7 +72,7 @@ void number_groups(const System& system, LinearisedEquations& equations) {
   for (int i = 0; i < scalars; ++i) equations.turns[static_cast<std::size_t>(i)] = system.kind(i) == Kind::rotation;
 }
 
-/// The residual, and what rounding of positions, turns and amplitudes makes of forces.
+/// Returns the residual, and the effect of rounding of positions, rotations and amplitudes on forces.
 VectorX left_over(const System& system, const Environment& environment, const State& state, const Sparse& K) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   VectorX residual(system.size()), sizes = VectorX::Zero(K.cols());

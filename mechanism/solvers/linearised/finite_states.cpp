@@ -53,7 +53,8 @@ bool all_has_inertia(const LinearisedEquations& e, const VectorX& scale) {
 
 Eigen::Index count_finite_eigenvalues(const LinearisedEquations& equations, const ShiftedOperator& T) {
   if (all_has_inertia(equations, T.scale())) return consistent_states(equations, T.scale()).cols();
-  // Rates far from the shift look infinite to it: the middle between the slowest and the fastest shows most.
+  // Eigenvalues far from the shift seem infinite: a shift in the middle between the slowest and the fastest shows most
+  // of them.
   Eigen::Index most = T.is_real() ? FiniteStates(equations, T).size() : 0;
   const ShiftedOperator middle(equations, std::sqrt(slowest_rate(equations) * fastest_rate(equations)));
   if (middle.regular()) most = std::max(most, FiniteStates(equations, middle).size());
@@ -85,7 +86,7 @@ VectorX FiniteStates::coordinates(const VectorX& p) const {
   VectorX c = consistent_.transpose() * p;
   const VectorX beyond = p - consistent_ * c;
   VectorX found = from_stage(0, c);
-  // Forces alone leave nothing but rounding there, which the inverse would magnify.
+  // Forces without a response in these states leave rounding errors there, which the inverse would magnify.
   constexpr double rounding = 1e-12;
   if (beyond.norm() > rounding * p.norm())
     found += inverse_times(from_stage(0, VectorX(consistent_.transpose() * operator_.apply(beyond))));

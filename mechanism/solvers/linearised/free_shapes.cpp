@@ -10,7 +10,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The zeros' vectors, scaled; those that repeat each other are told apart.
+/// Returns the zeros' vectors, scaled; dependent ones are separated.
 MatrixX start_shapes(const VectorX& scale, const std::vector<Eigenpair>& zeros) {
   const Eigen::Index n = scale.size(), count = std::min<Eigen::Index>(n, static_cast<Eigen::Index>(zeros.size()));
   MatrixX shapes(n, count);
@@ -38,7 +38,7 @@ MatrixX find_free_shapes(const LinearisedEquations& e, const ShiftedOperator& sh
     const VectorX right = resistance_times(e, shift, u);
     return VectorX(shifted.solve(right.cast<std::complex<double>>()).head(n).real().cwiseQuotient(scale));
   };
-  constexpr int rounds = 100, separated = 60;  // others become shorter by a half each time, by the size of the shift
+  constexpr int rounds = 100, separated = 60;  // others are halved each time, for this size of the shift
   constexpr double stays = 1e-8, settled = 1e-22, leaves = 1e-3;  // squares of changes
   SymmetricEigenpairs change;
   for (int round = 0; round < rounds; ++round) {

@@ -1,8 +1,8 @@
-// Independent shapes of eigenvalues that are zero, for equations with first-order unknowns: those have units of their
-// own, by which the rank decisions of indifferent_motions.hpp cannot be taken.
+// Independent shapes of zero eigenvalues, for equations with first-order unknowns: these have different units, for
+// which the rank decisions of indifferent_motions.hpp are not possible.
 //
-// Double zeros come as pairs of nearly the same vector, which tell their number badly. A shape that costs nothing is
-// one that D(sigma)^-1 (D(sigma) - D(0)) leaves as it is; all others become shorter.
+// Double zeros occur as pairs of nearly equal vectors, from which their number is hard to determine. A shape without
+// stiffness is unchanged by D(sigma)^-1 (D(sigma) - D(0)); all others become shorter.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@
 
 namespace bielle::mechanism {
 
-/// @param shifted  with a real shift of the size of the slowest mode that is not zero
-/// @param zeros    eigenpairs that are zero to rounding
-/// @returns (unknowns, number)
+/// @param shifted  operator with a real shift of the size of the slowest nonzero mode
+/// @param zeros    eigenpairs that are zero up to rounding
+/// @returns the shapes (unknowns, number)
 MatrixX find_free_shapes(const LinearisedEquations& equations, const ShiftedOperator& shifted,
                          const std::vector<Eigenpair>& zeros);
 

@@ -21,7 +21,7 @@ using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 using MatrixXc = Eigen::MatrixXcd;
 
-/// Numbers of either sign, the same in every run.
+/// Returns numbers of either sign, the same in every run.
 VectorX signs(Eigen::Index size) {
   VectorX result(size);
   for (Eigen::Index i = 0; i < size; ++i) result[i] = std::sin(1.0 + 2.399963 * static_cast<double>(i)) < 0 ? -1 : 1;
@@ -46,7 +46,7 @@ class IndifferentSearch {
         if (!find_soft(last)) continue;
       } catch (const ComputationError&) {
         if (last) throw;
-        continue;  // too many are slow relative to the rate
+        continue;  // too many motions are slow relative to the rate
       }
       return decide();
     }
@@ -69,7 +69,7 @@ class IndifferentSearch {
   double sigma() const { return right_->shift().real(); }
   auto scale() const { return right_->scale().head(e_.unknowns()); }
 
-  /// This notes how the reactions answer to forces that may as well be zero.
+  /// Notes the response of reactions to forces that are zero up to errors.
   void note_uncertain_reactions() {
     const int n = e_.unknowns();
     if (e_.left_over.size() != n || e_.constraints() == 0) return;
@@ -78,9 +78,9 @@ class IndifferentSearch {
     rounding_.set_uncertain_reactions(right_->solve(forces).tail(e_.constraints()).real());
   }
 
-  /// R u, with the rows of the constraints.
+  /// Returns R u, with the rows of the constraints.
   VectorX resisted(const VectorX& u) const { return resistance_times(e_, sigma(), u); }
-  /// R^T y, of which the rows of the constraints are zero.
+  /// Returns R^T y; the rows of the constraints are zero.
   VectorX transposed_resisted(const VectorX& y) const {
     const int n = e_.unknowns();
     const VectorX v = y.head(n), pushed = e_.M.transpose() * v;
@@ -90,14 +90,14 @@ class IndifferentSearch {
     return sigma() * (e_.C.transpose() * v + sigma() * pushed + e_.W.transpose() * pushed + e_.B.transpose() * held);
   }
 
-  /// D(sigma)^-1 R u of scaled unknowns.
+  /// Returns D(sigma)^-1 R u for scaled unknowns.
   VectorX answer(const VectorX& x) const {
     return right_->solve(resisted(scale().cwiseProduct(x)).cast<Complex>())
         .head(e_.unknowns())
         .real()
         .cwiseQuotient(scale());
   }
-  /// R^T D(sigma)^-T z of scaled forces z.
+  /// Returns R^T D(sigma)^-T z for scaled forces z.
   VectorX left_answer(const VectorX& z) const { return scale().cwiseProduct(transposed_resisted(left_of(z))); }
   VectorX left_of(const VectorX& z) const {
     VectorXc forces = VectorXc::Zero(e_.unknowns() + e_.constraints());
@@ -106,9 +106,9 @@ class IndifferentSearch {
   }
 
   struct Soft {
-    MatrixX basis;         ///< of scaled vectors with eigenvalues next to 1
+    MatrixX basis;         ///< basis of scaled vectors with eigenvalues near 1
     double others = 0;     ///< the largest other eigenvalue
-    bool crowded = false;  ///< more are there than were asked for
+    bool crowded = false;  ///< there are more than requested
   };
   template <class Apply>
   Soft soft_ones(const Apply& apply, bool whatever) const {
@@ -148,7 +148,7 @@ class IndifferentSearch {
     }
   }
 
-  /// @returns false where so many are slow relative to the rate that another is better
+  /// @returns false if so many are slow relative to the rate that another one is better
   bool find_soft(bool whatever) {
     Soft right = soft_ones([&](const VectorX& x) { return answer(x); }, whatever);
     if (right.crowded && !whatever) return false;
@@ -184,8 +184,7 @@ class IndifferentSearch {
       for (const Ritz& each : all) {
         const VectorXc x = X_.cast<Complex>() * each.x, y = Y_.topRows(e_.unknowns()).cast<Complex>() * each.y;
         const double delta = rounding_(y, 0, x);
-        // R is known no better than this if there are neither stiffness nor left vectors of the motion (rolling,
-        // integrals).
+        // Accuracy of R if there are neither stiffness nor left vectors of the motion (rolling, integrals).
         constexpr double of_resistance = 1e-13;
         if (std::abs(each.tau) > std::max(delta, of_resistance)) {
           least = least > 0 ? std::min(least, std::abs(each.tau)) : std::abs(each.tau);
@@ -244,7 +243,7 @@ class IndifferentSearch {
     }
     return result;
   }
-  /// If eigenvalues have fewer vectors than their multiplicity, singular values take their place: these are zero for
+  /// If eigenvalues have fewer vectors than their multiplicity, singular values are used instead: these are zero for
   /// the same vectors.
   static std::vector<Ritz> singular_pairs(const MatrixX& T, const MatrixX& inverse) {
     std::vector<Ritz> result;

@@ -1,11 +1,11 @@
-// Motions that no force resists, of the linearised equations: u with D(0) u = 0 to what D is known to.
+// Indifferent motions, which no force resists, of the linearised equations: u with D(0) u = 0 to the accuracy of D.
 //
-// In first-order form their eigenvalues are double zeros, which rounding splits by its square root, far enough to pass
-// for slow modes. They are therefore found as what they are in statics, null vectors. In the pencil
+// In first-order form their eigenvalues are double zeros. Rounding splits them by its square root, so far that they may
+// seem to be slow modes. They are therefore found as null vectors, as in statics. In the pencil
 //     D(0) u = tau R u,      R = D(sigma) - D(0),
-// which weighs stiffness against what inertia and damping make of a rate sigma, they have tau = 0 and are no more than
-// single; D(sigma)^-1 R has the eigenvalues 1/(1 + tau), whatever the constraints. An eigenvalue counts as zero where
-// |y^T D(0) u| is not more than rounding makes of it (equation_rounding.hpp).
+// which compares stiffness with the effect of inertia and damping at a rate sigma, they have tau = 0 as simple
+// eigenvalues; D(sigma)^-1 R has the eigenvalues 1/(1 + tau), for any constraints. An eigenvalue counts as zero if |y^T
+// D(0) u| does not exceed its rounding error (equation_rounding.hpp).
 #pragma once
 
 #include "mechanism/solvers/linearised/equation_rounding.hpp"
@@ -13,13 +13,13 @@
 namespace bielle::mechanism {
 
 struct IndifferentMotions {
-  MatrixX shapes;         ///< (n, number) independent ones
-  double resolution = 0;  ///< a rate [1/s] that none of them can be told from: what is slower may count among them
-  double slowest = 0;     ///< about that of the slowest other motion [1/s]; 0: not known
+  MatrixX shapes;         ///< (n, number) independent shapes
+  double resolution = 0;  ///< smallest rate [1/s] that can be distinguished from them: slower motions may be included
+  double slowest = 0;     ///< approximate rate of the slowest other motion [1/s]; 0: not known
 };
 
-/// @param rounding  receives the reactions that errors of the equilibrium stand for
-/// @param dense     up to so many unknowns by dense algebra
+/// @param rounding  receives the reactions due to errors of the equilibrium
+/// @param dense     limit of unknowns for dense algebra
 IndifferentMotions find_indifferent_motions(const LinearisedEquations& equations, EquationRounding& rounding,
                                             Eigen::Index dense);
 

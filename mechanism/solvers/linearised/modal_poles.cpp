@@ -17,14 +17,14 @@ using VectorXc = Eigen::VectorXcd;
 using MatrixXc = Eigen::MatrixXcd;
 using SparseC = Eigen::SparseMatrix<Complex>;
 
-/// The size of its terms in each row of the motion.
+/// Size of the terms of D'(s) q in each row of the motion.
 VectorX derivative_terms(const LinearisedEquations& e, Complex s, const VectorXc& q) {
   const VectorXc u = q.head(e.unknowns()), turned = e.W.cast<Complex>() * u;
   return (e.M.cast<Complex>() * u).cwiseAbs() * (2 * std::abs(s)) + (e.M.cast<Complex>() * turned).cwiseAbs() +
          (e.C.cast<Complex>() * u).cwiseAbs();
 }
 
-/// Groups of equal eigenvalues, by the number of each of their modes.
+/// Groups of equal eigenvalues, as indices of their modes.
 std::vector<std::vector<std::size_t>> equal_ones(const std::vector<Mode>& modes) {
   constexpr double same = 1e-7;
   std::vector<std::vector<std::size_t>> groups;
@@ -48,7 +48,7 @@ class PoleFinder {
     scale_.head(e_.unknowns()) = T.scale().head(e_.unknowns());
   }
 
-  /// With the multipliers that belong to the shape.
+  /// Returns the shape with its multipliers.
   VectorXc right_vector(const Mode& mode) const {
     VectorXc x(e_.states()), v(e_.unknowns() + e_.constraints());
     x << mode.u, mode.w;
@@ -82,18 +82,18 @@ class PoleFinder {
  private:
   VectorXc scaled(const VectorXc& v) const { return v.head(e_.unknowns()).cwiseQuotient(scale_.head(e_.unknowns())); }
 
-  /// Of forces, as the scale makes them displacements.
+  /// Size of forces, scaled to displacements.
   double size_of(const VectorXc& forces) const {
     return forces.head(e_.unknowns()).cwiseProduct(scale_.head(e_.unknowns()).cast<Complex>()).norm();
   }
 
-  /// How far y^T D(s) is from zero, relative to inertial forces.
+  /// Size of y^T D(s), relative to inertial forces.
   double left_residual(Complex s, const VectorXc& y) const {
-    // M has a diagonal of ones in scaled unknowns: inertial forces are of the size |s|^2.
+    // M has a diagonal of ones in scaled unknowns: inertial forces have the size |s|^2.
     return size_of(transposed_equations_times(e_, s, y)) / (std::norm(s) * scaled(y).norm());
   }
 
-  /// Of symmetric equations those of the right, of undamped gyroscopic ones their conjugates.
+  /// For symmetric equations the left vectors are the right ones, for undamped gyroscopic ones their conjugates.
   MatrixXc left_vectors(Complex s, const MatrixXc& right) const {
     constexpr double exact = 1e-9;
     for (const bool conjugate : {false, true}) {
@@ -105,7 +105,7 @@ class PoleFinder {
     return iterated(s, right);
   }
 
-  /// Inverse iteration with the transposed equations next to the eigenvalue.
+  /// Inverse iteration with the transposed equations, with a shift next to the eigenvalue.
   MatrixXc iterated(Complex s, const MatrixXc& right) const {
     constexpr double next_to = 1e-7;
     constexpr int rounds = 4;

@@ -11,12 +11,12 @@ namespace {
 using Complex = std::complex<double>;
 using VectorXc = Eigen::VectorXcd;
 
-/// y^T a, without conjugation.
+/// Returns y^T a, without conjugation.
 Complex paired(const VectorXc& y, const VectorXc& a) { return (y.transpose() * a)(0); }
 
 }  // namespace
 
-/// The left vector of general equations is computed only for modes that may grow, since it takes a factorisation.
+/// The left vector of general equations is computed only for modes that may grow, since it costs a factorisation.
 VectorXc ModeJudgement::left(const Mode& mode) const {
   constexpr double nearly = 1e-3;
   if (symmetry_ == EquationSymmetry::symmetric) return mode.u;
@@ -26,8 +26,8 @@ VectorXc ModeJudgement::left(const Mode& mode) const {
   return left_vector(e_, mode.s, mode.u);
 }
 
-/// The operator (A - sigma E)^-1 E, sigma the rate, changes by this part, and so does s - sigma; of double zeros, which
-/// such a change splits, its square.
+/// The operator (A - sigma E)^-1 E, where sigma is the rate, changes by this fraction, and so does s - sigma; for
+/// double zeros, which such a change splits, its square does.
 double ModeJudgement::drift_uncertainty(Complex s) const {
   const double size = std::abs(s), split = rate_ * std::sqrt(drift_);
   return std::max(drift_ * (rate_ + size), size < split ? split : 0.0);
@@ -61,7 +61,7 @@ void ModeJudgement::judge(Mode& mode) const {
 }
 
 bool ModeJudgement::is_nothing(Complex s, const VectorXc& u) const {
-  // Each term by itself: those of a motion that a damper slows down cancel.
+  // Each term is taken separately: those of a motion decelerated by a damper cancel.
   const Complex damping =
                     s * u.dot(VectorXc(e_.C.cast<Complex>() * u + e_.M.cast<Complex>() * (e_.W.cast<Complex>() * u))),
                 inertia = s * s * u.dot(e_.M.cast<Complex>() * u);

@@ -1,4 +1,4 @@
-// How well an eigenvalue is known, and what kind of mode that makes it.
+// Accuracy of an eigenvalue, and the kind of mode that follows from it.
 #pragma once
 
 #include "mechanism/solvers/linearised/equation_rounding.hpp"
@@ -9,7 +9,7 @@ namespace bielle::mechanism {
 
 class ModeJudgement {
  public:
-  /// @param options  with the changes of the equations
+  /// @param options  options that include the changes of the equations
   ModeJudgement(const LinearisedEquations& equations, const EquationRounding& rounding, const ModeOptions& options)
       : e_(equations),
         rounding_(rounding),
@@ -17,10 +17,11 @@ class ModeJudgement {
         drift_(options.drift),
         rate_(options.rate) {}
 
-  /// Sets the uncertainty and the kind of a mode that is not rigid. An eigenvalue that is farther from what its vectors
-  /// say than its uncertainty is moved there (s -= y^T D x/y^T D' x: y and x stand still to first order).
+  /// Sets the uncertainty and the kind of a mode that is not rigid. If an eigenvalue differs from the value given by
+  /// its vectors by more than its uncertainty, it is corrected (s -= y^T D x/y^T D' x: y and x are constant to first
+  /// order).
   void judge(Mode& mode) const;
-  /// Whether what rates add along a motion, at s, is less than rounding makes of stiffness.
+  /// Whether the rate-dependent terms along a motion, at s, are smaller than the rounding errors of the stiffness.
   bool is_nothing(std::complex<double> s, const Eigen::VectorXcd& u) const;
 
  private:

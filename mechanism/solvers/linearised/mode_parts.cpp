@@ -56,7 +56,7 @@ Complex unit_factor(const System& system, const State& state, const Mode& mode) 
 
 namespace {
 
-/// Variations of a member's own positions and rates by a mode.
+/// Variations of a member's own positions and rates in a mode.
 struct MemberVariation {
   Eigen::VectorXcd u, w;
 };

@@ -14,7 +14,7 @@ Complex inner(const Sparse& M, const Shape& u, const Shape& v) { return u.dot(M.
 
 double square(const Sparse& M, const Shape& u) { return std::max(0.0, inner(M, u, u).real()); }
 
-/// Shapes of a space, orthonormal with M.
+/// Shapes of a space, orthonormal with respect to M.
 class ShapeSpace {
  public:
   explicit ShapeSpace(const Sparse& M) : M_(M) {}
@@ -31,7 +31,7 @@ class ShapeSpace {
     for (const Shape& each : basis_) part += each * inner(M_, each, shape);
     return part;
   }
-  /// The share of a shape that lies in the space, 0..1.
+  /// Returns the fraction of a shape that is in the space, 0..1.
   double share(const Shape& shape) const {
     const double whole = square(M_, shape);
     if (whole == 0) return 0;
@@ -45,8 +45,8 @@ class ShapeSpace {
   std::vector<Shape> basis_;
 };
 
-/// Groups of modes whose frequencies coincide: the number of the group of each. Rounding turns shapes by itself over
-/// the distance of their frequencies.
+/// Returns the number of the group of each mode; modes with equal frequencies are a group. Rounding rotates shapes by
+/// its own size divided by the distance of their frequencies.
 std::vector<int> groups_of(const std::vector<Mode>& modes) {
   constexpr double same = 1e-6;
   std::vector<int> group(modes.size(), -1);
@@ -107,7 +107,7 @@ class Following {
 
   void add_pairings(std::size_t i, std::vector<Pairing>& pairings) const {
     const TrackedMode& track = before_[i];
-    constexpr double rather_not = 0.99;  // of a shape that is real: it has not passed through zero
+    constexpr double rather_not = 0.99;  // for a real shape: a passage through zero is not preferred
     ShapeSpace open(sample_.M);
     if (track.open >= 0)
       for (const TrackedMode& other : before_)
@@ -119,7 +119,7 @@ class Following {
         const double correlation = track.open >= 0 && alone ? open.share(shape_of(sample_.modes[k], conjugate))
                                                             : (conjugate ? mirrored_ : spaces_)[group].share(track.u);
         constexpr double least = 1e-3;
-        // Of modes that cannot be told apart, the one of the nearest frequency.
+        // If modes are indistinguishable, the one with the nearest frequency is chosen.
         const double near = std::abs(std::abs(sample_.modes[k].s) - std::abs(track.s)) / (std::abs(track.s) + 1e-300);
         constexpr double hardly = 1e-4;
         const double score = correlation * (conjugate ? rather_not : 1.0) - hardly * std::min(near, 1.0);
@@ -152,7 +152,7 @@ class Following {
   const ModeSample& sample_;
   std::vector<int> group_;
   int groups_ = 0;
-  std::vector<ShapeSpace> spaces_, mirrored_;  ///< of each group, and of the conjugate shapes
+  std::vector<ShapeSpace> spaces_, mirrored_;  ///< for each group, and for the conjugate shapes
   std::vector<int> members_;
 };
 

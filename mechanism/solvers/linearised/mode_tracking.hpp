@@ -1,13 +1,13 @@
-// Which mode is which: modes of neighbouring states of a mechanism told apart by their shapes.
+// Tracking of modes: modes of neighbouring states of a mechanism are identified by their shapes.
 //
 // The correlation of two complex shapes u and v in the norm of the mass matrix M (modal assurance criterion, R. J.
 // Allemang, D. L. Brown, Proc. 1st IMAC, 1982, with M for weight) is
 //     |u^H M v|^2 / ((u^H M u) (v^H M v)),
-// 1 of one and the same shape, whatever its phase. A whirl and its mirror image, the conjugate shape, are orthogonal.
+// It is 1 for equal shapes, for any phase. A whirl and its mirror image, the conjugate shape, are orthogonal.
 //
-// Where frequencies coincide (a rotor at rest, lines that cross), shapes are any of a space: a mode then goes on as its
-// own part in that space. A frequency that passes through zero, as that of a forward whirl does in axes that turn, goes
-// on with the conjugate shape and a negative imaginary part.
+// If frequencies coincide (a rotor at rest, lines that cross), shapes are arbitrary within a space: a mode then
+// continues as its own projection on that space. A frequency that passes through zero, like that of a forward whirl in
+// rotating axes, continues with the conjugate shape and a negative imaginary part.
 #pragma once
 
 #include <complex>
@@ -17,34 +17,33 @@
 
 namespace bielle::mechanism {
 
-/// A mode at one of the states.
+/// A tracked mode at one of the states.
 struct TrackedMode {
   bool found = false;
   std::complex<double> s;  ///< [1/s]; Im s < 0 after a passage through zero
-  double uncertainty = 0;  ///< of s [1/s], see Mode
-  bool grows = false;      ///< by more than that
-  Eigen::VectorXcd u;      ///< its shape; of a mode that was not found, the last one known
-  double correlation = 0;  ///< with itself at the state before, 0..1; 1 at the first state
-  double whirl = 0;        ///< see whirl.hpp; NaN without a sense, or where frequencies coincide
-  int open =
-      -1;  ///< a group of modes whose frequencies have coincided since the first state: shapes are any of their space
+  double uncertainty = 0;  ///< uncertainty of s [1/s], see Mode
+  bool grows = false;      ///< growth exceeds the uncertainty
+  Eigen::VectorXcd u;      ///< its shape; if the mode was not found, the last known one
+  double correlation = 0;  ///< correlation with itself at the previous state, 0..1; 1 at the first state
+  double whirl = 0;        ///< see whirl.hpp; NaN without a sense, or if frequencies coincide
+  int open = -1;  ///< group of modes with equal frequencies since the first state: shapes are arbitrary in their space
 };
 
-/// Modes that oscillate about a state: what tracks are looked for among.
+/// Oscillating modes about a state, among which the tracked modes are searched for.
 struct ModeSample {
   std::vector<Mode> modes;    ///< with Im s > 0, |s| ascending
-  std::vector<double> whirl;  ///< of each
+  std::vector<double> whirl;  ///< for each mode
   LinearisedEquations::Sparse M;
-  bool all = false;  ///< there are no others that oscillate
+  bool all = false;  ///< there are no other oscillating modes
 };
 
-/// |u^H M v|^2 / ((u^H M u) (v^H M v)).
+/// Returns |u^H M v|^2 / ((u^H M u) (v^H M v)).
 double shape_correlation(const LinearisedEquations::Sparse& M, const Eigen::VectorXcd& u, const Eigen::VectorXcd& v);
 
-/// The slowest modes of a first state. @param count  at most so many
+/// Begins tracking with the slowest modes of a first state. @param count  largest number of modes
 std::vector<TrackedMode> begin_tracks(const ModeSample& sample, int count);
 
-/// The same modes at the next state. Each mode of the sample is one of them at most.
+/// Finds the same modes at the next state. Each mode of the sample is assigned to at most one of them.
 std::vector<TrackedMode> follow_tracks(const std::vector<TrackedMode>& before, const ModeSample& sample);
 
 }  // namespace bielle::mechanism

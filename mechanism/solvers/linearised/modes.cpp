@@ -47,12 +47,12 @@ class ModeSearch {
   }
 
  private:
-  /// First-order unknowns have units of their own, in which u^T D u means nothing.
+  /// First-order unknowns have their own units, for which u^T D u has no meaning.
   bool has_own_units() const { return e_.unknowns() != e_.dofs; }
   double shift() const { return std::abs(around_.T().shift()); }
 
-  /// Whether a state that is left of the rigid ones: what is left of a double zero is a single one, which rounding
-  /// does not split.
+  /// Whether a state that is not rigid has a zero eigenvalue: the remainder of a double zero is a simple one, which
+  /// rounding does not split.
   bool is_zero(const Eigenpair& pair) const {
     constexpr double of_shift = 1e-8, of_units_of_their_own = 1e-4;
     if (has_own_units()) return std::abs(pair.s) <= of_units_of_their_own * shift();
@@ -76,7 +76,7 @@ class ModeSearch {
                      [](const Mode& a, const Mode& b) { return std::abs(a.s) < std::abs(b.s); });
   }
 
-  /// At the beginning.
+  /// Inserts rigid modes at the beginning.
   void add_rigid_modes(Modes& result) const {
     std::vector<Mode> rigid;
     const VectorX& scale = around_.T().scale();
@@ -91,7 +91,7 @@ class ModeSearch {
     result.modes.insert(result.modes.begin(), rigid.begin(), rigid.end());
   }
 
-  /// The smallest |s| that is not zero, or 0.
+  /// Returns the smallest |s| that is not zero, or 0.
   double slowest_of(const std::vector<Eigenpair>& pairs) const {
     double least = INFINITY;
     for (const Eigenpair& pair : pairs)
@@ -99,8 +99,8 @@ class ModeSearch {
     return std::isfinite(least) ? least : 0;
   }
 
-  /// A shift of the size of the slowest mode that is not kept out. A shift that is too small shows that mode well, one
-  /// that is too large shows it as zero, like many others.
+  /// Chooses a shift of the size of the slowest mode that is not excluded. A shift that is too small resolves that mode
+  /// well, a shift that is too large gives zero for it and for many others.
   void choose_shift(Eigen::Index count, double begin) {
     around_.set_shift(begin);
     const double first = shift();
@@ -111,7 +111,7 @@ class ModeSearch {
       try {
         nearby = around_.look(count, EigenpairsAround::Look::roughly);
       } catch (const ComputationError&) {
-        around_.set_shift(shift() / 30);  // many eigenvalues next to each other, as slow ones are to a large shift
+        around_.set_shift(shift() / 30);  // many eigenvalues are close together, like slow ones seen from a large shift
         continue;
       }
       const double slow = slowest_of(nearby.pairs);
@@ -123,7 +123,7 @@ class ModeSearch {
       } else if (constexpr double farthest = 1e7, step = 300;
                  slow == 0 && nearby.rejected && highest < farthest * first) {
         highest *= step;
-        around_.set_shift(highest);  // it may be too small to show anything that is faster than zero
+        around_.set_shift(highest);  // the shift may be too small to resolve any nonzero rate
       } else {
         return;
       }
@@ -131,20 +131,20 @@ class ModeSearch {
   }
 
   double first_shift() const {
-    constexpr double hardly_moves = 1e-2;  // [1/s], where nothing else is known
+    constexpr double hardly_moves = 1e-2;  // [1/s], default
     if (rigid_.slowest > 0) return 0.9 * rigid_.slowest;
     return std::max({1e-3 * slowest_rate(e_), 1e-6 * fastest_rate(e_), hardly_moves});
   }
 
-  /// Eigenvalues that are neither kept out nor among these: slow modes may keep fast ones from being seen.
+  /// Whether eigenvalues exist that are neither excluded nor among these: slow modes may hide fast ones.
   bool any_missing(const std::vector<Eigenpair>& pairs) {
-    constexpr int most = 2000;  // states, to be counted
+    constexpr int most = 2000;  // limit of states for counting
     if (e_.states() > most) return true;
     if (finite_ < 0) finite_ = count_finite_eigenvalues(e_, around_.T());
     return around_.kept_out() + static_cast<Eigen::Index>(pairs.size()) < finite_;
   }
 
-  /// Those that are known well. @returns false where there are none
+  /// Excludes the accurately known pairs. @returns false if there are none
   bool keep_out(const std::vector<Eigenpair>& pairs, std::vector<Eigenpair>& kept) {
     constexpr double accurate = 1e-6;
     std::vector<VectorX> states;
@@ -173,7 +173,7 @@ class ModeSearch {
       choose_shift(count, from);
       EigenpairsNearby nearby = around_.look(count, EigenpairsAround::Look::exactly);
       while (true) {
-        // Nearest to the shift is not the same as slowest: within this circle none is missing.
+        // The nearest to the shift are not always the slowest: within this circle none is missing.
         const double known = nearby.radius - shift();
         const bool whole = !std::isfinite(nearby.radius);
         Modes result = before;
@@ -201,7 +201,8 @@ class ModeSearch {
     }
   }
 
-  /// @returns how many zeros no rigid motion stands for: a double zero has one motion, a single one is a state at rest
+  /// @returns the number of zeros that do not belong to rigid motions: a double zero has one motion, a simple one is a
+  /// state at rest
   Eigen::Index find_rigid_among(const std::vector<Eigenpair>& pairs) {
     std::vector<Eigenpair> zeros;
     for (const Eigenpair& pair : pairs)
@@ -210,7 +211,7 @@ class ModeSearch {
     return std::max<Eigen::Index>(0, static_cast<Eigen::Index>(zeros.size()) - 2 * rigid_.shapes.cols());
   }
 
-  /// @param from  growth [1/s] above which motions are counted
+  /// @param from  growth rate [1/s] above which motions are counted
   void note_growing_besides(double from, Modes& result) const {
     result.growing_besides = result.all ? 0 : from > 0 ? count_growing(e_, from) : std::nullopt;
     if (!result.growing_besides) return;
@@ -224,7 +225,7 @@ class ModeSearch {
     result.all = all && result.modes.size() <= count;
     sort_by_rate(result.modes);
     if (!options_.below && result.modes.size() > count) result.modes.resize(count);
-    constexpr double next_below = 1 - 1e-6;  // the last one may have equals
+    constexpr double next_below = 1 - 1e-6;  // the last one may have equal ones
     note_growing_besides(options_.below         ? 2 * std::numbers::pi * *options_.below
                          : result.modes.empty() ? 0
                                                 : next_below * std::abs(result.modes.back().s),
@@ -295,7 +296,7 @@ SingularEquations::SingularEquations(int at)
 
 namespace {
 
-/// sqrt(K/M) of dofs, K/C of first-order unknowns, by diagonal entries; zeros left out.
+/// sqrt(K/M) of dofs, K/C of first-order unknowns, from diagonal entries; zeros are omitted.
 std::vector<double> diagonal_rates(const LinearisedEquations& e) {
   const VectorX M = e.M.diagonal(), C = e.C.diagonal(), K = e.K.diagonal();
   std::vector<double> rates;

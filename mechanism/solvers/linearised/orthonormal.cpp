@@ -26,7 +26,7 @@ MatrixX orthonormal_columns(const MatrixX& vectors) {
 MatrixX leading_directions(const MatrixX& vectors, Eigen::Index count) {
   if (vectors.cols() == 0) return vectors;
   const SymmetricEigenpairs lengths = symmetric_eigenpairs(MatrixX(vectors.transpose() * vectors));
-  constexpr double repeated = 1e-14;  // a square
+  constexpr double repeated = 1e-14;  // squared
   MatrixX chosen(vectors.rows(), std::min(count, vectors.cols()));
   Eigen::Index kept = 0;
   for (Eigen::Index k = vectors.cols(); k-- > 0 && kept < chosen.cols();)

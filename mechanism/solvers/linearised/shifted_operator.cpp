@@ -33,7 +33,7 @@ void ShiftedOperator::build() {
   const SparseC D = SparseC(rates_ * shifted) + e.K.cast<Complex>();
   const SparseC moving = SparseC(e.B.cast<Complex>() * shifted) + e.S.cast<Complex>();
 
-  // The whole matrix, of a complex shift with [a, -b; b, a] in place of each entry.
+  // The whole matrix; for a complex shift each entry is replaced by [a, -b; b, a].
   const int parts = is_real() ? 1 : 2;
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int row, int column, Complex value) {
@@ -90,7 +90,7 @@ void ShiftedOperator::set_scale(const SparseC& D) {
   scale_ = VectorX::Zero(e.states());
   const VectorX mass = e.M.diagonal();
   const VectorX stiffness = D.diagonal().cwiseAbs();
-  // Without mass, by the stiffness; without either, as the others.
+  // Dofs without mass are scaled by the stiffness; without either, like the others.
   double sum = 0;
   int known = 0;
   for (int i = 0; i < dofs; ++i) {
@@ -141,7 +141,7 @@ VectorXc ShiftedOperator::solve(const VectorXc& right) const {
   return x;
 }
 
-/// Of [u; lambda] for T x. @param in  physical state
+/// Returns the right-hand side for [u; lambda] of T x. @param in  physical state
 template <class Vector, class Matrix>
 Vector ShiftedOperator::right_side(const Vector& in, const Matrix& rates) const {
   const LinearisedEquations& e = equations_;

@@ -7,16 +7,16 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double certain = 0.9;  // correlation of neighbouring shapes that needs no value in between
+constexpr double certain = 0.9;  // correlation of neighbouring shapes that requires no further value
 constexpr double lost_below = 0.5;
-constexpr int deepest = 6;  // halvings of a distance between values
+constexpr int deepest = 6;  // largest number of halvings of a distance between values
 
 double rate_of(const TrackedMode& track) { return std::abs(track.s.imag()); }
 
 bool kept(const TrackedMode& track) { return track.found && track.correlation >= lost_below; }
 
-/// How far the rate of a mode is from a multiple of the speed, and zero where they are the same to rounding: a rigid
-/// motion seen in axes that turn has the speed for its frequency.
+/// Difference between the rate of a mode and a multiple of the speed, zero if they are equal up to rounding: a rigid
+/// motion in rotating axes has the speed as its frequency.
 double excess_of(const SweepPoint& point, std::size_t mode, double order) {
   constexpr double rounding = 1e-12;
   const TrackedMode& track = point.tracks[mode];
@@ -24,7 +24,7 @@ double excess_of(const SweepPoint& point, std::size_t mode, double order) {
   return std::abs(excess) <= track.uncertainty + rounding * rate_of(track) ? 0 : excess;
 }
 
-/// Their frequencies are the same to rounding.
+/// Whether the frequencies are equal up to rounding.
 bool together(double a, double b) {
   constexpr double same = 1e-6;
   return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
@@ -41,7 +41,7 @@ bool order_changed(const SweepPoint& a, const SweepPoint& b) {
   return false;
 }
 
-/// Of those that were not lost before.
+/// Modes that were already lost are not considered.
 bool all_certain(const SweepPoint& from, const SweepPoint& to) {
   for (std::size_t i = 0; i < to.tracks.size(); ++i)
     if (from.tracks[i].found && !(to.tracks[i].found && to.tracks[i].correlation >= certain)) return false;
@@ -82,7 +82,7 @@ SweepPoint SpeedSweep::followed(const SweepPoint& from, double value) {
     const SweepSample sample = sample_at(value);
     point = {value, sample.speed, true, follow_tracks(from.tracks, sample.modes)};
     if (k == most_doublings || sample.modes.all || !any_lost(from, point)) break;
-    count_ *= 2;  // it may have become faster than those that were asked for
+    count_ *= 2;  // the mode may have become faster than the requested ones
   }
   if (any_lost(from, point)) count_ = before;
   return point;
@@ -126,7 +126,7 @@ void SpeedSweep::find_critical(const SweepPoint& a, const SweepPoint& b) {
   }
 }
 
-/// By false position, halving the weight of an end that stays (Illinois).
+/// Locates the critical speed by false position, with a halved weight for a retained end (Illinois).
 void SpeedSweep::locate(SweepPoint a, SweepPoint b, std::size_t mode, double order) {
   const auto excess = [&](const SweepPoint& point) {
     return rate_of(point.tracks[mode]) - order * std::abs(point.speed);
@@ -199,8 +199,8 @@ void SpeedSweep::find_crossings(std::size_t i, std::size_t j) {
   }
 }
 
-/// Minima of the distance between two frequencies, on both sides of which it becomes three times as large, with shapes
-/// that are exchanged between there and there.
+/// Finds minima of the distance between two frequencies on both sides of which it triples, with shapes that are
+/// exchanged between these sides.
 void SpeedSweep::find_veerings(std::size_t i, std::size_t j) {
   const std::vector<SweepPoint>& points = result_.points;
   const auto gap = [&](std::size_t k) { return rate_of(points[k].tracks[i]) - rate_of(points[k].tracks[j]); };
@@ -216,13 +216,13 @@ void SpeedSweep::find_veerings(std::size_t i, std::size_t j) {
     std::size_t a = k, b = k;
     while (a > 0 && same_side(a - 1) && std::abs(gap(a)) < apart * least) --a;
     while (b + 1 < points.size() && same_side(b + 1) && std::abs(gap(b)) < apart * least) ++b;
-    constexpr double turned_away = 1.5;  // at the ends of the sweep
+    constexpr double turned_away = 1.5;  // factor at the ends of the sweep
     if (std::abs(gap(a)) < turned_away * least || std::abs(gap(b)) < turned_away * least) continue;
     const auto correlation = [&](std::size_t from, std::size_t to) {
       return shape_correlation(M_, points[a].tracks[from].u, points[b].tracks[to].u);
     };
     if (correlation(i, j) < correlation(i, i) || correlation(j, i) < correlation(j, j)) continue;
-    // The square of the gap is a parabola there.
+    // The square of the gap is a parabola near the minimum.
     const double x0 = points[k - 1].value - points[k].value, x1 = points[k + 1].value - points[k].value;
     const double y0 = std::pow(gap(k - 1), 2) - least * least, y1 = std::pow(gap(k + 1), 2) - least * least;
     const double curvature = (y0 / x0 - y1 / x1) / (x0 - x1), slope = y0 / x0 - curvature * x0;
@@ -248,7 +248,8 @@ void SpeedSweep::find_meetings() {
                    [](const ModeMeeting& a, const ModeMeeting& b) { return a.value < b.value; });
 }
 
-/// Where the speed changes its sign, by way of rest: its size has a kink there, and lines may meet on both sides.
+/// If the speed changes its sign, it passes through rest: its absolute value has a kink there, and lines may meet on
+/// both sides.
 void SpeedSweep::go_to(double value) {
   const SweepPoint from = result_.points.back();
   SweepPoint to = followed(from, value);

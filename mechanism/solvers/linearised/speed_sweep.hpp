@@ -1,9 +1,10 @@
-// Modes over a speed: tracked from value to value of what is swept, with critical speeds, crossings and veerings.
+// Modes over a speed: tracked from value to value of the swept parameter, with critical speeds, crossings and veerings.
 //
-// Between two values at which shapes have changed too much to be told apart, or frequencies have changed their order,
-// others are put in, down to a sixty-fourth of the distance. Frequencies that change their order while shapes stay have
-// crossed; frequencies that come near, turn away and exchange their shapes have veered (N. C. Perkins, C. D. Mote,
-// J. Sound Vib. 106 (1986) 451): there each number goes on along its line, and means another shape afterwards.
+// Between two values at which shapes have changed too much to be identified, or frequencies have changed their order,
+// further values are inserted, down to a sixty-fourth of the distance. Frequencies that change their order with
+// constant shapes have crossed; frequencies that approach each other, turn away and exchange their shapes have veered
+// (N. C. Perkins, C. D. Mote, J. Sound Vib. 106 (1986) 451): there each number continues along its line, and denotes
+// another shape afterwards.
 #pragma once
 
 #include <functional>
@@ -15,58 +16,59 @@ namespace bielle::mechanism {
 
 struct SweepSample {
   ModeSample modes;
-  double speed = 0;  ///< of the shaft [rad/s]
+  double speed = 0;  ///< speed of the shaft [rad/s]
 };
 
 struct SweepPoint {
-  double value = 0;   ///< of what is swept
+  double value = 0;   ///< value of the swept parameter
   double speed = 0;   ///< [rad/s]
-  bool given = true;  ///< whether it was asked for, or put in between
+  bool given = true;  ///< whether it was requested, not inserted
   std::vector<TrackedMode> tracks;
 };
 
-/// The damped frequency of a mode is a multiple of the speed.
+/// A speed at which the damped frequency of a mode is a multiple of the speed.
 struct CriticalSpeed {
-  int mode = 0;      ///< from 0
+  int mode = 0;      ///< index from 0
   double order = 1;  ///< the multiple
   double value = 0, speed = 0;
-  double frequency = 0;  ///< damped [Hz]
+  double frequency = 0;  ///< damped frequency [Hz]
   double damping_ratio = 0, whirl = 0;
 };
 
-/// Two frequencies come together.
+/// A place at which two frequencies come together.
 struct ModeMeeting {
   int first = 0, second = 0;
-  bool veering = false;  ///< they turn away and exchange their shapes; otherwise they cross
+  bool veering = false;  ///< whether they turn away and exchange their shapes; otherwise they cross
   double value = 0, speed = 0;
   double frequency = 0;  ///< mean of the two [Hz]
-  double gap = 0;        ///< between them [Hz]; 0 of crossings
+  double gap = 0;        ///< distance between them [Hz]; 0 for crossings
 };
 
-/// A mode whose track is doubtful between two values, or lost.
+/// A mode whose track is uncertain between two values, or lost.
 struct DoubtfulTrack {
   int mode = 0;
   bool lost = false;
-  double from = 0, to = 0;  ///< values
+  double from = 0, to = 0;  ///< range of values
   double correlation = 0;
 };
 
 struct SweptModes {
-  std::vector<SweepPoint> points;  ///< value ascending, those in between included
+  std::vector<SweepPoint> points;  ///< ascending by value, including inserted ones
   std::vector<CriticalSpeed> critical;
   std::vector<ModeMeeting> meetings;
   std::vector<DoubtfulTrack> doubtful;
-  int solved = 0;  ///< states at which modes were computed
+  int solved = 0;  ///< number of states at which modes were computed
 };
 
 class SpeedSweep {
  public:
-  /// Modes at a value of what is swept: at least `count` of the slowest, of any kind, or all.
+  /// Computes modes at a value of the swept parameter: at least `count` of the slowest, of any kind, or all.
   using Solve = std::function<SweepSample(double value, int count)>;
-  /// @param values  ascending, at least two @param modes  to track @param orders  multiples of the speed
+  /// @param values  ascending, at least two @param modes  number of modes to track @param orders  multiples of the
+  ///                speed
   SpeedSweep(Solve solve, std::vector<double> values, int modes, std::vector<double> orders)
       : solve_(std::move(solve)), values_(std::move(values)), modes_(modes), orders_(std::move(orders)) {}
-  /// @param stops  asked after each value; true ends the sweep there
+  /// @param stops  called after each value; true ends the sweep there
   SweptModes run(const std::function<bool()>& stops = {});
 
  private:
@@ -86,7 +88,7 @@ class SpeedSweep {
   std::vector<double> values_;
   int modes_;
   std::vector<double> orders_;
-  int count_ = 0;  ///< of modes that are asked for
+  int count_ = 0;  ///< number of requested modes
   LinearisedEquations::Sparse M_;
   SweptModes result_;
 };

@@ -12,7 +12,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Some state, the same in every run.
+/// Returns an arbitrary state, the same in every run.
 VectorX some_state(Eigen::Index size, std::uint64_t seed) {
   VectorX x(size);
   for (double& value : x) {
@@ -22,7 +22,7 @@ VectorX some_state(Eigen::Index size, std::uint64_t seed) {
   return x;
 }
 
-/// Carries increments, or rates, of the dofs along from one instant to another with the axes.
+/// Moves increments, or rates, of the dofs from one instant to another with the axes.
 void carry(const System& system, const State& from, const State& to, ModeAxes axes, Eigen::Ref<VectorX> x) {
   for (std::size_t k = 0; k < from.nodes.size(); ++k) {
     const NodeFreedom& freedom = system.kinematics().freedom(static_cast<int>(k));
@@ -43,7 +43,7 @@ void carry(const System& system, const State& from, const State& to, ModeAxes ax
   }
 }
 
-constexpr double steadily = 1e-3;  // change in a radian
+constexpr double steadily = 1e-3;  // change per radian
 
 struct Rates {
   double velocity = 0, acceleration = 0;  ///< [1/s]
@@ -97,7 +97,7 @@ double change(const System& system, const Environment& environment, const State&
     }
     return most / h;
   }
-  return 0;  // the search for modes will say what is wrong
+  return 0;  // the search for modes will report the error
 }
 
 }  // namespace
@@ -116,11 +116,11 @@ double Steadiness::drift(ModeAxes axes) const { return steady_in(axes) ? change(
 std::optional<Steadiness> find_steadiness(const System& system, const Environment& environment, const State& state) {
   Steadiness steadiness;
   const Rates rates = rates_of(state);
-  constexpr double negligible = 1e-7;  // its square is that of rounding
+  constexpr double negligible = 1e-7;  // its square is below rounding
   if (rates.velocity <= negligible * slowest_rate(linearised_equations(system, environment, state, ModeAxes::inertial)))
     return std::nullopt;
   steadiness.rate = std::max(rates.velocity, rates.acceleration);
-  constexpr double part = 1e-5;  // of the time for a radian: half of the digits
+  constexpr double part = 1e-5;  // fraction of the time for a radian: half of the digits
   const State later = moved_on(system, environment, state, part / steadiness.rate);
   steadiness.inertial = change(system, environment, state, later, steadiness.rate, ModeAxes::inertial);
   steadiness.turning = change(system, environment, state, later, steadiness.rate, ModeAxes::turning);
@@ -128,8 +128,8 @@ std::optional<Steadiness> find_steadiness(const System& system, const Environmen
 }
 
 double unbalance(const System& system, const Environment& environment, const State& state, int& equation) {
-  // Forces within one component may balance each other: what then moves nothing is no unbalance.
-  constexpr double negligible = 1e-9;  // of the mechanism's size: the distance from equilibrium, or the way of a second
+  // Forces within one component may balance each other: forces that move nothing are no unbalance.
+  constexpr double negligible = 1e-9;  // relative to the mechanism's size: distance from equilibrium, or motion in 1 s
   const double softest = slowest_rate(linearised_equations(system, environment, state, ModeAxes::inertial));
   if (std::pow(rates_of(state).acceleration, 2) <= negligible * std::max(1.0, softest * softest)) return 0;
   State still = state;

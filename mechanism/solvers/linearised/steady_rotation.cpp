@@ -31,11 +31,11 @@ void turn(const System& system, const SteadyRotation& rotation, State& state) {
   state.first_order_rate.setZero();
 }
 
-/// Loose motions (a free shaft) are held where they are: a little inertia resists displacements themselves. Rates must
-/// not have a part in it, or the Coriolis forces of an eccentric rotor that moves outwards turn its free shaft far.
-/// Unknowns without inertia are held as much as the others.
+/// Indifferent motions (a free shaft) are held in place: a small inertia resists displacements. Rates must not be
+/// included, or the Coriolis forces of an eccentric rotor that moves outwards would rotate its free shaft far. Unknowns
+/// without inertia are held as strongly as the others.
 void hold_loose(double rate, LinearisedEquations& equations) {
-  constexpr double little = 1e-6;  // of centrifugal forces
+  constexpr double little = 1e-6;  // fraction of centrifugal forces
   VectorX sum = VectorX::Zero(2), count = sum;
   const VectorX inertia = equations.M.diagonal();
   const auto kind = [&](int i) { return equations.turns[static_cast<std::size_t>(i)] != 0 ? 1 : 0; };
@@ -49,15 +49,15 @@ void hold_loose(double rate, LinearisedEquations& equations) {
   equations.K += little * rate * rate * (equations.M + LinearisedEquations::Sparse(missing.asDiagonal()));
 }
 
-/// Newton's method for the equilibrium at one angular velocity, with the safeguards of statics (equilibrium.hpp):
-/// stiffness comes from the stress that the last step predicted, and steps are shortened that turn a node far or that a
-/// component refuses.
+/// Newton's method for the equilibrium at one angular velocity, with the safeguards of statics (equilibrium.hpp): the
+/// stiffness uses the stress predicted by the last step, and steps are shortened if they rotate a node far or if a
+/// component cannot be evaluated.
 class RotationEquilibrium {
  public:
   RotationEquilibrium(const System& system, const Environment& environment)
       : system_(system), environment_(environment), linear_(system), convergence_(system, tolerances()) {}
 
-  /// @returns whether it was found; otherwise the state is some iterate
+  /// @returns whether it was found; otherwise the state is the last iterate
   bool find(const SteadyRotation& rotation, const State& from, State& state) {
     for (const Hold hold : {Hold::displacements, Hold::rates}) {
       hold_ = hold;
@@ -65,7 +65,7 @@ class RotationEquilibrium {
       try {
         if (iterate(rotation, state)) return true;
       } catch (const ComputationError&) {
-        continue;  // a wild iterate that a component refuses
+        continue;  // a distant iterate at which a component cannot be evaluated
       }
     }
     return false;
@@ -74,8 +74,8 @@ class RotationEquilibrium {
  private:
   bool iterate(const SteadyRotation& rotation, State& state) {
     constexpr int most = 40;
-    constexpr double small = 1e-10;    // relative to the mechanism's size, and [rad]: below, it is found
-    constexpr double balanced = 1e-6;  // the same of a step after which nothing but rounding is left of the residual
+    constexpr double small = 1e-10;    // convergence limit relative to the mechanism's size, and [rad]
+    constexpr double balanced = 1e-6;  // size of a step after which the residual is only rounding
     bool stepped = false, found = false;
     State before = state;
     VectorX r(system_.size());
@@ -91,7 +91,7 @@ class RotationEquilibrium {
         turn(system_, rotation, state);
         return true;
       }
-      // One step more leaves nothing but rounding: rigid motions are told by what an equilibrium leaves over.
+      // One more step leaves only rounding: rigid motions are identified by the residual of an equilibrium.
       found = size < small || (size < balanced && reached(state));
     }
     return false;
@@ -103,7 +103,7 @@ class RotationEquilibrium {
     return options;
   }
 
-  /// @returns false where the equations are singular
+  /// @returns false if the equations are singular
   bool calc_step(const SteadyRotation& rotation, const State& state, const State* before, VectorX& r) {
     const int n = system_.dofs() + system_.first_orders();
     system_.residual(state, environment_, r);
@@ -126,7 +126,7 @@ class RotationEquilibrium {
     return step_.allFinite();
   }
 
-  /// Largest displacement relative to the mechanism's size, or turn [rad].
+  /// Returns the largest displacement relative to the mechanism's size, or rotation [rad].
   double size_of(const State& state) const {
     const double length = model_length(state);
     double size = 0;
@@ -136,12 +136,12 @@ class RotationEquilibrium {
     return size;
   }
   double shortened(const State& state) const {
-    constexpr double longest = 2;  // turns [rad], and of the mechanism's size
+    constexpr double longest = 2;  // rotation [rad], and relative to the mechanism's size
     const double size = size_of(state);
     return size > longest ? longest / size : 1;
   }
 
-  /// Takes a part of the step, or less where a component refuses. @returns false where they refuse all
+  /// Applies a fraction of the step, or less if a component cannot be evaluated. @returns false if none is possible
   bool go(const SteadyRotation& rotation, const State& from, double part, State& state) {
     constexpr double least = 0.1;
     const int n = system_.dofs() + system_.first_orders();
@@ -170,9 +170,9 @@ class RotationEquilibrium {
     return convergence_.reached(r, scale);
   }
 
-  /// How loose motions are held: by inertia against displacements (hold_loose); or, where that finds nothing, by
-  /// inertia and Coriolis forces of a small rate. These keep directions apart where D(0) is nearly singular on the way,
-  /// as with elements that are too long for their tension.
+  /// Methods to hold indifferent motions: by inertia against displacements (hold_loose); or, if this fails, by inertia
+  /// and Coriolis forces of a small rate. These separate directions if D(0) is nearly singular on the way, as with
+  /// elements that are too long for their tension.
   enum class Hold { displacements, rates };
 
   const System& system_;
@@ -183,7 +183,7 @@ class RotationEquilibrium {
   VectorX step_;  ///< (size)
 };
 
-/// What keeps the mechanism from turning as a whole.
+/// Throws if some component prevents the rotation of the whole mechanism.
 void check_turns(const System& system, const Environment& environment, const SteadyRotation& rotation,
                  const State& state) {
   const double rate = rotation.omega.norm(), length = model_length(state);
@@ -210,8 +210,8 @@ void check_turns(const System& system, const Environment& environment, const Ste
   }
 }
 
-/// How far nodes have turned or moved relative to the mechanism's size: an increment that leads far may have led to
-/// another equilibrium than the one that the path goes through.
+/// Largest rotation or displacement of a node relative to the mechanism's size: a large increment may have led to
+/// another equilibrium than that of the path.
 double farthest_between(const State& a, const State& b) {
   const double length = model_length(a);
   double most = 0;
@@ -225,7 +225,7 @@ double farthest_between(const State& a, const State& b) {
 
 void settle_in_rotation(const System& system, const Environment& environment, const SteadyRotation& rotation,
                         State& state) {
-  // Increments of the square of the speed, to which the forces of inertia are proportional.
+  // The square of the speed is incremented, because inertial forces are proportional to it.
   constexpr double least = 1.0 / 4096, far = 0.15;
   RotationEquilibrium equilibrium(system, environment);
   double made = 0, part = 1;

@@ -1,4 +1,4 @@
-// Complex variations of a state as components and nodes see them.
+// Complex variations of a state as seen by components and nodes.
 #pragma once
 
 #include <complex>
@@ -7,20 +7,20 @@
 
 namespace bielle::mechanism {
 
-/// What belongs to u exp(s t), see equations.hpp.
+/// Variation due to u exp(s t), see equations.hpp.
 struct Variation {
   Eigen::VectorXcd u;           ///< (n) increments of dofs and first-order unknowns
   Eigen::VectorXcd rate;        ///< (n) variations of their rates
-  Eigen::VectorXcd multiplier;  ///< of all multipliers of the system; or none
+  Eigen::VectorXcd multiplier;  ///< variations of all multipliers of the system; or empty
 };
 
-/// Increments [dx; dTheta] and variations of velocities [dv; dOmega] of a node, carried ones included.
+/// Increments [dx; dTheta] and variations of velocities [dv; dOmega] of a node, also of carried ones.
 struct NodeVariation {
   Eigen::Matrix<std::complex<double>, 6, 1> position, rate;
 };
 NodeVariation node_variation(const System& system, const State& state, const Variation& variation, int node);
 
-/// Variations over a component's local layout, what it refers to included.
+/// Variations over a component's local layout, including its references.
 struct LocalVariation {
   Eigen::VectorXcd position, rate;
 };

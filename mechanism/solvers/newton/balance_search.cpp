@@ -41,8 +41,8 @@ BalanceSearch::BalanceSearch(const System& system) : system_(system) {
   local_.setZero(largest);
 }
 
-/// The balances among the first-order rows of a local vector, those of what it refers to included.
-/// @param row  where the slots' own local vector begins in it
+/// Adds the balances among the first-order rows of a local vector, including those of its references.
+/// @param row  first row of the slots' own local vector in it
 void BalanceSearch::note_rows(const Slots& slots, int row, Member& member) const {
   for (std::size_t k = 0; k < balances_.size(); ++k) {
     const int own = balances_[k].unknown - slots.first_order_begin;
@@ -85,7 +85,7 @@ bool BalanceSearch::beyond_bounds(const State& state) const {
   });
 }
 
-/// To 1e-12 of the flows, or to what rounding of the unknowns makes of them.
+/// Whether f is zero to 1e-12 of the flows, or to the rounding of the unknowns.
 bool BalanceSearch::balanced() const {
   constexpr double accurate = 1e-12, rounding = 10 * std::numeric_limits<double>::epsilon();
   for (Eigen::Index i = 0; i < f_.size(); ++i) {
@@ -95,10 +95,10 @@ bool BalanceSearch::balanced() const {
   return true;
 }
 
-/// @returns false where the balances fall along it: they are none, then
+/// @returns false if the balances decrease along the direction: they are then no balances
 bool BalanceSearch::set_direction() {
-  // Far below what changes Newton's direction, far above the rounding of a group of junctions that are joined with each
-  // other and with nothing else.
+  // The factors are far below values that change Newton's direction, and far above the rounding of a group of junctions
+  // that are only joined with each other.
   constexpr double own = 1e-9, of_all = 1e-12;
   const double most = J_.cwiseAbs().maxCoeff();
   if (!std::isfinite(most) || most == 0) return false;
@@ -115,7 +115,7 @@ void BalanceSearch::move(State& state, double part) const {
   }
 }
 
-/// d . f, to which a component's refusal is infinite: not so far, then.
+/// Returns d . f, infinite if a component cannot be evaluated: the step must then be shorter.
 double BalanceSearch::slope(State& state, const Environment& environment, double part) {
   move(state, part);
   try {
@@ -127,7 +127,8 @@ double BalanceSearch::slope(State& state, const Environment& environment, double
   return std::isfinite(slope) ? slope : infinity;
 }
 
-/// The part of the direction until an unknown comes to one of its bounds. @param first  which one
+/// Returns the fraction of the direction at which an unknown reaches one of its bounds. @param first  receives this
+/// unknown
 double BalanceSearch::longest_part(int& first) const {
   double longest = infinity;
   for (std::size_t k = 0; k < balances_.size(); ++k) {
@@ -142,9 +143,9 @@ double BalanceSearch::longest_part(int& first) const {
   return longest;
 }
 
-/// Moves along the direction to where the slope has become small.
+/// Moves along the direction until the slope has become small.
 BalanceSearch::Way BalanceSearch::go(State& state, const Environment& environment) {
-  constexpr double newton = 0.5, exact = 0.1;  // of the slope at the beginning, that may be left
+  constexpr double newton = 0.5, exact = 0.1;  // permitted fraction of the initial slope
   constexpr double growth = 8;
   const double before = std::abs(d_.dot(f_));
   int first = 0;
@@ -162,10 +163,10 @@ BalanceSearch::Way BalanceSearch::go(State& state, const Environment& environmen
   return Way::blocked;
 }
 
-/// The slope is below zero at `low`, above it at `high`.
+/// Bisects between `low`, with a slope below zero, and `high`, with a slope above zero.
 BalanceSearch::Way BalanceSearch::bracket(State& state, const Environment& environment, double low, double high,
                                           double enough) {
-  constexpr double nothing = 1e-3;  // [units of the unknowns]: no way is shorter
+  constexpr double nothing = 1e-3;  // [units of the unknowns]: smaller steps end the search
   constexpr int most = 200;
   const double least = nothing / std::max(d_.cwiseAbs().maxCoeff(), nothing);
   for (int k = 0; k < most; ++k) {
@@ -182,7 +183,7 @@ BalanceSearch::Way BalanceSearch::bracket(State& state, const Environment& envir
 
 /// Every value up to the bound of one of the unknowns leaves the balance on the same side.
 void BalanceSearch::explain(int blocked) {
-  // Junctions that are joined move together.
+  // Joined junctions move together.
   constexpr double together = 0.5;
   double left = 0;
   for (Eigen::Index i = 0; i < d_.size(); ++i)
@@ -212,7 +213,7 @@ bool BalanceSearch::find(const Environment& environment, State& state) {
       if (go(state, environment) != Way::found) break;
     }
   } catch (const ComputationError&) {
-    // refused by a component where the search stood
+    // a component cannot be evaluated at the present values
   }
   state.first_order = before;
   return false;

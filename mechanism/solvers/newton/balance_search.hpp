@@ -1,12 +1,13 @@
 // Searches for unknowns whose equations are balances (FlowBalance): pressures of junctions without volume.
 //
-//     f_i(y) = 0,      f_i never falls as y_i grows, and is flat where nothing flows
-// With the other unknowns as they are. Newton's direction d solves (df/dy + e) d = -f, e a little that makes flat
-// ranges long ways in place of endless ones. Along it the slope s(t) = d . f(y + t d) begins below zero and, because f
-// never falls, crosses zero once at most: that crossing is bracketed between the bounds of the unknowns, by geometric
-// bisection first, since a valve may open after a millionth of the way. If f is the gradient of a convex function, as
-// flows that follow pressure differences are (its "content": W. Millar, Phil. Mag. 42 (1951) 1150), Newton's method
-// with this search converges from everywhere; if s stays below zero up to the bounds, nothing balances.
+//     f_i(y) = 0,      f_i never decreases as y_i grows, and is constant without flow
+// The other unknowns are fixed. Newton's direction d solves (df/dy + e) d = -f with a small e, so that constant ranges
+// give long steps instead of infinite ones. Along it the slope s(t) = d . f(y + t d) begins below zero and, because f
+// never decreases, changes its sign at most once: this zero is bracketed between the bounds of the unknowns, by
+// geometric bisection first, since a valve may open after a millionth of the distance. If f is the gradient of a convex
+// function, as it is for flows that are functions of pressure differences (its "content": W. Millar, Phil. Mag. 42
+// (1951) 1150), Newton's method with this search converges globally; if s stays below zero up to the bounds, there is
+// no balance.
 #pragma once
 
 #include <string>
@@ -21,29 +22,30 @@ namespace bielle::mechanism {
 
 class BalanceSearch {
  public:
-  /// Keeps a reference.
+  /// The object keeps a reference.
   explicit BalanceSearch(const System& system);
   bool empty() const { return balances_.empty(); }  ///< no equation is a balance
 
-  /// Whether a balance's unknown is beyond its bounds: no solution, but a residual that rounding hides.
+  /// Whether a balance's unknown is beyond its bounds: such a value is no solution, even if rounding hides the
+  /// residual.
   bool beyond_bounds(const State& state) const;
-  /// Brings the balances of a state to zero by their own unknowns alone.
-  /// @returns whether they were found; otherwise the state is as it was, and `why` tells
+  /// Solves the balances of a state for their own unknowns only.
+  /// @returns whether they were found; otherwise the state is unchanged, and `why` gives the reason
   bool find(const Environment& environment, State& state);
-  /// Why the last search found nothing: "0.0001 m^3/s are left for pressure of junction 'j': more flows in than ..".
-  /// Empty where it found something, or did not settle.
+  /// The reason why the last search failed: "0.0001 m^3/s are left for pressure of junction 'j': more flows in than
+  /// ..". It is empty if the search succeeded, or did not converge.
   const std::string& why() const { return why_; }
 
  private:
   /// An unknown and its equation.
   struct Balance {
-    int unknown;  ///< among the first-order unknowns
+    int unknown;  ///< index among the first-order unknowns
     FlowBalance::Range range;
   };
   /// A member that adds to the balances.
   struct Member {
     std::size_t number;
-    std::vector<std::pair<int, int>> rows;  ///< local row, number of the balance
+    std::vector<std::pair<int, int>> rows;  ///< local row, and number of the balance
     bool has_tangent;
   };
   enum class Way { found, blocked, refused };
@@ -61,7 +63,7 @@ class BalanceSearch {
   const System& system_;
   std::vector<Balance> balances_;
   std::vector<Member> members_;
-  VectorX f_, terms_, y_, d_;  ///< of the balances: values, sums of the sizes of their terms, unknowns, direction
+  VectorX f_, terms_, y_, d_;  ///< values of the balances, sums of the sizes of their terms, unknowns, direction
   MatrixX J_;                  ///< df/dy
   VectorX local_;
   MatrixX K_, unused_;

@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double rounding_of_a_sum = 10 * std::numeric_limits<double>::epsilon();  // of some ten terms
+constexpr double rounding_of_a_sum = 10 * std::numeric_limits<double>::epsilon();  // for about ten terms
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void Convergence::measure_rounding(const LinearStep& linear, const State& state)
   const double length = model_length(state);
   unknown_scale_.resize(n);
   for (int i = 0; i < scalars; ++i) unknown_scale_[i] = system_.kind(i) == Kind::translation ? length : 1;
-  // Of scalars that have no scale, the largest of their kind.
+  // Scalars without a scale use the largest of their kind.
   int begin = scalars;
   for (const VectorX* values : {&state.amplitude, &state.first_order, &state.multiplier}) {
     double largest = 0;
@@ -116,7 +116,7 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
   const Tolerances allowed = tolerances(scale);
   for (int i = 0; i < system_.size(); ++i) {
     const double residual = std::abs(r[i]);
-    // Only what may be worse than the worst so far is divided.
+    // The ratio is only computed if it may exceed the largest so far.
     const double most = allowed[static_cast<std::size_t>(judged_by_[static_cast<std::size_t>(i)])] + floor_[i];
     if (residual == 0 || residual <= worst_ratio_ * most) continue;
     worst_ratio_ = residual / most;
@@ -130,7 +130,7 @@ bool Convergence::reached(const Eigen::Ref<const VectorX>& r, const ResidualScal
 bool Convergence::out_of_reach(double size, const ResidualScale& scale) const {
   if (!measured_) return false;
   const Tolerances allowed = tolerances(scale);
-  double growth = 1;  // of the tolerances since
+  double growth = 1;  // growth of the tolerances since then
   for (std::size_t k = 0; k < kind_count; ++k)
     if (allowed[k] > measured_by_[k] * growth) growth = allowed[k] / measured_by_[k];
   constexpr double rounding = 1e-9;
@@ -142,7 +142,7 @@ void Convergence::measure_by(const ResidualScale& scale) {
   measure_.resize(system_.size());
   for (int i = 0; i < system_.size(); ++i) {
     const double most = allowed[static_cast<std::size_t>(judged_by_[static_cast<std::size_t>(i)])] + floor_[i];
-    // What is allowed less than the least normal number counts for nothing: its inverse would be none.
+    // Tolerances below the smallest normal number are ignored, because their inverse would overflow.
     measure_[i] = most > std::numeric_limits<double>::min() ? 1 / most : 0;
   }
   measured_ = true;

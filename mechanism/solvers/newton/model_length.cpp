@@ -12,7 +12,7 @@ double model_length(const State& state) {
 }
 
 double spread(const State& state) {
-  constexpr double rounding = 1e-13;  // of positions that formulas place at the same point
+  constexpr double rounding = 1e-13;  // rounding of positions that formulas place at the same point
   Eigen::AlignedBox3d box;
   for (std::size_t i = 1; i < state.nodes.size(); ++i) box.extend(state.nodes[i].x);
   const double length = state.nodes.size() > 1 ? box.diagonal().norm() : 0;

@@ -15,10 +15,10 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Whether everything holds as it is: the everyday case, told without factorising anything.
+/// Whether all conditions are satisfied initially: the most frequent case, checked without a factorisation.
 bool holds(const System& system, const Environment& environment, const State& state,
            const StartConditions& conditions) {
-  constexpr double satisfied = 1e-13, repeated = 1e-6;  // of those that repeat others, as check_set_aside()
+  constexpr double satisfied = 1e-13, repeated = 1e-6;  // limit for redundant constraints, as in check_set_aside()
   std::vector<bool> redundant(static_cast<std::size_t>(system.multipliers()), false);
   bool any_redundant = false;
   system.for_each_redundant(
@@ -47,8 +47,8 @@ bool holds(const System& system, const Environment& environment, const State& st
   return true;
 }
 
-/// Turns parts of members whose directions are more than a quarter turn off.
-/// @returns the state with them turned; nothing where none is, or none can be
+/// Rotates parts of members whose directions are off by more than a quarter turn.
+/// @returns the state with rotated parts; no value if there is none, or none can be rotated
 std::optional<State> turned_right(const System& system, const Environment& environment, const State& drawn,
                                   const std::vector<int>& kept_nodes) {
   constexpr double quarter = M_PI / 2;
@@ -59,7 +59,7 @@ std::optional<State> turned_right(const System& system, const Environment& envir
     if (slots.multipliers == 0) continue;
     const Vector3 turn = system.model().members()[m].component->misalignment(LocalState(drawn, slots, environment));
     if (turn.norm() < quarter) continue;
-    // The second node if it is free to turn, otherwise the first one, the other way.
+    // The second node is rotated if it is free, otherwise the first one, in the opposite direction.
     for (const std::size_t k : {1U, 0U}) {
       const Carry* carry = system.kinematics().carry(slots.nodes[k]);
       const int root = carry ? carry->carrier : slots.nodes[k];
@@ -105,8 +105,8 @@ class PositionAssembly {
   }
 
  private:
-  /// Closes it from a state. What has a given rate stays where it is, if it can; constraints that repeat others take
-  /// part, unless they only seemed to repeat them.
+  /// Closes the gaps from a state. Nodes with given rates are held if possible; redundant constraints are included,
+  /// unless they only seemed to be redundant.
   bool close(State& state) {
     const State from = state;
     std::string why;
@@ -126,7 +126,7 @@ class PositionAssembly {
     return false;
   }
 
-  /// Tries from the state, from a shaken one, and with bodies that have no stiffness at first.
+  /// Tries to close the gaps from the state, from a perturbed one, and with bodies that initially have no stiffness.
   bool close(ClosingEquations& equations, State& state, std::string& why) const {
     const State from = state;
     std::optional<State> nearest;
@@ -159,7 +159,7 @@ class PositionAssembly {
     return false;
   }
 
-  /// Whether constraints that were set aside hold.
+  /// Whether constraints that were set aside are satisfied.
   bool repeated_hold(State state) const {
     settle_idle(state);
     try {

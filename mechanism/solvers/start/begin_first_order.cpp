@@ -6,7 +6,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Adds a local vector's part of first-order rows to the unknowns. @returns whether one of them moved
+/// Adds a local vector's part of first-order rows to the unknowns. @returns whether one of them changed
 bool move_first_order(const Slots& slots, const double* local, State& state) {
   bool moved = false;
   for (int k = 0; k < slots.first_orders; ++k) {
@@ -21,7 +21,7 @@ bool move_first_order(const Slots& slots, const double* local, State& state) {
   return moved;
 }
 
-/// Members that have start values to give.
+/// Finds the members that have start values.
 std::vector<std::size_t> find_beginning(const System& system) {
   std::vector<std::size_t> beginning;
   if (system.first_orders() == 0) return beginning;
@@ -38,7 +38,7 @@ std::vector<std::size_t> find_beginning(const System& system) {
 bool begin_first_order(const System& system, const Environment& environment, State& state) {
   const std::vector<std::size_t> beginning = find_beginning(system);
   bool moved = false;
-  // Each pass settles one more of a chain.
+  // Each pass determines at least one more unknown of a chain.
   for (std::size_t pass = 0; pass <= beginning.size(); ++pass) {
     bool now = false;
     for (const std::size_t m : beginning) {

@@ -26,7 +26,7 @@ void BranchSign::choose_rows(const State& state) {
     entries.emplace_back(row[static_cast<std::size_t>(of - first)], column);
     places_.push_back(place);
   });
-  // Both go by columns with ascending rows: the places are in the order of the new pattern.
+  // Both are ordered by columns with ascending rows: the places are in the order of the new pattern.
   pattern_ = std::make_unique<SparsePattern>(rows, std::move(entries));
   factors_ = std::make_unique<SparseLU>(*pattern_);
 }
@@ -45,7 +45,7 @@ int BranchSign::sign_at(const Environment& environment, const State& state) {
   return known_sign_;
 }
 
-/// Steps follow each other: one's end is the next one's beginning.
+/// The end of a step is usually the beginning of the next one.
 bool BranchSign::is_known(const State& state) const {
   if (state.time != known_time_ || known_at_.size() != state.nodes.size()) return false;
   for (std::size_t i = 0; i < known_at_.size(); ++i)

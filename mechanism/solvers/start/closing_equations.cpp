@@ -41,7 +41,7 @@ ClosingEquations::ClosingEquations(const System& system, const Environment& envi
   choose_rows(who);
   make_pattern(state);
   weigh(state);
-  // Forces of elastic parts as they are drawn stay as they are; what the motion adds is relaxed.
+  // Initial forces of elastic parts are preserved; forces due to the motion are relaxed.
   system.residual(at_rest(state), unloaded_, drawn_);
 }
 
@@ -117,7 +117,7 @@ State ClosingEquations::shaken(const State& state) const {
   VectorX dq = VectorX::Zero(system_.dofs());
   for (int i = 0; i < system_.dofs(); ++i) {
     if (still_[static_cast<std::size_t>(i)]) continue;
-    const double share = std::sin(1 + 1.7 * i);  // in no direction's favour
+    const double share = std::sin(1 + 1.7 * i);  // not aligned with any direction
     if (system_.kind(i) == Kind::rotation) dq[i] = angle * share;
     if (system_.kind(i) == Kind::translation) dq[i] = 2 * part * half_extent_ * share;
   }
@@ -176,8 +176,8 @@ void ClosingEquations::assemble(const State& state, const VectorX* forces) {
       values_[static_cast<std::size_t>(pattern_.find(dof, row))] += value;
     }
   }
-  if (forces && metric_.size() > 0) return;  // it is that of the bodies
-  // Mean stiffness of each kind of dof. What has none takes it from the other by the mechanism's size.
+  if (forces && metric_.size() > 0) return;  // the metric is that of the bodies
+  // Mean stiffness of each kind of dof. A kind without stiffness takes it from the other kind by the mechanism's size.
   std::array<double, kind_count> mean{}, count{};
   for (int i = 0; i < system_.dofs(); ++i) {
     const auto kind = static_cast<std::size_t>(system_.kind(i));

@@ -12,11 +12,11 @@ using Gaps = ClosingEquations::Gaps;
 
 constexpr double satisfied = 1e-13;   // relative to the constraint's size
 constexpr double relaxed = 1e-7;      // motion of the last iteration relative to the mechanism's size
-constexpr double most_turn = 0.3;     // [rad] of a node per iteration
-constexpr double near_by = 1e-4;      // gaps relative to the mechanism's size that steps may open on the way
-constexpr double floor_part = 1e-10;  // parts as slender as 1e4 turn rather than bend
+constexpr double most_turn = 0.3;     // [rad] rotation of a node per iteration
+constexpr double near_by = 1e-4;      // gaps relative to the mechanism's size that a step may open temporarily
+constexpr double floor_part = 1e-10;  // parts with a slenderness of 1e4 rotate rather than bend
 constexpr int most_iterations = 150, most_halvings = 5;
-// Of the damping C, relative to the stiffness and weight of each row.
+// Values of the damping C, relative to the stiffness and weight of each row.
 constexpr double least_damping = 1e-2, first_damping = 1e4, most_damping = 1e14;
 
 /// Largest rotation of a step, and its largest displacement relative to the mechanism's size.
@@ -54,7 +54,7 @@ class ClosingNewton {
   bool run() {
     double motion = 0;
     constexpr int patience = 3;
-    int stagnant = 0;  // iterations since the worst gap has been halved
+    int stagnant = 0;  // iterations since the largest gap was last halved
     double reached = std::numeric_limits<double>::infinity();
     for (int iteration = 0;; ++iteration) {
       gaps_ = equations_.measure(state_);
@@ -70,7 +70,7 @@ class ClosingNewton {
   }
 
  private:
-  /// Whether gaps have hardly shrunk over the last iterations although they are large.
+  /// Whether large gaps have hardly decreased over the last iterations.
   bool stands_still() {
     constexpr std::size_t iterations = 15;
     constexpr double hardly = 0.98;
@@ -80,7 +80,7 @@ class ClosingNewton {
            gaps_.squared > hardly * history_[history_.size() - 1 - iterations];
   }
 
-  /// Moves the state. @param motion  receives the size of the full step @returns false when nothing helps
+  /// Moves the state. @param motion  receives the size of the full step @returns false if no step reduces the gaps
   bool step(double& motion) {
     for (; damping_ <= most_damping; damping_ = std::max(first_damping, 1e3 * damping_)) {
       const VectorX compliance = compliance_of(equations_, damping_);
@@ -98,7 +98,7 @@ class ClosingNewton {
         if (!accepted(gaps, linear)) continue;
         state_ = std::move(trial);
         motion = std::max(size.turn, size.displacement);
-        // Rigid bodies need none, and those that only repeat others disturb them.
+        // Rigid bodies need no known multipliers, and redundant constraints are disturbed by them.
         const bool holds = equations_.any_stiffness() && part == 1 && damping_ == least_damping;
         known_ = holds ? mu : VectorX::Zero(mu.size());
         if (halving == 0) damping_ = damping_ > first_damping ? damping_ / 30 : least_damping;
@@ -108,7 +108,7 @@ class ClosingNewton {
     return false;
   }
 
-  /// Gaps shrink by a part of what the linear equations promise, or are small anyhow.
+  /// Whether gaps decrease by a fraction of the prediction of the linear equations, or are small anyway.
   bool accepted(const Gaps& gaps, const VectorX& linear) const {
     constexpr double part = 0.1;
     if (!std::isfinite(gaps.squared)) return false;
@@ -122,7 +122,7 @@ class ClosingNewton {
   ClosingEquations& equations_;
   State& state_;
   Gaps gaps_;
-  VectorX known_;  ///< multipliers
+  VectorX known_;  ///< known multipliers
   std::vector<double> history_;
   double damping_ = least_damping;
 };
@@ -138,7 +138,7 @@ VectorX gather_gaps(ClosingEquations& equations, const std::vector<bool>& soft, 
   constexpr int iterations = 100;
   const System& system = equations.system();
   VectorX compliance, forces;
-  // Half the sum of squared gaps, each by its stiffness: what the rows store as springs.
+  // Half the sum of squared gaps, each times its stiffness: the energy of the rows as springs.
   const auto energy = [&](const Gaps& gaps) { return 0.5 * gaps.values.cwiseAbs2().cwiseQuotient(compliance).sum(); };
   double floor = floor_part;
   for (int iteration = 0; iteration < iterations; ++iteration) {
@@ -153,14 +153,15 @@ VectorX gather_gaps(ClosingEquations& equations, const std::vector<bool>& soft, 
     const double before = energy(gaps);
     bool found = false;
     double motion = 0;
-    // The geometric stiffness makes it Newton's method; where that leads upwards, it is left out, and steps are damped.
+    // With the geometric stiffness this is Newton's method; if it increases the energy, the geometric stiffness is
+    // omitted, and steps are damped.
     for (bool geometric = true; !found && floor < 1e4; geometric = false) {
       equations.assemble(state, geometric ? &forces : nullptr);
       VectorX dq, dy, mu;
       if (equations.factor(compliance, floor)) {
         equations.solve(gaps.values, dq, dy, mu);
         const StepSize size = size_of(system, dq, 2 * equations.half_extent());
-        // B dq = C mu - Phi: how the energy grows along the step.
+        // B dq = C mu - Phi: the slope of the energy along the step.
         const double slope = forces.dot(VectorX(compliance.cwiseProduct(mu) - gaps.values));
         double part = size.turn > most_turn ? most_turn / size.turn : 1;
         for (int halving = 0; dq.allFinite() && slope < 0 && halving <= most_halvings; ++halving, part /= 2) {

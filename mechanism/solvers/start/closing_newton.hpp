@@ -1,19 +1,20 @@
-// Newton's method for the closing of loops, damped: see assemble_positions.hpp.
+// Damped Newton's method for the closing of loops: see assemble_positions.hpp.
 #pragma once
 
 #include "mechanism/solvers/start/closing_equations.hpp"
 
 namespace bielle::mechanism {
 
-/// Whether a state is closed to rounding as it is.
+/// Whether a state is closed to rounding.
 bool is_closed(const ClosingEquations::Gaps& gaps);
 
-/// Closes gaps from a state. @returns whether they are closed; otherwise the state is where they shrink no further
+/// Closes the gaps from a state. @returns whether they are closed; otherwise the state is the one at which they do not
+/// decrease any more
 bool close_gaps(ClosingEquations& equations, State& state);
 
-/// Brings what gaps there are together in one member or condition, the others held.
+/// Moves the existing gaps to one member or condition, with the others satisfied.
 /// @param soft  rows that may open
-/// @returns the forces with which the rows pull on each other (rows): what disagrees has some
+/// @returns the forces between the rows (rows): contradictory rows have nonzero ones
 VectorX gather_gaps(ClosingEquations& equations, const std::vector<bool>& soft, State& state);
 
 }  // namespace bielle::mechanism

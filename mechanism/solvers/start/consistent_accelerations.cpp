@@ -19,7 +19,7 @@ namespace {
 
 class AccelerationEquations {
  public:
-  /// From where the search for the accelerations begins.
+  /// Initial guess of the search for the accelerations.
   enum class From { nothing, state };
   AccelerationEquations(const System& system, const Environment& environment, State& state, MassSaddle& saddle,
                         From from)
@@ -46,11 +46,11 @@ class AccelerationEquations {
     evaluate();
   }
 
-  /// All unknowns enter linearly.
+  /// Solves the case in which all unknowns enter linearly.
   void solve_linear() {
     if (!saddle_.serves()) return solve_afresh();
-    // Factors of nearby positions: refined until what is left is rounding. (Differences of such accelerations are
-    // taken.)
+    // Factors of nearby positions are used with refinement until the residual is only rounding. (Differences of such
+    // accelerations are computed.)
     constexpr int most = 20;
     constexpr double rounding = 1e-11;
     double before = std::numeric_limits<double>::infinity();
@@ -75,7 +75,7 @@ class AccelerationEquations {
     try {
       left = iterate_for_algebraic(nullptr);
     } catch (const ComputationError&) {
-      refusal = std::current_exception();  // singular, or refused by a component
+      refusal = std::current_exception();  // singular, or a component cannot be evaluated
     }
     BalanceSearch search(system_);
     if (left == 0 && !search.beyond_bounds(state_)) return;
@@ -83,7 +83,7 @@ class AccelerationEquations {
       if (refusal) std::rethrow_exception(refusal);
       throw_unsolved(left, {});
     }
-    // Once more, with the balances that may be flat searched for at each iterate.
+    // The search is repeated, with a search for balances that may be constant at each iterate.
     state_ = begun;
     a_ = a_begun;
     evaluate();
@@ -91,8 +91,9 @@ class AccelerationEquations {
     if (left > 0 || search.beyond_bounds(state_)) throw_unsolved(left, search.why());
   }
 
-  /// Forces depend on multipliers: from the solution of a state nearby, with the factors of where it begins.
-  /// @returns whether it has been found; otherwise the state is as it was
+  /// Forces depend on multipliers: the search starts from the solution of a state nearby, with the factors of its
+  /// start.
+  /// @returns whether it has been found; otherwise the state is unchanged
   bool continue_with_reactions() {
     constexpr int most = 8;
     const State begun = state_;
@@ -111,16 +112,16 @@ class AccelerationEquations {
         evaluate();
       }
     } catch (const ComputationError&) {
-      // refused by a component
+      // a component cannot be evaluated
     }
     state_ = begun;
     a_ = a_begun;
     return false;
   }
 
-  /// Forces depend on multipliers.
+  /// Solves the case in which forces depend on multipliers.
   void solve_with_reactions() {
-    // First as if they did not: with the multipliers of zero in them.
+    // The first solution ignores the dependence: multipliers are zero in the forces.
     saddle_.factor(environment_, state_);
     const int without = saddle_.determinant_sign();
     solve();
@@ -132,7 +133,7 @@ class AccelerationEquations {
     const VectorX guess = state_.multiplier;
     const State first = state_;
     const VectorX a_first = a_;
-    // From the reactions of a moment ago, where there are any: few change much at an event.
+    // The next initial guess are the earlier reactions, if there are any: few change much at an event.
     if (known_.allFinite() && !known_.isZero(0)) {
       state_.multiplier = known_;
       system_.for_each_idle(state_, [&](int multiplier) { state_.multiplier[multiplier] = 0; });
@@ -140,7 +141,7 @@ class AccelerationEquations {
     const Search found = search();
     const State solution = state_;
     const VectorX a_solution = a_;
-    // Once more from reactions of the opposite sign.
+    // The search is repeated from reactions of the opposite sign.
     state_ = first;
     a_ = a_first;
     state_.multiplier = -guess;
@@ -162,7 +163,7 @@ class AccelerationEquations {
     saddle_.factor(environment_, state_);
     solve();
     move(1);
-    saddle_.serve_no_more();  // those who ask for factors that serve may mean other positions
+    saddle_.serve_no_more();  // other positions may follow
   }
 
   void evaluate() {
@@ -175,13 +176,13 @@ class AccelerationEquations {
     system_.for_each_idle(state_, [&](int multiplier) { r_[system_.size() - m + multiplier] = 0; });
   }
 
-  /// The step of Newton's method with the last factors.
+  /// Computes the step of Newton's method with the last factors.
   void solve() {
     saddle_.solve(r_, step_);
     const VectorX& floor = saddle_.floor();
     if (!(floor.array() > 0).any()) return;
-    // Forces that nothing but the floor balances would be accelerations without end. They equal floor times
-    // acceleration (to the size of the floor everywhere else): take them out.
+    // Forces that only the floor of the masses balances would cause unlimited accelerations. They equal floor times
+    // acceleration (up to the size of the floor everywhere else), and are removed.
     r_.head(system_.dofs()) += floor.cwiseProduct(step_.head(system_.dofs()));
     saddle_.solve(r_, step_);
   }
@@ -198,7 +199,7 @@ class AccelerationEquations {
     state_.multiplier += part * step_.tail(system_.multipliers());
   }
 
-  /// The last step relative to what it has led to, by kinds of unknowns.
+  /// Returns the size of the last step relative to the result, by kinds of unknowns.
   double size_of_all() const {
     std::array<double, kind_count> step{}, whole{};
     const auto note = [&](int unknown, double change, double value) {
@@ -211,11 +212,11 @@ class AccelerationEquations {
     for (int i = 0; i < y; ++i)
       note(n + i, step_[n + i], std::max(std::abs(state_.first_order_rate[i]), std::abs(state_.first_order[i])));
     for (int i = 0; i < system_.multipliers(); ++i) note(n + y + i, step_[n + y + i], state_.multiplier[i]);
-    // Kinds of which nothing is left are measured by the others: accelerations by the model's length, forces by masses.
+    // Kinds without nonzero values are measured by the others: accelerations by the model's length, forces by masses.
     const auto kind_of = [](Kind kind) { return static_cast<std::size_t>(kind); };
     double &translation = whole[kind_of(Kind::translation)], &rotation = whole[kind_of(Kind::rotation)],
            &multiplier = whole[kind_of(Kind::multiplier)];
-    // What forces hold in place has accelerations of rounding alone.
+    // Parts held in place by forces have accelerations of rounding only.
     translation = std::max({translation, rotation * length_, multiplier / saddle_.scale()});
     rotation = std::max(rotation, translation / length_);
     multiplier = std::max(multiplier, translation * saddle_.scale());
@@ -228,28 +229,27 @@ class AccelerationEquations {
   struct Search {
     bool converged = false;
     int determinant_sign = 0;
-    int worst = -1;                                   ///< the multiplier of the longest last step
-    bool any_positive = false, any_negative = false;  ///< determinants on the way
+    int worst = -1;                                   ///< the multiplier with the longest last step
+    bool any_positive = false, any_negative = false;  ///< signs of determinants during the search
     void note(int sign) {
       determinant_sign = sign;
       any_positive = any_positive || sign > 0;
       any_negative = any_negative || sign < 0;
     }
-    /// Whether the determinant had another sign on the way than without forces that depend on reactions.
+    /// Whether the determinant had another sign during the search than without forces that depend on reactions.
     bool flips(int without) const { return without > 0 ? any_negative : any_positive; }
   };
 
-  /// Whether Newton's method is at its end: by the size of its last step, or because rounding (of forces of stiff
-  /// parts, of reactions that nearly repeat each other) lets steps become no shorter. Other solutions are much farther
-  /// away.
-  /// @param before  the size of the step before
+  /// Whether Newton's method has converged: by the size of its last step, or because rounding (of forces of stiff
+  /// parts, of nearly redundant reactions) prevents shorter steps. Other solutions are much farther away.
+  /// @param before  size of the previous step
   static bool settled(double size, double before) {
     constexpr double accurate = 1e-11, rounding = 1e-8;
     return size <= accurate || (size <= rounding && size > 0.5 * before);
   }
 
-  /// Newton's method with the derivatives by multipliers, from where the state is. Steps over kinks are halved where
-  /// the next one would be longer.
+  /// Newton's method with the derivatives by multipliers, from the present state. Steps over kinks are halved if the
+  /// next one would be longer.
   Search search() {
     constexpr int most = 50;
     Search result;
@@ -258,7 +258,7 @@ class AccelerationEquations {
       evaluate();
       for (int iteration = 0; iteration < most; ++iteration) {
         if (!saddle_.factor_with_reactions(environment_, state_)) {
-          result.any_positive = result.any_negative = true;  // between the two
+          result.any_positive = result.any_negative = true;  // the sign is between the two
           return result;
         }
         result.note(saddle_.determinant_sign());
@@ -281,7 +281,7 @@ class AccelerationEquations {
         const double size = size_of_all();
         if (settled(size, size_before)) {
           move(1);
-          // The branch that the solution lies on may be another than that of the last factors.
+          // The branch of the solution may differ from that of the last factors.
           if (saddle_.factor_with_reactions(environment_, state_)) result.note(saddle_.determinant_sign());
           result.converged = true;
           return result;
@@ -289,24 +289,24 @@ class AccelerationEquations {
         size_before = size;
       }
     } catch (const ComputationError&) {
-      // refused by a component
+      // a component cannot be evaluated
     }
     return result;
   }
 
-  /// Multipliers alone measure the search: they are what the forces depend on.
+  /// Only multipliers measure the convergence: the forces depend on them.
   VectorX weights() const {
     VectorX weights = VectorX::Zero(system_.size());
     weights.tail(system_.multipliers()).setOnes();
     return weights;
   }
 
-  /// Newton's method for the algebraic unknowns and all that depends on them.
-  /// @param search  of balances, or nullptr: none
-  /// @returns 0 when it has converged, else the number of iterations
+  /// Newton's method for the algebraic unknowns and all unknowns that depend on them.
+  /// @param search  search for balances, or nullptr: none
+  /// @returns 0 if it has converged, otherwise the number of iterations
   int iterate_for_algebraic(BalanceSearch* search) {
     constexpr int most = 50;
-    constexpr double accurate = 1e-9;  // the step: what is left after it is its square
+    constexpr double accurate = 1e-9;  // size of the step: the remaining error is its square
     if (search) balance(*search);
     saddle_.factor(environment_, state_);
     solve();
@@ -329,14 +329,14 @@ class AccelerationEquations {
     }
   }
 
-  /// There may be no balance while the other unknowns are not yet what they will be: then the state is taken as it is.
+  /// There may be no balance while the other unknowns have not converged: the state is then used unchanged.
   void balance(BalanceSearch& search) {
     search.find(environment_, state_);
     evaluate();
   }
 
-  /// What steps of the algebraic unknowns are compared with: their scales, where the search began, where it is. (From
-  /// zero, without a scale, the step is no smaller than itself.)
+  /// Sets the references for steps of the algebraic unknowns: their scales, initial and present values. (From zero,
+  /// without a scale, the reference is the step itself.)
   void measure() {
     for (std::size_t j = 0; j < size_.size(); ++j) {
       const int k = system_.algebraic()[j];
@@ -359,8 +359,8 @@ class AccelerationEquations {
     return most;
   }
 
-  /// Moves by as much of the step as makes the next one, with the same factors, shorter (P. Deuflhard, Newton Methods
-  /// for Nonlinear Problems, 2004, 3.3): nothing else compares residuals of different units.
+  /// Moves by a fraction of the step for which the next one, with the same factors, is shorter (P. Deuflhard, Newton
+  /// Methods for Nonlinear Problems, 2004, 3.3): there is no other way to compare residuals of different units.
   void shorten(double size) {
     const State base = state_;
     const VectorX a = a_, step = step_;
@@ -373,14 +373,14 @@ class AccelerationEquations {
         evaluate();
         solve();
       } catch (const ComputationError&) {
-        continue;  // refused by a component
+        continue;  // a component cannot be evaluated
       }
       if (size_of_step() <= (1 - part / 4) * size) break;
     }
     evaluate();
   }
 
-  /// @param why  a balance that was searched for in vain, or nothing
+  /// @param why  a balance that was not found, or empty
   [[noreturn]] void throw_unsolved(int iterations, const std::string& why) {
     if (!why.empty()) throw ComputationError(fmt::format("t = {:.6g} s: {}", state_.time, why));
     evaluate();
@@ -409,8 +409,8 @@ class AccelerationEquations {
     return system_.unknown_name(system_.size() - system_.multipliers() + multiplier);
   }
 
-  /// The names are those of the components that read the reactions of the multiplier's owner; if there are none, or no
-  /// multiplier is given, they are those of all components that read any reactions.
+  /// Returns the names of the components that read the reactions of the multiplier's owner; if there are none, or no
+  /// multiplier is given, those of all components that read any reactions.
   std::string names_of_readers(int multiplier) const {
     std::vector<std::string> names, all;
     for (std::size_t m = 0; m < system_.slots().size(); ++m) {
@@ -435,14 +435,14 @@ class AccelerationEquations {
         "contact some compliance, or make them weaker",
         names_of_readers(multiplier));
   }
-  /// @param multiplier  that is not unique; -1: it is not known which
+  /// @param multiplier  the multiplier that is not unique; -1: not known
   [[noreturn]] void throw_ambiguous(const std::string& how, int multiplier) const {
     throw ComputationError(fmt::format(
         "t = {:.6g} s: forces that depend on reactions leave more than one solution for the accelerations: {}{}",
         state_.time, how, advice(multiplier)));
   }
-  /// @param worst  the multiplier that the search could not settle; -1: it was refused before
-  /// @param paradox  the equations have turned singular between forces that do not depend on reactions and these
+  /// @param worst  the multiplier for which the search did not converge; -1: it could not be evaluated
+  /// @param paradox  the equations have become singular between forces that do not depend on reactions and these
   [[noreturn]] void throw_without_solution(int worst, bool paradox) const {
     const std::string where =
         worst < 0 ? std::string() : fmt::format(" (the search for {} did not settle)", multiplier_name(worst));
@@ -461,10 +461,10 @@ class AccelerationEquations {
   MassSaddle& saddle_;
   ReadReactions reactions_;
   double length_;
-  VectorX known_;  ///< multipliers of the state as it was given
+  VectorX known_;  ///< multipliers of the given state
   VectorX v_, a_, r_, step_;
-  VectorX begin_;             ///< first-order unknowns
-  std::vector<double> size_;  ///< of each algebraic unknown
+  VectorX begin_;             ///< initial first-order unknowns
+  std::vector<double> size_;  ///< for each algebraic unknown
   int worst_ = 0;
 };
 

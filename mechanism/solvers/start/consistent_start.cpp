@@ -15,7 +15,7 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// What cannot hold lets go, the most overloaded first.
+/// Releases overloaded holds, the most overloaded first.
 void release_overloaded(const System& system, const Environment& environment, State& state, StartReport& report,
                         MassSaddle& saddle) {
   const auto& crossings = system.crossings();
@@ -23,7 +23,7 @@ void release_overloaded(const System& system, const Environment& environment, St
   const bool any = std::any_of(crossings.begin(), crossings.end(), [](const auto& c) { return c.crossing.one_by_one; });
   if (!any) return;
   VectorX values(count);
-  // Each lets go once; what comes to hold again is the motion's to see.
+  // Each hold is released only once; holds that engage again are left to the motion.
   for (int k = 0; k < count; ++k) {
     system.calc_crossings(state, environment, values);
     int worst = -1;
@@ -59,7 +59,7 @@ StartReport make_consistent(const System& system, const Environment& environment
   begin_first_order(system, environment, state);
   refuse_holds(system, environment, state, active_holds(system, state), Overloaded::holds, saddle);
   make_accelerations_consistent(system, environment, state, saddle);
-  // What follows from reactions is known only now, and may change them.
+  // Start values that depend on reactions are known only now, and may change the reactions.
   constexpr int most = 20;
   for (int k = 0; k < most && begin_first_order(system, environment, state); ++k)
     make_accelerations_consistent(system, environment, state, saddle);

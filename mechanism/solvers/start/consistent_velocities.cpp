@@ -21,7 +21,8 @@ void make_velocities_consistent(const System& system, const Environment& environ
       if (system.kind(i) == Kind::translation)
         report.velocity_change = std::max(report.velocity_change, std::abs(step[i]));
     v += step.head(system.dofs());
-    // Impulses -B^T mu work on the way; what moves by itself, B v + c = 0, takes c mu from its drive.
+    // Impulses -B^T mu do work during the change; constraints with a prescribed motion, B v + c = 0, take c mu from
+    // their drive.
     system.set_rates(state, VectorX::Zero(system.dofs()), a);
     VectorX driven(system.multipliers());
     system.constraint_rates(state, environment, driven, unused);

@@ -1,9 +1,9 @@
-// Velocities that keep the constraints satisfied.
+// Velocities that satisfy the derivatives of the constraints.
 //
 //   [M B^T; B 0][dv; mu] = [0; -dPhi/dt]
 //
-// dv is the least change in the norm of the kinetic energy: what constraints that come into force stop, they stop by an
-// inelastic impulse.
+// dv is the smallest change in the norm of the kinetic energy: constraints that become active stop relative motion by
+// an inelastic impulse.
 #pragma once
 
 #include "mechanism/solvers/constraints/mass_saddle.hpp"
@@ -12,7 +12,7 @@
 namespace bielle::mechanism {
 
 /// Projects the state's velocities on the constraints.
-/// @param saddle  holds the factors of these positions afterwards
+/// @param saddle  contains the factors of these positions afterwards
 void make_velocities_consistent(const System& system, const Environment& environment, State& state, StartReport& report,
                                 MassSaddle& saddle);
 

@@ -20,9 +20,9 @@ State predicted(const System& system, const State& state, double time) {
 }
 
 bool ContinuousMotion::fits(const State& from, const State& to) {
-  constexpr double most = 0.6;         // of the larger one: the trapezoidal rule errs by h^2 w^2/12 of it
-  constexpr double invisible = 1e-9;   // that a step moves, relative to the extent
-  constexpr double standstill = 1e-6;  // relative to the fastest so far: a drive at rest is so but for rounding
+  constexpr double most = 0.6;         // relative to the larger one: the trapezoidal rule has an error of h^2 w^2/12
+  constexpr double invisible = 1e-9;   // motion of a step, relative to the extent
+  constexpr double standstill = 1e-6;  // relative to the fastest so far: a drive at rest moves only by rounding
   VectorX v(system_.dofs()), a(system_.dofs()), v_to(system_.dofs()), a_to(system_.dofs());
   system_.get_rates(from, v, a);
   system_.get_rates(to, v_to, a_to);
@@ -44,14 +44,14 @@ State ContinuousMotion::advance(const State& from, double time, bool jumps) { re
 
 State ContinuousMotion::advance(const State& from, double time, bool jumps, int depth) {
   constexpr int deepest = 10;
-  constexpr int deepest_passage = 16;  // through a singular position, which costs two positions a halving
+  constexpr int deepest_passage = 16;  // for a singular position, at two positions for each halving
   State next = position_(from, time);
   if (fits(from, next)) {
     if (depth >= deepest_passage || same_side_(from, next)) return next;
     try {
       return advance_in_halves(from, time, jumps, depth);
     } catch (const ComputationError&) {
-      return next;  // so near to a singular position rounding decides; the longer step tells more
+      return next;  // rounding decides so near to a singular position; the longer step is more reliable
     }
   }
   if (jumps && depth >= deepest) return next;

@@ -13,9 +13,9 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double twist_agreement = 1e-8;  // of rates with what they are made of
+constexpr double twist_agreement = 1e-8;  // relative to the terms of the rates
 
-/// Basis of the motions of a body about a place: translations in lengths, and turns.
+/// Basis of the motions of a body about a place: translations in units of a length, and rotations.
 RigidVelocity unit_motion(int k, const Vector3& place, double length) {
   RigidVelocity motion{place, Vector3::Zero(), Vector3::Zero()};
   (k < 3 ? motion.v : motion.omega) = (k < 3 ? length : 1.0) * Vector3::Unit(k % 3);
@@ -73,7 +73,8 @@ bool JointTwist::allows(std::size_t member, const RigidVelocity& motion) {
     const NodeState& own = state_.nodes[static_cast<std::size_t>(node)];
     const RigidVelocity at_rest{own.x, Vector3::Zero(), Vector3::Zero()};
     const VectorX rates = constraint_rates(member, node, motion), rest = constraint_rates(member, node, at_rest);
-    // `size` is what the motion as a whole could make of each row: at the node itself it may vanish, to rounding.
+    // `size` is the possible contribution of the whole motion to each row: at the node itself the motion may be zero,
+    // up to rounding.
     const double speed = (motion.v.norm() + motion.omega.norm() * length_) / length_;
     VectorX size = rest.cwiseAbs();
     for (int k = 0; k < 6; ++k) {
@@ -85,7 +86,7 @@ bool JointTwist::allows(std::size_t member, const RigidVelocity& motion) {
   return false;
 }
 
-/// Drives and locks of the joint's coordinates: what refers to it alone and has constraints.
+/// Returns drives and locks of the joint's coordinates: members that refer only to it and have constraints.
 std::vector<std::size_t> JointTwist::acting_in(std::size_t joint) const {
   std::vector<std::size_t> members;
   const Slots& own = system_.slots()[joint];
@@ -99,13 +100,13 @@ std::vector<std::size_t> JointTwist::acting_in(std::size_t joint) const {
 
 namespace {
 
-/// Rows A x = b by their rank, the first ones before others.
+/// Rows A x = b; earlier rows have priority in their rank.
 struct TwistRates {
   MatrixX A;  ///< (rows, 6)
   VectorX b;
 };
 
-/// The least x that satisfies the independent ones.
+/// Returns the smallest x that satisfies the independent rows.
 Vector6 least_solution(const TwistRates& rates) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < rates.A.rows(); ++row) {
@@ -136,7 +137,7 @@ Vector6 least_solution(const TwistRates& rates) {
 
 }  // namespace
 
-/// TwistRates of constraints, of drives, and of coordinates, while the moving node has a motion.
+/// Computes the rates of constraints, of drives, and of coordinates, for a given motion of the moving node.
 VectorX JointTwist::all_rates(std::size_t joint, const std::vector<std::size_t>& drives, int moving,
                               const RigidVelocity& motion) {
   NodeState& node = state_.nodes[static_cast<std::size_t>(moving)];
@@ -164,7 +165,7 @@ RigidVelocity JointTwist::of(std::size_t joint, int moving, int base, const Star
   TwistRates all{MatrixX(rest.size(), 6), -rest};
   for (int k = 0; k < 6; ++k)
     all.A.col(k) = all_rates(joint, drives, moving, sum_of_motions(carried, unit_motion(k, place, length_))) - rest;
-  // Start rates that are given come before coordinates of which nothing is said.
+  // Given start rates have priority over coordinates without one.
   const Eigen::Index first = rest.size() - static_cast<Eigen::Index>(coordinates.size());
   std::vector<const CoordinateCondition*> given;
   for (const CoordinateCondition& each : conditions.coordinates)

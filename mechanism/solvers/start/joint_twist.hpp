@@ -1,4 +1,4 @@
-// The motion of one side of a joint relative to the other that its coordinates' rates ask for.
+// The motion of one side of a joint relative to the other that the rates of its coordinates require.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace bielle::mechanism {
 
-/// How a rigid body moves: the velocity [m/s] of its point at a place, and its angular velocity [rad/s]; inertial.
+/// Motion of a rigid body: the velocity [m/s] of its point at a place, and its angular velocity [rad/s]; inertial.
 struct RigidVelocity {
   Vector3 place = Vector3::Zero(), v = Vector3::Zero(), omega = Vector3::Zero();
   Vector3 at(const Vector3& x) const { return v + omega.cross(x - place); }
@@ -16,22 +16,22 @@ struct RigidVelocity {
 RigidVelocity rigid_velocity(const NodeState& node);
 void set_rigid_velocity(NodeState& node, const RigidVelocity& motion);
 
-/// Looks at members while nodes move in turn; the state is a scratch one, nodes are as they were afterwards.
+/// Evaluates members while nodes move in turn; the state is a copy, whose nodes are restored afterwards.
 class JointTwist {
  public:
   JointTwist(const System& system, const Environment& environment, const State& state);
 
-  /// The motion of the moving side of a joint, relative motion included.
-  /// @param joint   member with two nodes @param moving,base  these @param conditions  start rates
-  /// @throws ComputationError where a start rate contradicts the joint, its drives or its locks
+  /// Returns the motion of the moving side of a joint, including its relative motion.
+  /// @param joint   member with two nodes @param moving,base  its nodes @param conditions  start rates
+  /// @throws ComputationError if a start rate contradicts the joint, its drives or its locks
   RigidVelocity of(std::size_t joint, int moving, int base, const StartConditions& conditions);
-  /// Whether the constraints of a member of two nodes allow one of them to move so while the other stays as it is.
+  /// Whether the constraints of a member of two nodes permit this motion of one node while the other does not change.
   bool allows(std::size_t member, const RigidVelocity& motion);
-  /// Takes other velocities of nodes.
+  /// Sets other velocities of nodes.
   void set_rates(const State& state);
 
  private:
-  /// Rates (of the constraints that are on) of a member, with a node in motion.
+  /// Returns the rates of a member's active constraints, with a node in motion.
   VectorX constraint_rates(std::size_t member, int node, const RigidVelocity& motion);
   VectorX all_rates(std::size_t joint, const std::vector<std::size_t>& drives, int moving, const RigidVelocity& motion);
   void append_constraints(std::size_t member, VectorX& rates) const;

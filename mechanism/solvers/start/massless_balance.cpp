@@ -10,7 +10,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Sums of |entries| of each column's dofs, of a part of the tangent alone.
+/// Returns sums of |entries| of each column's dofs, for a part of the tangent.
 VectorX column_sums(const System& system, const State& state, const Environment& environment,
                     const TangentWeights& weights) {
   std::vector<double> values;
@@ -25,8 +25,8 @@ VectorX column_sums(const System& system, const State& state, const Environment&
   return sums;
 }
 
-/// What it takes to hold amplitudes that bring their scale at it: what their forces are compared with. Zero of all
-/// else.
+/// Returns the forces of amplitudes displaced by their scale, as a reference for their forces. It is zero for all other
+/// unknowns.
 VectorX own_forces(const System& system, const State& state, const Environment& environment) {
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, values);
@@ -53,7 +53,7 @@ class Balance {
 
   bool needed() const { return (mass_.array() == 0).any(); }
 
-  /// Returns the worst unknown when no balance is found, -1 when it is.
+  /// Returns the worst unknown if no balance is found, -1 if it is found.
   int find(State& state) {
     constexpr int most = 50;
     measure(state);
@@ -71,7 +71,7 @@ class Balance {
     return worst_;
   }
 
-  /// Velocities that keep the balance where nothing damps.
+  /// Computes velocities that maintain the balance of undamped directions.
   void follow(State& state) {
     VectorX v(system_.dofs()), a(system_.dofs());
     system_.get_rates(state, v, a);
@@ -98,14 +98,15 @@ class Balance {
   bool massless(int i) const { return mass_[i] == 0; }
   bool damped(int i) const { return massless(i) && damping_[i] > 0; }
 
-  /// Forces on what has no mass, with accelerations and multipliers as they then are; the other rows are zero.
+  /// Computes forces on directions without mass, with the corresponding accelerations and multipliers; the other rows
+  /// are zero.
   void measure(State& state) {
     make_accelerations_consistent(system_, environment_, state);
     ResidualScale now;
     system_.residual(state, environment_, r_, &now);
     for (std::size_t kind = 0; kind < kind_count; ++kind)
       scale_.largest[kind] = std::max(scale_.largest[kind], now.largest[kind]);
-    constexpr double balanced = 1e-10;  // relative to the largest forces on the way
+    constexpr double balanced = 1e-10;  // relative to the largest forces during the search
     size_ = 0;
     worst_ = -1;
     for (int i = 0; i < system_.dofs(); ++i) {
@@ -114,7 +115,7 @@ class Balance {
         continue;
       }
       double whole = own_forces_[i] > 0 ? own_forces_[i] : scale_[system_.kind(i)];
-      // An amplitude that constraints alone move (a place on a curve) bears no forces of its own but their rounding.
+      // An amplitude that is only moved by constraints (a place on a curve) has only rounding errors of their forces.
       if (own_forces_[i] == 0 && system_.kind(i) == Kind::amplitude) whole = std::max(whole, scale_[Kind::translation]);
       const double size = std::abs(r_[i]) / (balanced * whole);
       if (!(size > 1) || size <= size_) continue;
@@ -126,7 +127,7 @@ class Balance {
       if (system_.constraint_kind(k) != ConstraintKind::holonomic) r_[r_.size() - system_.multipliers() + k] = 0;
   }
 
-  /// Both solve with what has mass held by mass alone, as in a step of no duration.
+  /// Both solutions hold the dofs with mass only by the mass, as in a step of zero duration.
   bool solve_positions(const State& state) { return solve(state, 1, 0, true); }
   bool solve_velocities(const State& state) { return solve(state, 0, 1, false); }
   bool solve(const State& state, double stiffness, double damping, bool holds_damped) {
@@ -148,9 +149,10 @@ class Balance {
     return step_.allFinite();
   }
 
-  /// Part of an iteration of Newton's method: positions where nothing damps, velocities elsewhere.
+  /// Makes a fraction of an iteration of Newton's method: for positions of undamped directions, and velocities of
+  /// others.
   bool improve(State& state, double part) {
-    constexpr double longest = 0.3;  // of the mechanism's size, or [rad]
+    constexpr double longest = 0.3;  // relative to the mechanism's size, or [rad]
     const VectorX r = r_;
     const State base = state;
     VectorX v(system_.dofs()), a(system_.dofs());

@@ -26,12 +26,12 @@ std::optional<Vector6> massless_direction(const System& system, const std::vecto
   if (eigen.values[0] > rounding) return {};
   const Vector6 direction = scale.asDiagonal() * eigen.vectors.col(0);
   Eigen::Index largest = 0;
-  direction.tail<3>().cwiseAbs().maxCoeff(&largest);  // the sign is free
+  direction.tail<3>().cwiseAbs().maxCoeff(&largest);  // the sign is arbitrary
   return direction / std::copysign(direction.tail<3>().norm(), direction[3 + largest]);
 }
 
 std::string massless_name(const System& system, int node, const Vector6& direction) {
-  // Rounding residue reads as zero.
+  // Rounding residues are printed as zero.
   const Vector3 axis = direction.tail<3>().unaryExpr([](double x) { return std::abs(x) < 1e-14 ? 0.0 : x; });
   return fmt::format("rotation of node '{}' about ({:.6g}, {:.6g}, {:.6g}) in its axes", system.model().node(node).name,
                      axis.x(), axis.y(), axis.z());
@@ -39,14 +39,15 @@ std::string massless_name(const System& system, int node, const Vector6& directi
 
 namespace {
 
-/// Of each node that has one, the direction about which it has no inertia.
+/// A node with a direction about which it has no inertia.
 struct Massless {
   int node;
   Vector6 direction;
   double left = 0, size = 0;  ///< largest entry of (all its rows)^T direction, and largest term of such an entry
 };
 
-/// Adds what column by column the rows of these nodes have. @param at_row  of each unknown: its place in `nodes`, or -1
+/// Adds the products of these nodes' rows with the directions, column by column. @param at_row  index in `nodes` of
+/// each unknown, or -1
 void measure_hold(const System& system, const std::vector<double>& values, const std::vector<int>& at_row,
                   std::vector<Massless>& nodes) {
   const SparsePattern& pattern = system.pattern();
@@ -77,7 +78,7 @@ void measure_hold(const System& system, const std::vector<double>& values, const
 }  // namespace
 
 void check_massless_directions(const System& system, const State& state) {
-  // At rest and without loads: a load that turns with the node would seem to hold it.
+  // The state is at rest and without loads: a load that rotates with the node would seem to hold it.
   State still = state;
   system.set_rates(still, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
   Environment unloaded;

@@ -1,4 +1,4 @@
-// Directions of nodes that no mass resists, though each of their unknowns has some.
+// Directions of nodes without mass, although each of their unknowns has some mass.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,18 @@
 
 namespace bielle::mechanism {
 
-/// How a free node moves without moving mass: a body on a line turns about it, in whatever axes that is written.
-/// @param mass  entries of the mass matrix: tangent by the weights {0, 0, 1, 0, 0}
-/// @returns in the node's unknowns (dx inertial, rotation in its axes); nothing where all resist, or one has no mass
+/// Finds the motion of a free node that moves no mass, in any axes: an example is the rotation of a line-shaped body
+/// about its line.
+/// @param mass  entries of the mass matrix: tangent with the weights {0, 0, 1, 0, 0}
+/// @returns in the node's unknowns (dx inertial, rotation in its axes); no value if all directions have mass, or one
+/// unknown has none
 std::optional<Vector6> massless_direction(const System& system, const std::vector<double>& mass, int node);
 
-/// "rotation of node 'arm' about (0.6, 0.8, 0) in its axes"
+/// Returns "rotation of node 'arm' about (0.6, 0.8, 0) in its axes".
 std::string massless_name(const System& system, int node, const Vector6& direction);
 
-/// Refuses motions of nodes with neither mass nor resistance that only a combination of rows reveals.
+/// Rejects motions of nodes with neither mass nor stiffness, damping or constraint that only show in a combination of
+/// rows.
 /// @throws ComputationError naming one
 void check_massless_directions(const System& system, const State& state);
 

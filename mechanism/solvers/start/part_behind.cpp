@@ -12,11 +12,11 @@
 namespace bielle::mechanism {
 namespace {
 
-/// A member that joins nodes. Rigid carriers are edges as well, without a member.
+/// A member that connects nodes. Rigid carriers are edges as well, without a member.
 struct Tie {
   std::vector<int> nodes;
   std::size_t member = none;
-  bool gives = false;  ///< it does not stop the moving side
+  bool gives = false;  ///< it does not prevent the motion of the moving side
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 };
 
@@ -38,7 +38,7 @@ std::vector<Tie> ties_of(const System& system, std::size_t joint, const std::fun
   return ties;
 }
 
-/// Nodes that are reached from others, and by which tie each.
+/// Nodes that are reachable from others, and the tie by which each was reached.
 class Reach {
  public:
   Reach(const std::vector<Tie>& ties, std::size_t nodes)
@@ -46,7 +46,7 @@ class Reach {
     for (std::size_t t = 0; t < ties.size(); ++t)
       for (const int node : ties[t].nodes) at_[static_cast<std::size_t>(node)].push_back(static_cast<int>(t));
   }
-  /// @param through  whether a tie is crossed @param enters  whether a node is entered
+  /// @param through  whether a tie may be crossed @param enters  whether a node may be entered
   template <class Through, class Enters>
   void from(const std::vector<int>& begin, const Through& through, const Enters& enters) {
     std::deque<int> waiting(begin.begin(), begin.end());
@@ -68,7 +68,7 @@ class Reach {
     }
   }
   bool reached(int node) const { return reached_[static_cast<std::size_t>(node)]; }
-  /// The members on the way to a node, from where it began.
+  /// Returns the members on the path to a node, from its beginning.
   std::vector<std::size_t> way_to(int node) const {
     std::vector<std::size_t> members;
     for (; by_[static_cast<std::size_t>(node)] >= 0; node = from_[static_cast<std::size_t>(node)]) {
@@ -85,7 +85,7 @@ class Reach {
   std::vector<bool> reached_;
 };
 
-/// Names of members, each once (a beam is many).
+/// Returns names of members, each once (a beam has many members).
 std::string names_of(const System& system, const std::vector<std::size_t>& members) {
   std::vector<std::string> names;
   for (const std::size_t m : members) {
@@ -121,7 +121,7 @@ PartBehind part_behind(const System& system, std::size_t joint, int moving, int 
       part.way_back = names_of(system, firmly.way_to(node));
       return part;
     }
-  // The rest that is held, or leads there without the part.
+  // The rest of the mechanism: held nodes, and nodes that lead to them without the part.
   Reach rest(ties, count);
   rest.from(held, any, [&](int node) { return !firmly.reached(node); });
   Reach behind(ties, count);

@@ -12,7 +12,7 @@ namespace {
 
 char& idle_of(State& state, int multiplier) { return state.idle[static_cast<std::size_t>(multiplier)]; }
 
-/// By how much a hold is overloaded at a state, as its component measures it; not positive where it holds.
+/// Returns the overload of a hold at a state, as its component computes it; not positive if it holds.
 double overload(const System& system, const VectorX& crossings, int hold) {
   double most = 0;
   for (Eigen::Index k = 0; k < crossings.size(); ++k) {
@@ -53,7 +53,7 @@ bool holds_stop_more(const System& system, const Environment& environment, const
     change[kind] = std::max(change[kind], std::abs(with[i] - without[i]));
     size[kind] = std::max(size[kind], std::abs(without[i]));
   }
-  // Far above what is left of a rate where its zero has been located, far below what a dead centre stops.
+  // The limit is far above the residual rate at a located zero, and far below the motion stopped at a dead centre.
   constexpr double nothing = 1e-6;
   for (std::size_t kind = 0; kind < kind_count; ++kind)
     if (change[kind] > nothing * size[kind]) return true;

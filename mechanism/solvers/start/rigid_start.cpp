@@ -20,7 +20,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// A joint with what it carries, and how that moves.
+/// A joint with its carried part and the part's motion.
 struct Carrying {
   std::size_t joint = 0;
   int moving = 0, base = 0;
@@ -37,12 +37,12 @@ class RigidStart {
         state_(state),
         twist_(system, environment, state) {
     for (const std::size_t joint : conditions.carrying) joints_.push_back(find(joint));
-    // The outermost first: what is behind them holds what is behind the others.
+    // The outermost is first: the part behind it contains those behind the others.
     std::stable_sort(joints_.begin(), joints_.end(),
                      [](const Carrying& a, const Carrying& b) { return a.nodes.size() > b.nodes.size(); });
   }
 
-  /// Sets the velocities of what is carried by those of the other sides.
+  /// Sets the velocities of the carried parts from those of the other sides.
   void set() {
     for (Carrying& each : joints_) {
       twist_.set_rates(state_);
@@ -58,7 +58,7 @@ class RigidStart {
     check_constraints(v);
   }
 
-  /// Velocities that the file gives to what is carried have to be those that it gets.
+  /// Checks that velocities given in the file for carried nodes equal those that they get.
   void check_given() const {
     for (const Carrying& each : joints_)
       for (const int node : each.nodes) check_given(each, node);
@@ -94,7 +94,7 @@ class RigidStart {
 
   Carrying find(std::size_t joint) {
     const std::vector<int>& nodes = system_.slots()[joint].nodes;
-    std::vector<std::pair<int, int>> sides;  // moving, base; the second node moves, if it can
+    std::vector<std::pair<int, int>> sides;  // moving, base; the second node moves, if possible
     for (const auto& [moving, base] : {std::pair(nodes[1], nodes[0]), std::pair(nodes[0], nodes[1])})
       if (!all_held(system_.model().node(moving))) sides.emplace_back(moving, base);
     std::string way_back;
@@ -134,7 +134,7 @@ class RigidStart {
           describe(by.joint), node.name, turns));
   }
 
-  /// Whether anything depends on the rotation of a node: of an interface that carries forces alone nothing does.
+  /// Whether any member depends on the rotation of a node: an interface that only transmits forces does not.
   bool feels_rotation(const Carrying& by, int index) const {
     constexpr double turn = 0.1;  // [rad]
     State turned = state_;
@@ -156,12 +156,13 @@ class RigidStart {
     return false;
   }
 
-  /// Constraints of what is carried have to let it move so. @param v  (dofs)
+  /// Checks that constraints of the carried parts permit the motion. @param v  (dofs)
   void check_constraints(const VectorX& v) const {
     if (system_.multipliers() == 0) return;
     VectorX rates(system_.multipliers()), unused(system_.multipliers());
     system_.constraint_rates(state_, environment_, rates, unused);
-    // `sizes` is what the motions as a whole could make of each row: at a node they may vanish, to rounding.
+    // `sizes` is the possible contribution of the whole motions to each row: at a node a motion may be zero, up to
+    // rounding.
     double speed = 0;
     for (const Carrying& each : joints_)
       speed = std::max(speed, each.motion.v.norm() + each.motion.omega.norm() * length());
@@ -205,7 +206,7 @@ class RigidStart {
     const Node& node = system_.model().node(index);
     if (node.internal || node.carrier) return;
     const NodeState& own = state_.nodes[static_cast<std::size_t>(index)];
-    constexpr double typed = 1e-6;  // numbers of a file have some digits
+    constexpr double typed = 1e-6;  // numbers in a file have limited accuracy
     const double speed = own.v.norm() + own.Omega.norm() * length();
     if (!node.velocity.isZero() && (node.velocity - own.v).norm() > typed * (speed + node.velocity.norm()))
       throw ComputationError(fmt::format(
@@ -228,7 +229,7 @@ class RigidStart {
   State& state_;
   JointTwist twist_;
   std::vector<Carrying> joints_;
-  std::set<int> all_;  ///< nodes that are carried
+  std::set<int> all_;  ///< all carried nodes
 };
 
 }  // namespace
@@ -240,7 +241,7 @@ void begin_velocities(const System& system, const Environment& environment, Stat
     make_velocities_consistent(system, environment, state, report, saddle);
   } else {
     RigidStart rigid(system, environment, conditions, state);
-    // If velocities of other parts have to change, the parts that they carry are set anew.
+    // If velocities of other parts change, those of the parts that they carry are set again.
     constexpr int most = 4;
     constexpr double same = 1e-10;
     for (int round = 0; round < most; ++round) {

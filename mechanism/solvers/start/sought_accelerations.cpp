@@ -9,7 +9,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The change of the supports' forces along a step of accelerations and multipliers, in which they are linear.
+/// Returns the change of the supports' forces due to a step of accelerations and multipliers, on which they depend
+/// linearly.
 VectorX answer_of_accelerations(const SoughtEfforts& efforts, const Environment& environment, const State& state,
                                 const VectorX& step) {
   const System& system = efforts.system();
@@ -27,7 +28,7 @@ VectorX answer_of_accelerations(const SoughtEfforts& efforts, const Environment&
 void find_sought_efforts(const SoughtEfforts& efforts, const Environment& environment, State& state,
                          MassSaddle& saddle) {
   if (!efforts.any()) return;
-  constexpr int most = 30;  // friction that depends on reactions makes it nonlinear; otherwise the first one is exact
+  constexpr int most = 30;  // friction that depends on reactions is nonlinear; otherwise the first solution is exact
   const System& system = efforts.system();
   EffortResponse response;
   VectorX r(system.size());

@@ -1,4 +1,4 @@
-// Efforts that are sought where positions and velocities are known: rigid parts.
+// Sought efforts for known positions and velocities: rigid parts.
 #pragma once
 
 #include "mechanism/solvers/constraints/mass_saddle.hpp"
@@ -6,11 +6,11 @@
 
 namespace bielle::mechanism {
 
-/// Finds the efforts with which the supports of the moved nodes give nothing, with the accelerations and multipliers
-/// that go with them. Nothing where no efforts are sought.
-/// @param state  with consistent accelerations @param saddle  factors that serve are used
-/// @throws ComputationError where the efforts do not move the nodes independently, or depend on each other through
-///         friction in a way that does not settle
+/// Finds the efforts for which the supports of the moved nodes have no reaction, with the corresponding accelerations
+/// and multipliers. The function does nothing if no efforts are sought.
+/// @param state  state with consistent accelerations @param saddle  valid factors are used
+/// @throws ComputationError if the efforts do not move the nodes independently, or if their dependence on each other
+///         through friction does not converge
 void find_sought_efforts(const SoughtEfforts& efforts, const Environment& environment, State& state,
                          MassSaddle& saddle);
 

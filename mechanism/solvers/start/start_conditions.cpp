@@ -12,7 +12,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Brings a gradient over a local layout to the dofs. @param first  local row at which the layout begins
+/// Transforms a gradient over a local layout to the dofs. @param first  local row at which the layout begins
 void add_dof_entries(const System& system, const State& state, const Slots& slots,
                      const Eigen::Ref<const VectorX>& gradient, int first, CoordinateRow::Entries& entries) {
   const NodeKinematics& kinematics = system.kinematics();

@@ -30,7 +30,7 @@ std::vector<bool> dependent_rows(const System& system, const Environment& enviro
   const double arm = system.multipliers() > 0 ? redundancy_arm(system, environment, state) : 1;
   std::vector<Eigen::Triplet<double>> entries;
   const auto scaled = [&](int dof, double value) {
-    return value * (system.kind(dof) == Kind::translation ? arm : 1.0);  // a translation's increment counts in arms
+    return value * (system.kind(dof) == Kind::translation ? arm : 1.0);  // translations in units of the arm
   };
   VectorX squares = VectorX::Zero(count + static_cast<Eigen::Index>(rows.size()));
   system.pattern().for_each([&](int place, int row, int column) {

@@ -50,7 +50,7 @@ namespace {
 
 constexpr double unmoved = 1e-9;  // [m], [rad]
 
-/// Orders by size, the largest first, and appends.
+/// Sorts by size, the largest first, and appends.
 template <class Moved>
 void append_by_size(std::vector<std::pair<double, Moved>>& found, std::vector<Moved>& list) {
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -62,7 +62,7 @@ void append_by_size(std::vector<std::pair<double, Moved>>& found, std::vector<Mo
 void note_moved(const System& system, const Environment& environment, const State& from, const State& to,
                 StartReport& report) {
   note_farthest(system, from, to, report.largest_displacement, report.displaced_node);
-  const double length = 0.5 * model_extent(from);  // at which a rotation counts as a displacement
+  const double length = 0.5 * model_extent(from);  // length by which a rotation is converted to a displacement
   std::vector<std::pair<double, MovedNode>> nodes;
   for (std::size_t i = 0; i < to.nodes.size(); ++i) {
     const double rotation = log_so3(Matrix3(from.nodes[i].R.transpose() * to.nodes[i].R)).norm();

@@ -11,10 +11,10 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double counts = 1e-3;      // part of the largest gap or force that tells of a disagreement
+constexpr double counts = 1e-3;      // fraction of the largest gap or force that counts as a contradiction
 constexpr double negligible = 1e-6;  // gap relative to the mechanism's size
 
-/// What owns rows: a member, or a condition.
+/// Owner of rows: a member, or a condition.
 struct Owner {
   int first_row = 0, rows = 0;
   const Member* member = nullptr;  ///< nullptr: a condition
@@ -30,7 +30,7 @@ std::vector<Owner> owners_of(const ClosingEquations& equations) {
   return owners;
 }
 
-/// The largest gap of an owner, or of forces in the same measure.
+/// Returns the largest gap of an owner, or the largest force in the same measure.
 double largest(const ClosingEquations& equations, const Owner& owner, const VectorX& values) {
   double result = 0;
   for (int row = owner.first_row; row < owner.first_row + owner.rows; ++row)
@@ -44,7 +44,7 @@ std::string quantity(double value, const std::string& units) {
   return units == "rad" ? angle_text(std::abs(value)) : fmt::format("{:.4g} {}", std::abs(value), units);
 }
 
-/// "0.5 m and 3.2 degrees"
+/// Returns "0.5 m and 3.2 degrees".
 std::string gap_text(const ClosingEquations& equations, const Owner& owner, const VectorX& gaps, const State& state) {
   const System& system = equations.system();
   const int first = system.size() - system.multipliers();
@@ -82,7 +82,8 @@ std::string condition_text(const ClosingEquations& equations, int row) {
                         : fmt::format("the start value {:.6g} {} of {}", *condition.value, coordinate.units, name);
 }
 
-/// What opens: a start value before anything else, since parts can do without it; otherwise the last of the file.
+/// Chooses the owner that stays open: a start value has priority, since the parts can be assembled without it;
+/// otherwise the last in the file.
 const Owner* choose_opening(const ClosingEquations& equations, const std::vector<Owner>& owners, const VectorX& gaps) {
   double most = 0;
   for (const Owner& owner : owners) most = std::max(most, largest(equations, owner, gaps));
@@ -97,11 +98,11 @@ const Owner* choose_opening(const ClosingEquations& equations, const std::vector
   return opening ? opening : kept;
 }
 
-/// What pulls at the opening, and the nodes that are kept against a pull.
+/// Describes the members with forces on the opening, and the kept nodes with forces.
 std::string describe_others(const ClosingEquations& equations, const std::vector<Owner>& owners, const Owner& opening,
                             const VectorX& forces) {
   const System& system = equations.system();
-  // Forces by the weights of their rows, as gaps are measured.
+  // Forces are divided by the weights of their rows, like gaps.
   VectorX measured = forces;
   for (int row = 0; row < equations.rows(); ++row) measured[row] /= equations.weight(row);
   double most = 0;

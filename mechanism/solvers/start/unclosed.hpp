@@ -1,4 +1,5 @@
-// What to say of parts that cannot be brought together: what stays open, by how much, and what it disagrees with.
+// Description of parts that cannot be brought together: which one stays open, by how much, and which members it
+// contradicts.
 #pragma once
 
 #include <string>
@@ -8,12 +9,12 @@
 namespace bielle::mechanism {
 
 struct Unclosed {
-  bool closes = false;  ///< after all: the state is then close to where everything fits
+  bool closes = false;  ///< the gaps can be closed after all: the state is then close to a solution
   std::string text;  ///< "joint 'd' stays open by 0.5 m whatever the other parts do; it disagrees with joint 'a', .."
 };
 
-/// Holds all that disagrees but the last start value, drive or joint, moves the state to where the gap of that one is
-/// smallest, and says so. @param state  where the gaps shrink no further
+/// Satisfies all contradictory members except the last start value, drive or joint, moves the state to the smallest gap
+/// of that one, and describes it. @param state  state at which the gaps do not decrease any more
 Unclosed explain_unclosed(ClosingEquations& equations, State& state);
 
 }  // namespace bielle::mechanism

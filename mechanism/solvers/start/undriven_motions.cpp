@@ -9,15 +9,15 @@
 namespace bielle::mechanism {
 namespace {
 
-/// A basis of the null space, orthonormal by the weights (dofs).
+/// Returns a basis of the null space, orthonormal with respect to the weights (dofs).
 MatrixX null_space(const System& system, const LinearStep& linear, const VectorX& weights, int most) {
-  constexpr double nothing = 1e-4;  // left of a vector of length one by what determines all motions
-  constexpr int passes = 4;         // each reduces what a soft stiffness k determines to e D/k of it
+  constexpr double nothing = 1e-4;  // remainder of a vector of length one if all motions are determined
+  constexpr int passes = 4;         // each pass reduces a motion with a soft stiffness k by the factor e D/k
   MatrixX basis(system.dofs(), 0);
   VectorX r = VectorX::Zero(system.size()), projected(system.size());
   for (int k = 0; k < most; ++k) {
     VectorX trial(system.dofs());
-    for (Eigen::Index i = 0; i < trial.size(); ++i)  // in no direction's favour
+    for (Eigen::Index i = 0; i < trial.size(); ++i)  // not aligned with any direction
       trial[i] =
           std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * k * static_cast<double>(i + 1)) / std::sqrt(weights[i]);
     trial /= std::sqrt(trial.dot(weights.cwiseProduct(trial)));
@@ -39,10 +39,10 @@ MatrixX null_space(const System& system, const LinearStep& linear, const VectorX
   return basis;
 }
 
-/// Coordinates that may name a motion, with what each motion changes of them.
+/// Coordinates that may name a motion, with their change in each motion.
 struct Candidates {
   std::vector<std::string> names;
-  std::vector<VectorX> changes;  ///< (motions) each
+  std::vector<VectorX> changes;  ///< (motions) for each
   void add(const std::string& name, const VectorX& change) {
     names.push_back(name);
     changes.push_back(change);
@@ -71,8 +71,8 @@ Candidates of_nodes(const System& system, const MatrixX& basis, double length) {
   return result;
 }
 
-/// Takes the coordinate that changes most, and what it tells away from all.
-/// @returns how much it changes; 0 where none does
+/// Selects the coordinate that changes most, and removes its motion from all.
+/// @returns its change; 0 if none changes
 double take_largest(Candidates& of, Candidates& others, double least, std::vector<std::string>& names) {
   std::size_t largest = 0;
   double size = 0;
@@ -112,7 +112,7 @@ UndrivenMotions find_undriven(const System& system, const Environment& environme
   const double extent = model_extent(state), length = extent > 0 ? extent : 1;
   Candidates joints = of_joints(system, unloaded, resting, result.directions, length),
              nodes = of_nodes(system, result.directions, length);
-  double size = 0;  // of all motions, as their largest coordinate tells
+  double size = 0;  // size of all motions, by their largest coordinate
   for (const VectorX& change : nodes.changes) size = std::max(size, change.norm());
   for (Eigen::Index k = 0; k < result.directions.cols(); ++k)
     if (take_largest(joints, nodes, 1e-3 * size, result.names) == 0) take_largest(nodes, joints, 0, result.names);

@@ -19,13 +19,13 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double longest_arc = 0.1;         // mean displacement relative to the mechanism's size, or turn [rad]
-constexpr double easy_iterations = 4;       // of Newton's method: arcs grow with fewer, and shrink with more
-constexpr double sharpest_bend = 0.7;       // cosine between a step and the tangent that it set off along
-constexpr double least_part = 1.0 / 16384;  // of the first arc
+constexpr double longest_arc = 0.1;         // mean displacement relative to the mechanism's size, or rotation [rad]
+constexpr double easy_iterations = 4;       // iterations of Newton's method: arcs grow with fewer, and shrink with more
+constexpr double sharpest_bend = 0.7;       // cosine between a step and its initial tangent
+constexpr double least_part = 1.0 / 16384;  // fraction of the first arc
 constexpr double resolved = 1e-12;          // displacements relative to the mechanism's size
 
-/// How far a point is from the end of the path.
+/// Condition for the distance of a point from the end of the path.
 class EndCondition final : public PathCondition {
  public:
   EndCondition(const PathEnd& end, const LoadRamp& ramp, const PathStep& step)
@@ -37,7 +37,7 @@ class EndCondition final : public PathCondition {
     return (end_.direction.isZero(0) ? u.norm() : end_.direction.dot(u)) - end_.displacement;
   }
   std::optional<double> load_factor() const { return end_.load_factor; }
-  /// Where trials start from.
+  /// Sets the base of the trials.
   void set_base(const State& base) { base_ = &base; }
   double value(const PathTrial& trial) const override { return gap(trial.state, trial.factor); }
   double slope(const PathTrial& trial, const VectorX& along, double factor) const override {
@@ -95,7 +95,7 @@ class Path {
   bool ended() const { return gap_ == 0; }
   double factor() const { return factor_; }
 
-  /// Goes to the next point: a step, the limit point within it, or the end.
+  /// Advances to the next point: a step, the limit point within it, or the end.
   PathPoint advance() {
     for (;; refuse()) {
       trial_.delta = arc_ * tangent_.direction;
@@ -142,7 +142,7 @@ class Path {
     return state;
   }
 
-  /// The first tangent and the first arc.
+  /// Computes the first tangent and the first arc.
   void set_off() {
     if (whole_ <= (path_.end.load_factor ? 0 : resolved * step_.extent()))
       throw ComputationError("static path: its end is where it begins");
@@ -160,7 +160,7 @@ class Path {
       throw ComputationError(
           "static path: nothing moves with the load factor: there are no loads that do work, or the analyses before "
           "have brought about all of them");
-    // How the end comes closer per load factor.
+    // The change of the distance from the end per load factor.
     const double part = 1e-6 / response;
     PathTrial trial{part * b, factor_ + part, state_};
     step_.place(state_, trial);
@@ -189,7 +189,8 @@ class Path {
     return false;
   }
 
-  /// Oriented along the step that led to the trial. Where the tangent matrix is singular the step goes on as it came.
+  /// Returns the tangent, oriented along the step that led to the trial. If the tangent matrix is singular, the
+  /// direction of the step is kept.
   Tangent tangent_at(const PathTrial& trial) {
     VectorX b;
     if (step_.response(trial.state, trial.factor, b))
@@ -200,21 +201,21 @@ class Path {
     return {trial.delta / step_.length(trial.delta), 0};
   }
 
-  /// Moves the trial to the point of the path an arc away from the base, on the way to another one.
+  /// Moves the trial to the point of the path at an arc from the base, in the direction of another one.
   bool correct_at(double arc, const PathTrial& far, double length) {
     trial_.delta = arc / length * far.delta;
     trial_.factor = factor_ + arc / length * (far.factor - factor_);
     return correct(ArcCondition(step_, arc), arc);
   }
 
-  /// Between the base and the trial the slope of the load factor changes its sign: moves the trial to where it
-  /// vanishes, or to the kink where it jumps. @returns whether it was found
+  /// The slope of the load factor changes its sign between the base and the trial: moves the trial to the zero, or to
+  /// the kink at which the slope jumps. @returns whether it was found
   bool locate_limit(Tangent& after, double& length) {
     constexpr int most = 60;
-    constexpr double accurate = 1e-12, kink = 1e-10;  // the load factor relative to itself, the arc to the step
+    constexpr double accurate = 1e-12, kink = 1e-10;  // relative tolerances of the load factor, and of arc to step
     const PathTrial far = trial_;
     const double size = std::max(std::abs(far.factor), std::abs(factor_)) + std::abs(tangent_.slope) * length;
-    // Just after a limit point the slope is nearly zero and meaningless.
+    // Just after a limit point the slope is nearly zero and inaccurate.
     RootBracket bracket(0, at_limit_ ? -after.slope : tangent_.slope, length, after.slope);
     for (int k = 0; k < most; ++k) {
       const double arc = bracket.interpolated();
@@ -233,7 +234,7 @@ class Path {
     return false;
   }
 
-  /// The first load factor to stop at on the way to the trial.
+  /// Returns the first load factor to stop at before the trial.
   std::optional<double> next_stop() const {
     const std::vector<double>& stops = path_.stops;
     if (trial_.factor > factor_) {
@@ -246,7 +247,7 @@ class Path {
     return {};
   }
 
-  /// Moves the trial back to where a condition is met between the base and it, after about a part of the way.
+  /// Moves the trial back to a condition between the base and it, after about a fraction of the distance.
   bool meet(EndCondition& condition, double part, double length) {
     trial_.delta *= part;
     const std::optional<double> factor = condition.load_factor();
@@ -263,9 +264,8 @@ class Path {
     return mode ? mode->stiffness : 0;
   }
 
-  /// Between the base and the trial, an arc `length` away, the number of unstable motions changes from that of the
-  /// base: by the smallest stiffness, which changes its sign there, within the bracket of the counts. The trial stays
-  /// as it is.
+  /// The number of unstable motions changes between the base and the trial, an arc `length` away: the point is located
+  /// by the zero of the smallest stiffness, within the bracket of the counts. The trial is not changed.
   CriticalPoint locate_bifurcation(int after, double length) {
     constexpr int most = 40;
     constexpr double accurate = 1e-7;
@@ -282,7 +282,7 @@ class Path {
       std::optional<int> here;
       if (correct_at(arc, far, length)) here = stability_.count(trial_.state, ramp_.environment(trial_.factor));
       point.factor = trial_.factor;
-      if (!here) break;  // singular, or nearly: this is the place
+      if (!here) break;  // singular, or nearly: the point is found
       near = trial_;
       bracket.replace(*here == point.before, arc, softest(trial_));
     }
@@ -291,14 +291,14 @@ class Path {
     return point;
   }
 
-  /// Stability at the trial that is about to be accepted.
+  /// Determines stability at the trial before it is accepted.
   void judge(bool limit, double length, PathPoint& point) {
     if (limit) {
       ++limits_;
       return;
     }
     point.unstable = stability_.count(trial_.state, ramp_.environment(trial_.factor));
-    // Past a limit point another motion is unstable, or one less.
+    // After a limit point the number of unstable motions changes by one.
     if (unstable_ && point.unstable && limits_ == 0 && *point.unstable != *unstable_)
       point.bifurcation = locate_bifurcation(*point.unstable, length);
     unstable_ = point.unstable;
@@ -332,10 +332,10 @@ class Path {
     tangent_ = after;
     at_limit_ = limit;
     going_ = limit ? -going_ : after.slope < 0 ? -1 : 1;
-    // A step that was cut at a limit point says nothing against the arc that led there.
+    // A step that ends at a limit point gives no reason to change the arc.
     if (!limit) arc_ = length * std::clamp(std::sqrt(easy_iterations / std::max(1, trial_.iterations)), 0.5, 2.0);
     travelled_ += length;
-    // Drawn in one point, a mechanism has no size but how far it has come.
+    // If all its initial positions are at one point, the size of a mechanism is the length of the path so far.
     const double longest =
         drawn_in_a_point_ && path_.steps == 0 ? std::max(most_arc_, longest_arc * travelled_) : most_arc_;
     arc_ = std::min(arc_, longest);
@@ -362,8 +362,8 @@ class Path {
   double going_ = 1;  ///< sign of the load factor's slope after the last point
   bool at_limit_ = false;
   PathTrial trial_;
-  std::optional<int> unstable_;  ///< motions of negative stiffness at the last point that is no limit point
-  int limits_ = 0;               ///< since then
+  std::optional<int> unstable_;  ///< number of motions of negative stiffness at the last point that is no limit point
+  int limits_ = 0;               ///< number of limit points since then
   std::string why_;
 };
 

@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 
 void EffortsAtRest::add_forces(const Environment& environment, const State& state, Eigen::Ref<VectorX> /*r*/) {
-  environment_ = environment;  // the residual has the efforts, which stand in the state
+  environment_ = environment;  // the residual includes the efforts, which are part of the state
   environment_.before = nullptr;
   state_ = state;
   MatrixX reactions = efforts_.reactions(environment_, state_);
@@ -24,7 +24,7 @@ bool EffortsAtRest::reached(const ResidualScale& scale) {
   return ratio <= SoughtEfforts::accurate || (ratio <= SoughtEfforts::rounding && ratio > 0.5 * before);
 }
 
-/// The answer to displacements of all unknowns by as much as they are rounded, up or down as it happens.
+/// Returns the response to displacements of all unknowns by their rounding errors, with arbitrary signs.
 VectorX EffortsAtRest::rounding_floor() const {
   constexpr double several = 40 * std::numeric_limits<double>::epsilon();
   const System& system = efforts_.system();
@@ -41,8 +41,8 @@ VectorX EffortsAtRest::rounding_floor() const {
 
 VectorX EffortsAtRest::answer(const SoughtEfforts& efforts, const Environment& environment, const State& state,
                               const VectorX& step) {
-  constexpr double way = 1e-6;  // of the extent, or [rad]: its square and rounding relative to it are both small
-  constexpr double most = 1e9;  // where all but forces stands still
+  constexpr double way = 1e-6;  // relative to the extent, or [rad]: small, and so are its square and relative rounding
+  constexpr double most = 1e9;  // if only forces change
   const System& system = efforts.system();
   const double length = std::max(model_extent(state), 1e-30);
   double size = 0;

@@ -1,4 +1,4 @@
-// Efforts that are sought (solvers/constraints/sought_efforts.hpp) in equilibrium at rest: further unknowns of Newton's
+// Sought efforts (solvers/constraints/sought_efforts.hpp) in equilibrium at rest: additional unknowns of Newton's
 // method, with the forces of the supports as equations.
 #pragma once
 
@@ -11,10 +11,10 @@ namespace bielle::mechanism {
 
 class EffortsAtRest final : public Bordering {
  public:
-  /// Keeps a reference.
+  /// The object keeps a reference.
   explicit EffortsAtRest(const SoughtEfforts& efforts) : efforts_(efforts) {}
 
-  /// Reactions (6, nodes) that are added to those at rest until others are given, or none (size 0).
+  /// Sets reactions (6, nodes) that are added to those at rest until the next call, or none (size 0).
   void push(const MatrixX& reactions) { push_ = reactions; }
   void begin() override { before_ = std::numeric_limits<double>::infinity(); }
   void add_forces(const Environment& environment, const State& state, Eigen::Ref<VectorX> r) override;
@@ -24,10 +24,10 @@ class EffortsAtRest final : public Bordering {
   void solve_along(const StaticTangent& tangent, const Eigen::Ref<const VectorX>& r,
                    Eigen::Ref<VectorX> delta) const override;
 
-  /// With the tangent's factors at a state, how its supports answer to the efforts.
+  /// Computes the response of the supports to the efforts at a state, with the tangent's factors.
   static EffortResponse response(const SoughtEfforts& efforts, const Environment& environment, const State& state,
                                  const StaticTangent& tangent);
-  /// The derivative of the supports' forces (count) along a step of the unknowns (size), by a difference.
+  /// Computes the derivative of the supports' forces (count) along a step of the unknowns (size), by a difference.
   static VectorX answer(const SoughtEfforts& efforts, const Environment& environment, const State& state,
                         const VectorX& step);
 
@@ -36,11 +36,11 @@ class EffortsAtRest final : public Bordering {
   const SoughtEfforts& efforts_;
   MatrixX push_;
   Environment environment_;
-  State state_;  ///< of the last residual
+  State state_;  ///< state of the last residual
   VectorX gap_, base_, change_;
-  VectorX floor_;  ///< what rounding of positions makes of the gap
+  VectorX floor_;  ///< effect of rounding of positions on the gap
   EffortResponse response_;
-  double before_ = 0;  ///< size of the gap when it was last judged
+  double before_ = 0;  ///< size of the gap when it was last evaluated
 };
 
 }  // namespace bielle::mechanism

@@ -14,9 +14,9 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double longest = 0.3;       // step of `relax`: of the mechanism's size, or [rad]
+constexpr double longest = 0.3;       // step of `relax`: relative to the mechanism's size, or [rad]
 constexpr double longest_turn = 2.0;  // step of Newton's method [rad]
-constexpr double least_share = 0.1;   // of a step that is shortened
+constexpr double least_share = 0.1;   // for a shortened step
 
 }  // namespace
 
@@ -48,7 +48,8 @@ int Equilibrium::relax(double factor, State& state) {
   return attempt(factor, state, [&] { return iterate_relaxing(factor, state); });
 }
 
-/// A component that refuses a wild iterate (a beam whose ends turn too far) makes the attempt fail, not the analysis.
+/// If a component cannot be evaluated at a distant iterate (a beam whose ends rotate too far), the attempt fails, not
+/// the analysis.
 template <class Iterations>
 int Equilibrium::attempt(double factor, State& state, const Iterations& iterations) {
   start_ = state;
@@ -86,7 +87,7 @@ int Equilibrium::attempt_once(const State& state, const Iterations& iterations) 
   return count;
 }
 
-/// Contacts that bear nothing yet: where something lacks a support, they may be why.
+/// Describes open contacts: they may be the reason why a part lacks a support.
 std::string Equilibrium::what_is_open(const State& state) const {
   std::string text;
   const auto& members = system_.model().members();
@@ -100,7 +101,7 @@ std::string Equilibrium::what_is_open(const State& state) const {
 }
 
 void Equilibrium::accept(double factor, State& state) const {
-  const Environment loaded = ramp_.environment(factor);  // attempts at other load factors may lie between
+  const Environment loaded = ramp_.environment(factor);  // attempts at other load factors may have followed
   try {
     check_set_aside(system_, loaded, state);
     system_.accept(state, loaded);
@@ -111,7 +112,7 @@ void Equilibrium::accept(double factor, State& state) const {
   }
 }
 
-/// The last solution is that of the first iteration.
+/// Stores the last solution as that of the first iteration.
 void Equilibrium::note_first() {
   first_response_ = delta_;
   first_sign_ = last_sign_;
@@ -170,7 +171,7 @@ int Equilibrium::iterate_relaxing(double factor, State& state) {
   constexpr int most_iterations = 300;
   apply_motions(system_, ramp_.motion(factor), state);
   evaluate(state);
-  LinearStep assembled(system_);  // inertia holds nothing at rest: the rounding of its forces is none of the residual
+  LinearStep assembled(system_);  // inertia does not act at rest: rounding of its forces does not count
   length_ = std::max(model_length(state), longest_arm_of_inertia(state, assembled));
   double tau_squared = first_tau_squared(state);
   for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
@@ -194,7 +195,7 @@ int Equilibrium::iterate_relaxing(double factor, State& state) {
   return -1;
 }
 
-/// The last solution's largest turn [rad].
+/// Returns the last solution's largest rotation [rad].
 double Equilibrium::largest_turn() const {
   double turn = 0;
   for (int i = 0; i < system_.dofs(); ++i)
@@ -202,8 +203,8 @@ double Equilibrium::largest_turn() const {
   return turn;
 }
 
-/// The largest radius of gyration about a node [m], the distance of the centre of mass included: the size of a body
-/// whose node stands at the origin.
+/// Returns the largest radius of gyration about a node [m], including the distance of the centre of mass: the size of a
+/// body whose node is at the origin.
 double Equilibrium::longest_arm_of_inertia(const State& state, LinearStep& mass) const {
   mass.assemble(state, environment_, TangentWeights{0, 0, 1, 0, 0}, nullptr);
   double translation = 0, rotation = 0;
@@ -214,7 +215,7 @@ double Equilibrium::longest_arm_of_inertia(const State& state, LinearStep& mass)
   return translation > 0 ? std::sqrt(rotation / translation) : 0;
 }
 
-/// Its largest turn, or displacement relative to the mechanism's size.
+/// Returns its largest rotation, or displacement relative to the mechanism's size.
 double Equilibrium::extent(const State& state) const {
   double displacement = 0;
   for (int i = 0; i < system_.dofs(); ++i)
@@ -222,7 +223,7 @@ double Equilibrium::extent(const State& state) const {
   return std::max(largest_turn(), displacement / std::max(length_, model_length(state)));
 }
 
-/// In which the accelerations of rest lead through a part of `longest`.
+/// Returns the square of the time in which the accelerations at rest lead through a fraction of `longest`.
 double Equilibrium::first_tau_squared(const State& state) {
   State released = state;
   make_accelerations_consistent(system_, environment_, released);
@@ -256,12 +257,13 @@ bool Equilibrium::reached() {
   return in_balance && (!further_ || further_->reached(scale_));
 }
 
-/// The largest force times the farthest that z moves a node, carried ones included; likewise of moments and turns.
+/// Returns the largest force times the largest displacement of a node along z, including carried ones, or the same for
+/// moments and rotations.
 double Equilibrium::largest_work(const State& state, const VectorX& z) const {
   State moving = state, resting = state;
   const VectorX zero = VectorX::Zero(system_.dofs());
   system_.set_rates(moving, z, zero);
-  system_.set_rates(resting, zero, zero);  // driven nodes have rates of their own
+  system_.set_rates(resting, zero, zero);  // driven nodes have their own rates
   double largest = 0;
   for (std::size_t k = 0; k < state.nodes.size(); ++k)
     largest = std::max({largest, scale_[Kind::translation] * (moving.nodes[k].v - resting.nodes[k].v).norm(),
@@ -269,13 +271,13 @@ double Equilibrium::largest_work(const State& state, const VectorX& z) const {
   return largest;
 }
 
-/// The last solution moves by z = P P delta along motions that only StaticTangent holds, with P = (K + H)^-1 H and H
-/// that small stiffness: P is one for loose motions and next to nothing for all others. If the load along z, z r, is
-/// rounding relative to the largest forces at the arms that they have there (weights of a rotor's blades, drawn with
-/// some digits, that balance each other), it is taken for none: nothing moves along z, and the force H z (z r)/(z H z)
-/// is left out from here on.
+/// The last solution has the component z = P P delta along motions that only StaticTangent holds, with P = (K + H)^-1 H
+/// and its small stiffness H: P is one for indifferent motions and almost zero for all others. If the load along z, z
+/// r, is a rounding error relative to the largest forces at their lever arms (weights of a rotor's blades, given with
+/// limited accuracy, that balance each other), it is neglected: the motion along z is zero, and the force H z (z r)/(z
+/// H z) is omitted from then on.
 void Equilibrium::leave_balanced_out(const State& state) {
-  constexpr double share = 1e-7;  // of the largest
+  constexpr double share = 1e-7;  // relative to the largest
   const int n = system_.dofs();
   const VectorX& H = *held();
   VectorX load = VectorX::Zero(system_.size()), loose = delta_;
@@ -295,14 +297,14 @@ void Equilibrium::leave_balanced_out(const State& state) {
   delta_ -= loose;
 }
 
-/// Throws where the last solution runs away along what only StaticTangent holds.
+/// Throws if the last solution diverges along motions that only StaticTangent holds.
 void Equilibrium::check_no_fall(const State& state) {
   if (!held()) return;
   leave_balanced_out(state);
   if (extent(state) > runaway && tangent_.runs_loose(delta_)) fall(state);
 }
 
-/// Along what only StaticTangent holds the last solution goes on and on: far at once, or a little in each iteration.
+/// The last solution continues along motions that only StaticTangent holds: far at once, or a little in each iteration.
 void Equilibrium::fall(const State& state) {
   falls_ = true;
   throw ComputationError(fmt::format("nothing holds {} against its load", moves_most(system_, delta_, state)));
@@ -321,7 +323,7 @@ void Equilibrium::step(State& state) {
       evaluate(state);
       if (r_.allFinite() || part < least_share) return;
     } catch (const ComputationError&) {
-      if (!options_.line_search || part < least_share) throw;  // refused by a component
+      if (!options_.line_search || part < least_share) throw;  // a component cannot be evaluated
     }
   }
 }
@@ -341,12 +343,12 @@ void Equilibrium::search_step(State& state) {
     try {
       return size_at(part) <= before;
     } catch (const ComputationError&) {
-      return false;  // refused by a component
+      return false;  // a component cannot be evaluated
     }
   };
   for (double part = 1; options_.line_search && part > least_share; part /= 2)
     if (smaller(part)) return;
-  size_at(1);  // Newton's method may have to pass over a hill
+  size_at(1);  // Newton's method may have to increase the residual temporarily
 }
 
 void Equilibrium::factor(const State& state, double inertia) {
@@ -375,7 +377,7 @@ void Equilibrium::move(State& state, const State& base, double part) {
 
 void Equilibrium::evaluate(State& state) {
   reactions_.balance(environment_, state);
-  // There may be no balance while the other unknowns are not yet what they will be: then the state is taken as it is.
+  // There may be no balance while the other unknowns have not converged: the state is then used unchanged.
   if (searches_) search_.find(environment_, state);
   residual_at_rest(system_, environment_, state, r_, &scale_);
   if (push_.size() > 0) r_.head(push_.size()) -= push_;

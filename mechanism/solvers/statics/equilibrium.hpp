@@ -1,4 +1,4 @@
-// Newton's method for the equations of rest at a fixed load factor.
+// Newton's method for the static equations at a fixed load factor.
 #pragma once
 
 #include <string>
@@ -12,56 +12,59 @@
 
 namespace bielle::mechanism {
 
-/// A point of Newton's continuation: what Newton's method would change there, and how the equilibrium goes on.
+/// A point of Newton's continuation: the correction by Newton's method, and the tangent of the path of equilibria.
 struct Continuation {
   VectorX correction;  ///< c = -K^-1 r (size)
-  VectorX second;      ///< the next one with the same factors: what the correction has left (size)
-  VectorX rate;        ///< b = -K^-1 dr/ds (size), s the load factor
+  VectorX second;      ///< the next correction with the same factors (size): the remainder
+  VectorX rate;        ///< b = -K^-1 dr/ds (size), with the load factor s
 };
 
 class Equilibrium {
  public:
-  /// @param further  unknowns besides those of the system; nullptr: none. It must outlive this
+  /// @param further  unknowns in addition to those of the system; nullptr: none. They must outlive this object
   Equilibrium(const LoadRamp& ramp, const NewtonOptions& options, Bordering* further = nullptr);
 
-  /// To be called where an analysis sets off: what nothing holds there stays where it is, see StaticTangent.
+  /// Call it at the start of an analysis: unsupported motions are held there, see StaticTangent.
   void look_for_loose(double factor, const State& state) { tangent_.look_for_loose(state, ramp_.environment(factor)); }
   const VectorX* held() const { return tangent_.held(); }
 
-  /// Brings a state at rest into equilibrium under a load factor. Prescribed motions are taken along in the first
-  /// iteration: the free nodes follow them by the tangent. Stiffness comes from predicted stress (Environment::before);
-  /// steps are shortened that turn a node by more than two radians, or that a component refuses.
-  /// @returns the iterations, or -1 with the state as it was; then `why` tells
-  /// @param before  from where one linear step led to the state, or null
+  /// Brings a state at rest into equilibrium under a load factor. Prescribed motions are included in the first
+  /// iteration: the free nodes follow them by the tangent. The stiffness uses predicted stress (Environment::before);
+  /// steps are shortened if they rotate a node by more than two radians, or if a component cannot be evaluated.
+  /// @returns the number of iterations, or -1 with the state unchanged; then `why` gives the reason
+  /// @param before  state from which one linear step led to this one, or null
   int find(double factor, State& state, const State* before = nullptr);
-  /// The same with exact tangents, and steps that are shortened where they make the largest residual larger: slower
-  /// where both find it, and now and then the only way.
+  /// Does the same with exact tangents, and with steps that are shortened if they increase the largest residual: slower
+  /// if both succeed, but sometimes the only possibility.
   int search(double factor, State& state);
-  /// Goes down to an equilibrium from afar, also where nothing but inertia resists at first (an arm that is to hang):
-  /// pseudo-transient continuation, (K + M/tau^2) dq = -r with tau growing as the residual falls, from steps of a tenth
-  /// of the mechanism's size on (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508). Returns as `find`.
+  /// Finds an equilibrium from a distant state, even if only inertia resists at first (an arm that moves to its hanging
+  /// position): pseudo-transient continuation, (K + M/tau^2) dq = -r with tau growing as the residual decreases, from
+  /// steps of a tenth of the mechanism's size on (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35 (1998) 508). It
+  /// returns the same as `find`.
   int relax(double factor, State& state);
-  /// Forces (dofs) that are added to the loads until others are given, or none (size 0).
+  /// Sets forces (dofs) that are added to the loads until the next call, or none (size 0).
   void push(const VectorX& forces) { push_ = forces; }
-  /// Linear solves so far, those of attempts that failed included.
+  /// Number of linear solutions so far, including those of failed attempts.
   long solves() const { return solves_; }
-  /// Whether the last `find` met a load on something that nothing holds (an arm drawn away from where it hangs):
-  /// `relax` lets it go down.
+  /// Whether the last `find` found a load on an unsupported motion (an arm away from its hanging position): `relax` can
+  /// then find the equilibrium.
   bool falls() const { return falls_; }
-  /// The first iteration of the last `find` or `search` (size): the linear response to the increment, motions included.
+  /// The first iteration of the last `find` or `search` (size): the linear response to the increment, including
+  /// motions.
   const VectorX& first_response() const { return first_response_; }
-  /// Whether the determinant's sign was another one in its last iteration than in its first.
+  /// Whether the sign of the determinant differed between its first and its last iteration.
   bool sign_changed() const { return last_sign_ != first_sign_; }
-  /// The linear response (size) of an equilibrium that was just found to a change of the load factor, with the factors
-  /// of the last iteration.
+  /// Returns the linear response (size) of an equilibrium that was just found to a change of the load factor, with the
+  /// factors of the last iteration.
   VectorX response(double factor, const State& state, double change);
-  /// Newton's continuation at a state: one factorisation. @param before  the point from which one step led to it, or
-  /// null; @throws ComputationError where a component refuses the state or the equations are singular
+  /// Computes Newton's continuation at a state, with one factorisation. @param before  the point from which one step
+  /// led to it, or null; @throws ComputationError if a component cannot be evaluated or the equations are singular
   void respond(double factor, State& state, const State* before, Continuation& point);
-  /// Why the last attempt failed: what a component refused, what is singular, or where Newton's method stalled.
+  /// Reason of the last failure: a component that could not be evaluated, a singular unknown, or the equation at which
+  /// Newton's method stalled.
   const std::string& why() const { return why_; }
-  /// Hands an equilibrium to the components, constraints set aside included.
-  /// @throws ComputationError with the load factor and the residual when one refuses it
+  /// Passes an equilibrium to the components, including constraints set aside.
+  /// @throws ComputationError with the load factor and the residual if one rejects it
   void accept(double factor, State& state) const;
 
  private:
@@ -73,7 +76,7 @@ class Equilibrium {
   int attempt(double factor, State& state, const Iterations& iterations);
   std::string what_is_open(const State& state) const;
   double first_tau_squared(const State& state);
-  /// An iteration of Newton's method that takes prescribed motions along. @returns false where nothing is prescribed
+  /// Makes an iteration of Newton's method that includes prescribed motions. @returns false if nothing is prescribed
   bool follow_motions(double factor, State& state);
   void check_no_fall(const State& state);
   [[noreturn]] void fall(const State& state);
@@ -99,21 +102,21 @@ class Equilibrium {
   Convergence convergence_;
   ReadReactions reactions_;
   BalanceSearch search_;
-  bool searches_ = false;    ///< balances that may be flat are searched for at each iterate
-  Environment environment_;  ///< of the load factor in hand
-  State start_;              ///< of the attempt in hand
+  bool searches_ = false;    ///< balances that may be constant are searched for at each iterate
+  Environment environment_;  ///< environment of the present load factor
+  State start_;              ///< start of the present attempt
   VectorX first_response_;
-  int first_sign_ = 0, last_sign_ = 0;  ///< of the determinant
-  bool follows_ = false;                ///< something is prescribed that moves with the load factor
-  State before_;                        ///< the last step led from it to the state in hand
+  int first_sign_ = 0, last_sign_ = 0;  ///< signs of the determinant
+  bool follows_ = false;                ///< some prescribed motion depends on the load factor
+  State before_;                        ///< the last step led from it to the present state
   bool stepped_ = false;                ///< there was such a step
   bool falls_ = false;
   VectorX push_;
   Bordering* further_;
-  /// Forces (dofs) along what nothing holds that are taken for none: rounding next to what they balance. Or none (size
-  /// 0).
+  /// Forces (dofs) along unsupported motions that are neglected, because they are rounding errors of balanced forces.
+  /// It may be empty (size 0).
   VectorX balanced_;
-  double length_ = 0;  ///< of the mechanism by its masses, while `relax` goes on [m]; 0: not looked at
+  double length_ = 0;  ///< size of the mechanism by its masses, during `relax` [m]; 0: not computed
   long solves_ = 0;
   VectorX r_, delta_;
   ResidualScale scale_;

@@ -45,7 +45,7 @@ void HeldCoordinates::add_forces(const Environment& environment, const State& st
   r.head(system_.dofs()) += W_ * mu_;
 }
 
-/// Takes Z dmu from a solution without it. @returns dmu
+/// Subtracts Z dmu from a solution without it. @returns dmu
 VectorX HeldCoordinates::eliminate(const StaticTangent& tangent, const VectorX& gap, Eigen::Ref<VectorX> delta) const {
   const int n = system_.dofs();
   const Eigen::Index count = W_.cols();

@@ -14,9 +14,9 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double negligible_answer = 1e-9;  // of an entry of S, relative to the terms that make it up
+constexpr double negligible_answer = 1e-9;  // for an entry of S, relative to its terms
 
-/// A little inertia, so that what nothing holds but the controllers does not keep the answers from being computed.
+/// Returns a small inertia, so that the responses can be computed even if only the controllers hold a part.
 double some_inertia(const System& system, const Environment& environment, const State& state, LinearStep& linear) {
   const auto largest = [&](const TangentWeights& weights) {
     linear.assemble(state, environment, weights, nullptr);
@@ -28,7 +28,7 @@ double some_inertia(const System& system, const Environment& environment, const 
   return mass > 0 ? (stiffness > 0 ? stiffness : 1.0) / mass : 0;
 }
 
-/// S and the sizes of its terms; nothing where the equations of everything else are singular.
+/// The matrix S and the sizes of its terms; no value if the equations of the other unknowns are singular.
 struct Answers {
   MatrixX S, terms;
 };
@@ -63,7 +63,7 @@ std::optional<Answers> calc_answers(const System& system, const Environment& env
   return answers;
 }
 
-/// The part of a matrix whose rows and columns are chosen, scaled to rows and columns of size one.
+/// Returns the chosen rows and columns of a matrix, scaled to a size of one.
 MatrixX scaled_part(const MatrixX& S, const std::vector<Eigen::Index>& chosen) {
   MatrixX part(static_cast<Eigen::Index>(chosen.size()), static_cast<Eigen::Index>(chosen.size()));
   for (Eigen::Index i = 0; i < part.rows(); ++i)
@@ -76,7 +76,7 @@ MatrixX scaled_part(const MatrixX& S, const std::vector<Eigen::Index>& chosen) {
   return part;
 }
 
-/// Numbers of the unknowns, among those that may be held, that rates of zero determine.
+/// Returns the numbers of the unknowns, among those that may be held, that rates of zero determine.
 std::vector<Eigen::Index> find_determined(const Answers& answers) {
   std::vector<Eigen::Index> left;
   for (Eigen::Index k = 0; k < answers.S.rows(); ++k) left.push_back(k);
@@ -94,7 +94,7 @@ std::vector<Eigen::Index> find_determined(const Answers& answers) {
     left.erase(found);
   }
   if (left.empty() || regular_inverse(scaled_part(answers.S, left))) return left;
-  // One that depends on others, and can be told by leaving it out.
+  // An unknown that depends on others is found by omitting it.
   for (std::size_t k = left.size(); k-- > 0;) {
     std::vector<Eigen::Index> fewer = left;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
@@ -109,7 +109,7 @@ void begin_states(const System& system, const Environment& environment, State& s
   state.held.clear();
   if (const std::vector<int>& some = system.holdable(); !some.empty()) {
     state.held.assign(static_cast<std::size_t>(system.first_orders()), 0);
-    // Where there are no answers, it is not for the states that there is no equilibrium.
+    // If the responses cannot be computed, the states are not the reason for a missing equilibrium.
     if (const std::optional<Answers> answers = calc_answers(system, environment, state)) {
       for (const int k : some) state.held[static_cast<std::size_t>(k)] = 1;
       for (const Eigen::Index k : find_determined(*answers))

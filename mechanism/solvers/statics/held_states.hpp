@@ -1,11 +1,11 @@
-// First-order unknowns in statics: each has the value at which its rate is zero, where that determines it.
+// First-order unknowns in statics: each has the value at which its rate is zero, if that determines it.
 //
-// An integral that nothing depends on, or a clock, has no such value: it stays where it is, out of the equations
-// (State::held). Which these are is judged where an analysis begins, under the whole load, by what the rates f of the
-// unknowns y answer to changes of y while everything else follows in equilibrium:
-//     S = df/dy - df/dq (dr/dq)^-1 dr/dy,      r the forces and constraints.
-// An unknown whose row or column of S is zero is held, and those that are then left without either. The controller of a
-// closed loop is none of them: its integral changes the position, which changes the integral's rate.
+// An integral that nothing depends on, or a clock, has no such value: it is kept, out of the equations (State::held).
+// The unknowns to hold are determined at the beginning of an analysis, under the whole load, by the response of the
+// rates f of the unknowns y to changes of y while all other unknowns follow in equilibrium:
+//     S = df/dy - df/dq (dr/dq)^-1 dr/dy,      r: forces and constraints.
+// An unknown whose row or column of S is zero is held; this is repeated for the rest. The controller of a closed loop
+// is not held: its integral changes the position, which changes the integral's rate.
 #pragma once
 
 #include <string>
@@ -15,14 +15,14 @@
 
 namespace bielle::mechanism {
 
-/// Begins a static analysis: sets `held` of a state at rest, and moves the other first-order unknowns to where their
-/// components say that the search begins (Component::add_start_values).
-/// @param environment  of statics, under the whole load
+/// Begins a static analysis: sets `held` of a state at rest, and moves the other first-order unknowns to the initial
+/// guess of their components (Component::add_start_values).
+/// @param environment  environment of statics, under the whole load
 void begin_states(const System& system, const Environment& environment, State& state);
 
-/// Names of the unknowns that are held: "value of state 'way'".
+/// Returns the names of the held unknowns: "value of state 'way'".
 std::vector<std::string> held_names(const System& system, const State& state);
-/// A sentence about them.
+/// Returns a sentence about them.
 std::string describe_held(const std::vector<std::string>& names);
 
 }  // namespace bielle::mechanism

@@ -8,11 +8,11 @@
 
 namespace bielle::mechanism {
 
-/// Decides how much of the way from the first load factor to the full load is gone next.
+/// Chooses the next fraction of the interval from the first load factor to the full load.
 class Increments {
  public:
-  /// @param count  equal parts; 0: chosen by how fast Newton's method converges
-  /// @param stops  where one ends in any case, ascending
+  /// @param count  number of equal parts; 0: chosen by the convergence of Newton's method
+  /// @param stops  fractions at which an increment must end, ascending
   Increments(int count, std::vector<double> stops)
       : grid_(count > 0 ? 1.0 / count : 0),
         part_(count > 0 ? grid_ : 0.1),
@@ -21,7 +21,7 @@ class Increments {
 
   bool ended() const { return made_ == 1; }
   double made() const { return made_; }
-  /// The end of the next one: at most at the next point of the grid.
+  /// Returns the end of the next increment: at most the next point of the grid.
   double end() const {
     constexpr double rounding = 1e-9;
     double end = made_ + part_;
@@ -30,15 +30,15 @@ class Increments {
     const auto stop = std::upper_bound(stops_.begin(), stops_.end(), made_);
     return stop != stops_.end() && *stop < end * (1 + rounding) ? *stop : end;
   }
-  /// Increments have been halved so often that another way is tried.
+  /// Whether increments have been halved so often that another method is tried.
   bool stuck() const { return part_ <= 16 * least_; }
-  /// @returns false when they have become too small
+  /// @returns false if they have become too small
   bool halve() {
     part_ = (end() - made_) / 2;
     calm_ = 0;
     return part_ >= least_;
   }
-  /// @param followed  it was too large to be told by its ends
+  /// @param followed  whether it was too large to be checked by its ends
   void accept(int iterations, bool followed) {
     made_ = end();
     ++calm_;
@@ -54,10 +54,10 @@ class Increments {
   static constexpr int easy = 6;  // iterations of Newton's method
   double grid_, part_, least_, made_ = 0;
   std::vector<double> stops_;
-  int calm_ = 0;  ///< increments since one was refused
+  int calm_ = 0;  ///< number of increments since the last rejected one
 };
 
-/// Load factors after the first one, as parts of the way from there to the full load.
+/// Returns load factors after the first one as fractions of the interval from there to the full load.
 inline std::vector<double> parts_of_the_way(const std::vector<double>& factors, double begin) {
   std::vector<double> parts;
   for (const double factor : factors)

@@ -25,12 +25,12 @@ PathStep::PathStep(const LoadRamp& ramp, const NewtonOptions& options, const Sta
   }
   constexpr auto translation = static_cast<std::size_t>(Kind::translation),
                  amplitude = static_cast<std::size_t>(Kind::amplitude);
-  // A modal amplitude that takes as much work as a displacement of the mechanism's size counts as much.
+  // A modal amplitude with the same energy as a displacement of the mechanism's size has the same weight.
   const double unit_work = count[translation] > 0 && stiffness[translation] > 0
                                ? stiffness[translation] / count[translation] * extent_ * extent_
                                : stiffness[amplitude] / std::max(1.0, count[amplitude]);
   for (int i = 0; i < system_.dofs(); ++i) {
-    double weight = 1;  // of rotations
+    double weight = 1;  // weight of rotations
     if (system_.kind(i) == Kind::translation) weight = 1 / (extent_ * extent_);
     if (system_.kind(i) == Kind::amplitude)
       weight = unit_work > 0 ? std::abs(tangent_.linear().diagonal(i)) / unit_work : 1;
@@ -65,7 +65,7 @@ bool PathStep::correct(const State& base, const PathCondition& condition, double
   try {
     return iterate(base, condition, longest, trial);
   } catch (const ComputationError& error) {
-    why_ = fmt::format("load factor {:.6g}: {}", trial.factor, error.what());  // refused by a component
+    why_ = fmt::format("load factor {:.6g}: {}", trial.factor, error.what());  // a component cannot be evaluated
     return false;
   }
 }
@@ -73,7 +73,7 @@ bool PathStep::correct(const State& base, const PathCondition& condition, double
 bool PathStep::iterate(const State& base, const PathCondition& condition, double longest, PathTrial& trial) {
   VectorX r(system_.size()), by_factor(system_.size()), a(system_.size()), b(system_.size());
   ResidualScale scale;
-  State before = base;  // the trial is a linear step away from it
+  State before = base;  // one linear step led from it to the trial
   for (trial.iterations = 0;; ++trial.iterations) {
     const Environment environment = ramp_.environment(trial.factor);
     place(base, trial);

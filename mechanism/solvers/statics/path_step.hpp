@@ -12,13 +12,13 @@ namespace bielle::mechanism {
 
 /// A trial point relative to a base: state = base o delta at a load factor.
 struct PathTrial {
-  VectorX delta;  ///< (size): increments on the group, of first-order unknowns and of multipliers
+  VectorX delta;  ///< (size): increments on the group, of first-order unknowns and multipliers
   double factor = 0;
   State state;
   int iterations = 0;
 };
 
-/// A scalar g(trial) that is to vanish.
+/// A scalar equation g(trial) = 0.
 class PathCondition {
  public:
   virtual ~PathCondition() = default;
@@ -30,7 +30,7 @@ class PathCondition {
 
 class PathStep {
  public:
-  /// @param state  in equilibrium under the ramp's first load factor: sizes of the measure are taken from it
+  /// @param state  in equilibrium under the ramp's first load factor: sizes of the measure are computed from it
   PathStep(const LoadRamp& ramp, const NewtonOptions& options, const State& state);
 
   /// a . W b over the dofs, see arc_length.hpp. The length of a uniform displacement is relative to the mechanism's
@@ -43,10 +43,12 @@ class PathStep {
 
   /// Sets trial.state from its increments and its load factor.
   void place(const State& base, PathTrial& trial) const;
-  /// b = -K^-1 dr/ds: how the state goes with the load factor. @returns false where the tangent is singular
+  /// Computes b = -K^-1 dr/ds: the derivative of the state by the load factor. @returns false if the tangent is
+  /// singular
   bool response(const State& state, double factor, VectorX& b);
   /// Newton's method from the trial's increments and load factor. @returns whether it found a point; otherwise `why`
-  /// @param longest  of the increments: a longer one means divergence
+  /// gives the reason
+  /// @param longest  largest length of the increments: a longer one means divergence
   bool correct(const State& base, const PathCondition& condition, double longest, PathTrial& trial);
   const std::string& why() const { return why_; }
   std::string worst() const { return convergence_.worst(); }  ///< residual of the last iteration
@@ -65,7 +67,7 @@ class PathStep {
   std::string why_;
 };
 
-/// |delta|_W = arc.
+/// The condition |delta|_W = arc.
 class ArcCondition final : public PathCondition {
  public:
   ArcCondition(const PathStep& step, double arc) : step_(step), area_(arc * arc) {}

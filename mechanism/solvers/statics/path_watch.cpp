@@ -11,9 +11,9 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double accurate = 1e-6;  // of the place of a turn
+constexpr double accurate = 1e-6;  // relative accuracy of a turning point
 constexpr int most_steps = 1000;
-constexpr std::size_t kept = 3;  // points of the continuation
+constexpr std::size_t kept = 3;  // number of points of the continuation
 
 }  // namespace
 
@@ -31,7 +31,7 @@ PathWatch::Verdict PathWatch::look(const Point& from, Point& to) {
   close_in(below, to.factor);
   Point above = to;
   if (follow(above, below.factor)) {
-    if (measure_.small(motions_between(below.state, above.state))) return verdict;  // a kink, no more
+    if (measure_.small(motions_between(below.state, above.state))) return verdict;  // it is only a kink
     verdict.landing = above;
   }
   verdict.jump = jump_between(below, above);
@@ -49,7 +49,7 @@ bool PathWatch::told_by_ends(const Point& from, const Point& to) {
                        motions_along(system_, to.state, end, motion), found) <= 1;
 }
 
-/// To the equilibrium next to a point of the continuation. @returns whether there is one
+/// Finds the equilibrium near a point of the continuation. @returns whether there is one
 bool PathWatch::arrive(Point& point, const Point& reached, const Continuation& there) {
   State state = displaced(system_, reached.state, reached.state.motion_factor, there.correction);
   const State expected = state;
@@ -69,12 +69,12 @@ bool PathWatch::follow(Point& point, double factor, double least, const State* e
   if (whole == 0) return true;
   double step = whole / 4;
   bool refused = false;
-  // The last ones: near its turn the continuation may go a little too far.
+  // The last points are kept: near the turning point the continuation may go slightly too far.
   std::deque<Point> points{point};
   std::deque<Continuation> rates(1);
   try {
     equilibrium_.respond(point.factor, point.state, nullptr, rates[0]);
-    // An analysis may set off from what is no equilibrium yet.
+    // An analysis may start from a state that is not yet in equilibrium.
     if (!measure_.small(motions_along(system_, point.state, rates[0].correction, 0))) {
       if (equilibrium_.find(point.factor, point.state) < 0) return false;
       points[0] = point;
@@ -89,7 +89,7 @@ bool PathWatch::follow(Point& point, double factor, double least, const State* e
     Point trial{end, here.state};
     Continuation there;
     const double bend = advance(here, rates.back(), trial, there);
-    // After a refusal steps grow slowly again.
+    // After a rejected step, steps grow slowly again.
     const double most = refused ? 1.3 : 2.5;
     refused = bend > 1;
     step = (end - here.factor) * (refused ? std::clamp(0.7 / bend, 0.2, 0.5) : std::clamp(0.7 / bend, 0.5, most));
@@ -115,9 +115,9 @@ bool PathWatch::follow(Point& point, double factor, double least, const State* e
   return false;
 }
 
-/// A step of the continuation. @returns how far it is from what its ends tell: more than one is too far
+/// Makes a step of the continuation. @returns the difference from the description by its ends: more than one is too far
 double PathWatch::advance(const Point& here, const Continuation& at_begin, Point& trial, Continuation& at_end) {
-  constexpr int corrections = 3;  // until what they leave is small
+  constexpr int corrections = 3;  // until the remainder is small
   const double change = trial.factor - here.factor, motion = ramp_.motion(trial.factor) - here.state.motion_factor;
   try {
     const NodeMotions begin = motions_along(system_, here.state, change * at_begin.rate, motion);
@@ -140,14 +140,14 @@ double PathWatch::advance(const Point& here, const Continuation& at_begin, Point
       trial.state = displaced(system_, before, before.motion_factor, at_end.correction);
     }
   } catch (const ComputationError&) {
-    return INFINITY;  // a trial that a component refuses, or where the equations are singular
+    return INFINITY;  // a component cannot be evaluated at the trial, or the equations are singular
   }
 }
 
-/// Brings the last equilibrium before a turn of the path close to it. @param beyond  past the turn
+/// Moves the last equilibrium before a turning point of the path close to it. @param beyond  past the turning point
 void PathWatch::close_in(Point& below, double beyond) {
   const double least = accurate * std::abs(beyond - below.factor);
-  // Mostly it stands there already: short reaches come first.
+  // Usually it is already close: short distances are tried first.
   for (double reach = least; std::abs(beyond - below.factor) > least; reach *= 8) {
     const double gap = beyond - below.factor;
     Point middle{below.factor + std::copysign(std::min(reach, 0.5 * std::abs(gap)), gap), below.state};

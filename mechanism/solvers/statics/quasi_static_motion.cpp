@@ -17,7 +17,7 @@ Environment at_rest_in(Environment environment) {
   return environment;
 }
 
-/// The largest displacement of a node, relative to the extent, or turn [rad].
+/// Returns the largest displacement of a node relative to the extent, or its rotation [rad].
 double distance(const State& from, const State& to) {
   const double length = std::max(model_extent(to), 1e-30);
   double largest = 0;
@@ -68,7 +68,7 @@ State QuasiStaticMotion::position(const State& from, double time) {
   return next;
 }
 
-/// All velocities and accelerations zero, those of nodes that are moved included.
+/// Returns the state with zero velocities and accelerations, including those of moved nodes.
 State QuasiStaticMotion::at_standstill(const State& state) const {
   State still = state;
   ramp_.set_off(still);
@@ -89,9 +89,9 @@ void QuasiStaticMotion::find_path(const State& from, double time) {
   path_ = std::move(next);
 }
 
-/// The residual at rest a time after that of a state in equilibrium with f, a part of the way along the rates. Time
-/// stands still where no support moves: drives act by their constraints, and what loads change by themselves deforms
-/// without inertia.
+/// Computes the residual at rest at a time after that of a state in equilibrium with f, after a fraction of the motion
+/// along the rates. Time does not advance if no support moves: drives act by their constraints, and explicit changes of
+/// loads deform without inertia.
 QuasiStaticMotion::Extended QuasiStaticMotion::at_rest(const State& still, double after, double part) const {
   const double way = part * after, half_square = 0.5 * after * after;
   State moved = still;
@@ -108,7 +108,7 @@ QuasiStaticMotion::Extended QuasiStaticMotion::at_rest(const State& still, doubl
   return r;
 }
 
-/// Whether nodes are moved by their supports about a state's time.
+/// Whether supports move nodes near a state's time.
 bool QuasiStaticMotion::do_supports_move(const State& still) const {
   State moved = still;
   for (const double after : {-step_, 0.3 * step_, step_}) {
@@ -120,17 +120,17 @@ bool QuasiStaticMotion::do_supports_move(const State& still) const {
   return false;
 }
 
-/// The first derivative of a residual that moves along a part of the path's rates, or the second where the first
-/// vanishes. If a kink of a support's motion is too near, the differences lie on the side away from it alone.
+/// Computes the first derivative of a residual that moves along a fraction of the path's rates, or the second if the
+/// first is zero. If a kink of a support's motion is too near, the differences are only taken on the side away from it.
 QuasiStaticMotion::Extended QuasiStaticMotion::derivative(const State& still, double part, int order) const {
-  constexpr double turn = 0.005;  // [rad], or of the extent: differences err by its powers, rounding by its square
+  constexpr double turn = 0.005;  // [rad], or relative to the extent: a balance of truncation and rounding errors
   const double length = std::max(model_extent(still), 1e-30);
   double speed = 0;
   for (int i = 0; i < system_.dofs(); ++i)
     speed = std::max(speed, std::abs(v_[i]) / (system_.kind(i) == Kind::translation ? length : 1));
   double h = std::min(turn / std::max(speed, 1e-300), supports_move_ ? 0.5 * step_ : 1e3 * step_);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  double before = infinity, after = infinity;  // to the nearest kinks; one at this time is left behind
+  double before = infinity, after = infinity;  // time to the nearest kinks; one at this time is ignored
   if (supports_move_)
     for (const double kink : kinks_) {
       double& distance = kink > still.time ? after : before;
@@ -146,7 +146,7 @@ QuasiStaticMotion::Extended QuasiStaticMotion::derivative(const State& still, do
                     : Extended((6 * r(1) - 1.5 * r(2) + 2.0 / 9 * r(3)) / (h * h));
 }
 
-/// f' and f'' of forces that stay as they are in the axes of nodes which turn as those of a state.
+/// Computes f' and f'' of forces that are constant in the axes of nodes, which rotate like those of a state.
 void QuasiStaticMotion::follow(const State& state) {
   f1_ = f2_ = VectorX::Zero(system_.dofs());
   support1_ = support2_ = MatrixX::Zero(6, support_.cols());
@@ -174,7 +174,7 @@ void QuasiStaticMotion::follow(const State& state) {
     }
 }
 
-/// The solution (size) for a residual's derivative; the efforts' part apart.
+/// Solves (size) for a residual's derivative; the part of the efforts is separate.
 VectorX QuasiStaticMotion::solve_rates(const State& still, Extended r, const EffortResponse& response,
                                        VectorX& effort_rate) const {
   VectorX solution(system_.size());
@@ -184,7 +184,7 @@ VectorX QuasiStaticMotion::solve_rates(const State& still, Extended r, const Eff
   return solution + response.step(effort_rate);
 }
 
-/// Gives a state in equilibrium with f the rates of the path.
+/// Sets the rates of the path in a state that is in equilibrium with f.
 void QuasiStaticMotion::find_rates(State& state) {
   const int dofs = system_.dofs(), multipliers = system_.multipliers();
   const State still = at_standstill(state);
@@ -211,15 +211,15 @@ void QuasiStaticMotion::find_rates(State& state) {
   system_.set_rates(state, v_, a_);
 }
 
-/// Sets the rows of constraints that are in the equations; those of the others vanish.
+/// Sets the rows of active constraints; the other rows are zero.
 void QuasiStaticMotion::put_constraints(const State& state, const VectorX& rows, VectorX& r) const {
   const int first = system_.size() - system_.multipliers();
   r.segment(first, rows.size()) = rows;
   system_.for_each_idle(state, [&](int k) { r[first + k] = 0; });
 }
 
-/// Inertia and dampers' forces are what velocities and accelerations add to the residual (dofs), and to the reactions
-/// of moved nodes (6 of each).
+/// Returns the forces of inertia and dampers: the parts that velocities and accelerations add to the residual (dofs),
+/// and to the reactions of moved nodes (6 for each).
 VectorX QuasiStaticMotion::inertia_of(const State& state) const {
   VectorX moving(system_.size()), resting(system_.size()), all(f_.size() + support_.size());
   const State still = at_standstill(state);
@@ -233,7 +233,8 @@ VectorX QuasiStaticMotion::inertia_of(const State& state) const {
   return all;
 }
 
-/// The weight of a force of each kind next to others: moments by the mechanism's size, forces on amplitudes by none.
+/// Returns relative weights of forces of each kind: moments are divided by the mechanism's size, forces on amplitudes
+/// have no weight.
 VectorX QuasiStaticMotion::weights_of_inertia(const State& state) const {
   const double length = std::max(model_extent(state), 1e-30);
   VectorX weights = VectorX::Ones(f_.size() + support_.size());
@@ -246,7 +247,7 @@ VectorX QuasiStaticMotion::weights_of_inertia(const State& state) const {
 
 void QuasiStaticMotion::load_by_inertia(State& state) {
   constexpr int most = 60;
-  constexpr double settled = 1e-9;  // [rad], or of the extent: so far inertia forces are not known
+  constexpr double settled = 1e-9;  // [rad], or relative to the extent: accuracy of inertia forces
   FixedPoint forces(weights_of_inertia(state));
   VectorX f = inertia_of(state);
   for (int k = 0; k < most; ++k) {
@@ -277,7 +278,7 @@ void QuasiStaticMotion::note_left_out(const State& state) {
   const std::size_t n = times_.size();
   if (n < 3) return;
   const double h = times_[n - 1] - times_[n - 2], before = times_[n - 2] - times_[n - 3];
-  // A difference across a kink in the law of a drive tells of the kink alone.
+  // A difference across a kink in the law of a drive only shows the kink.
   const bool smooth = std::none_of(kinks_.begin(), kinks_.end(),
                                    [&](double kink) { return kink > times_[n - 3] - h && kink < times_[n - 1] + h; });
   if (smooth && std::abs(h - before) <= 1e-6 * h) {

@@ -17,7 +17,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 const TangentWeights stiffness_alone{1, 0, 0, 0, 1, true};
 
-/// The largest magnitude in each unknown's group.
+/// Returns the largest magnitude in each unknown's group.
 VectorX largest_of_groups(const std::vector<int>& group, const VectorX& x) {
   VectorX most = VectorX::Zero(group.back() + 1), result(static_cast<Eigen::Index>(group.size()));
   for (int i = 0; i < result.size(); ++i) {
@@ -28,8 +28,8 @@ VectorX largest_of_groups(const std::vector<int>& group, const VectorX& x) {
   return result;
 }
 
-/// Entries that are rounding of others, which would give sizes to unknowns that have no stiffness (displacements of a
-/// rigid body), are left out.
+/// Removes entries that are rounding errors of others: they would give sizes to unknowns without stiffness
+/// (displacements of a rigid body).
 void leave_rounding_out(const System& system, double length, Sparse& K) {
   constexpr double rounding = 1e-14;
   double translation = 0, rotation = 0;
@@ -50,9 +50,9 @@ void leave_rounding_out(const System& system, double length, Sparse& K) {
   });
 }
 
-/// Sizes that are no more than rounding of others of their kind are raised: nothing is judged by them.
+/// Increases sizes that are only rounding errors of others of their kind, so that they do not affect the result.
 void raise_least(const System& system, VectorX& sizes) {
-  constexpr double least = 1e-6;  // of the mean
+  constexpr double least = 1e-6;  // relative to the mean
   std::array<double, kind_count> sum{}, count{};
   for (int i = 0; i < system.dofs(); ++i) {
     sum[static_cast<std::size_t>(system.kind(i))] += sizes[i];
@@ -72,7 +72,7 @@ Stability::Stability(const System& system, const VectorX* held)
       group_(unknown_groups(system, system.dofs())),
       held_(held ? *held : VectorX()) {}
 
-/// The tangent's parts. @returns nothing where forces depend on first-order unknowns
+/// Extracts the parts of the tangent. @returns no value if forces depend on first-order unknowns
 std::optional<Stability::Parts> Stability::parts() const {
   const std::vector<double>& values = linear_.values();
   const SparsePattern& pattern = system_.pattern();
@@ -81,14 +81,14 @@ std::optional<Stability::Parts> Stability::parts() const {
   int constraints = 0;
   for (int k = 0; k < system_.multipliers(); ++k) {
     const int place = pattern.find(first + k, first + k);
-    const bool out = place >= 0 && values[static_cast<std::size_t>(place)] > 0;  // of the equations
+    const bool out = place >= 0 && values[static_cast<std::size_t>(place)] > 0;  // out of the equations
     if (!out) number[static_cast<std::size_t>(k)] = constraints++;
   }
   std::vector<Eigen::Triplet<double>> stiffness, rows, columns;
   bool known = true;
   pattern.for_each([&](int place, int row, int column) {
     const double value = values[static_cast<std::size_t>(place)];
-    if (value == 0 || (row >= dofs && row < first)) return;  // what first-order unknowns do is no stiffness
+    if (value == 0 || (row >= dofs && row < first)) return;  // effects of first-order unknowns are no stiffness
     if (column >= dofs && column < first) {
       known = false;
     } else if (row < dofs && column < dofs) {
@@ -107,10 +107,10 @@ std::optional<Stability::Parts> Stability::parts() const {
   return parts;
 }
 
-/// Whether forces have a potential. Turns of a node commute only where its moments balance: what an equilibrium leaves
-/// over of them is no asymmetry.
+/// Whether forces have a potential. Rotations of a node commute only if its moments balance: the residual moments of an
+/// equilibrium are not counted as an asymmetry.
 bool Stability::is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over) const {
-  constexpr double asymmetry = 1e-7;  // of sizes
+  constexpr double asymmetry = 1e-7;  // relative to the sizes
   const Sparse difference = parts.K - Sparse(parts.K.transpose());
   for (int j = 0; j < difference.outerSize(); ++j)
     for (Sparse::InnerIterator it(difference, j); it; ++it) {
@@ -151,10 +151,10 @@ std::optional<Stability::Mode> Stability::softest(const State& state, const Envi
   if (!linear_.try_factor(state, environment, stiffness_alone, nullptr, held())) return {};
   const double length = model_extent(state) > 0 ? model_extent(state) : 1;
   const int n = system_.dofs();
-  VectorX weight(n);  // what makes turns and displacements comparable
+  VectorX weight(n);  // makes rotations and displacements comparable
   for (int i = 0; i < n; ++i) weight[i] = system_.kind(i) == Kind::translation ? 1 / (length * length) : 1;
   VectorX v = VectorX::Zero(system_.size()), load = VectorX::Zero(system_.size());
-  // Something along everything: a symmetric start would miss what is antisymmetric.
+  // The start vector is not symmetric: a symmetric one would miss antisymmetric shapes.
   for (int i = 0; i < n; ++i) load[i] = 1 + 0.618 * std::sin(1.0 + 2.399963 * i);
   double before = 0, stiffness = 0;
   for (int iteration = 0; iteration < most; ++iteration) {
@@ -179,7 +179,7 @@ std::optional<Stability::Mode> Stability::softest(const State& state, const Envi
     mode.largest = i;
   }
   mode.shape /= largest;
-  // By forces where they reach it: moments about the axes of nodes turn with them.
+  // Forces are used if they are sufficient: moments about the axes of nodes rotate with them.
   mode.force = weight.cwiseProduct(mode.shape);
   double reached = 0;
   for (int i = 0; i < n; ++i)

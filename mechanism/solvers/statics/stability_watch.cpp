@@ -31,13 +31,13 @@ void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
     throw ComputationError(
         "statics: `branch` needs to know the stability of equilibria, which is not a question of stiffness here: it is "
         "not symmetric (forces that follow, moments about fixed axes, friction), or depends on controllers or fluids");
-  // A large increment may jump onto an unstable equilibrium where small ones stay on a stable path.
+  // A large increment may jump to an unstable equilibrium while small ones stay on a stable path.
   if (last_ && last_count_ && now && *now > *last_count_)
     if (State trial = *last_; lead(factor, trial)) {
       state = trial;
       now = count(factor, state);
     }
-  constexpr int most = 20;  // critical points in one increment that are told one by one
+  constexpr int most = 20;  // largest number of critical points in one increment that are listed
   for (int k = 0; k < most && last_ && last_count_ && now && *now != *last_count_; ++k) {
     CriticalPoint point = locate(factor, state, *now);
     if (branch_ > 0 && point.after > point.before && mode_) {
@@ -54,14 +54,14 @@ void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
     }
     log.critical.push_back(point);
     if (!above_) break;
-    remember(above_->first, above_->second, point.after);  // on from just above it
+    remember(above_->first, above_->second, point.after);  // continues from just above it
   }
   log.unstable = now;
   remember(factor, state, now);
 }
 
-/// Between the last equilibrium and this one: by the smallest stiffness, which changes its sign there, within the
-/// bracket of the counts.
+/// The number changes between the last equilibrium and this one: the point is located by the zero of the smallest
+/// stiffness, within the bracket of the counts.
 CriticalPoint StabilityWatch::locate(double factor, const State& state, int count) {
   constexpr int most = 60;
   constexpr double accurate = 1e-7;
@@ -86,7 +86,7 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
     State trial = below;
     std::optional<int> here;
     if (equilibrium_.find(middle, trial) >= 0) here = this->count(middle, trial);
-    // Where the equations are singular, or nearly, this is the place.
+    // If the equations are singular, or nearly, the point is found.
     if (!here) {
       singular = middle;
       break;
@@ -109,10 +109,10 @@ CriticalPoint StabilityWatch::locate(double factor, const State& state, int coun
   return point;
 }
 
-/// From the last equilibrium with a force along the critical motion that deflects it by `branch`, in steps that keep it
-/// stable; then without the force.
+/// Follows the branch from the last equilibrium with a force along the critical motion that deflects it by `branch`, in
+/// steps that keep it stable; then without the force.
 bool StabilityWatch::follow(double factor, const Stability::Mode& mode, State& state) {
-  constexpr double strongest = 256;  // relative to the first force that is tried; each is four times the one before
+  constexpr double strongest = 256;  // relative to the first force that is tried; each is four times the previous one
   const double stiffness = std::max(std::abs(k_before_), std::abs(k_after_));
   for (double times = 1; times <= strongest; times *= 4) {
     State trial = *last_;
@@ -127,8 +127,8 @@ bool StabilityWatch::follow(double factor, const Stability::Mode& mode, State& s
   return false;
 }
 
-/// A branch that leaves along two motions at once may be one of a circle of them, along which nothing resists (a round
-/// rod that buckles to any side): such a motion is held like what is loose.
+/// A branch that begins along two motions at once may be one of a circle of branches, along which there is no stiffness
+/// (a round rod that buckles to any side): such a motion is held like an indifferent one.
 void StabilityWatch::hold_neutral(double factor, const State& state) {
   equilibrium_.look_for_loose(factor, state);
   if (equilibrium_.held()) stability_.hold(*equilibrium_.held());

@@ -1,4 +1,4 @@
-// Watches the stability of equilibria along load steps: finds where it changes, and the branch that leaves there.
+// Monitors the stability of equilibria along load steps: finds its changes, and the branch at such a point.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ class StabilityWatch {
   /// @param branch  see LoadSteps
   StabilityWatch(const LoadRamp& ramp, Equilibrium& equilibrium, double branch);
 
-  /// The state that the analysis begins with.
+  /// Sets the initial state of the analysis.
   void begin(double factor, const State& state);
-  /// An equilibrium is about to be accepted. If stability has changed since the last one, finds where; puts the state
-  /// onto the branch, if one is to be followed. @throws ComputationError when there is none to be found
+  /// Checks an equilibrium before it is accepted. If stability has changed since the last one, locates the change;
+  /// moves the state to the branch, if one is to be followed. @throws ComputationError if no branch is found
   void look(double factor, State& state, StaticsLog& log);
-  /// Whether an equilibrium is unstable along more motions than the last one; false where that is not known.
+  /// Whether an equilibrium has more unstable motions than the last one; false if that is not known.
   bool less_stable(double factor, const State& state) {
     const std::optional<int> now = count(factor, state);
     return now && last_count_ && *now > *last_count_;
@@ -33,7 +33,7 @@ class StabilityWatch {
   bool follow(double factor, const Stability::Mode& mode, State& state);
   void hold_neutral(double factor, const State& state);
   bool lead(double factor, State& state);
-  bool is_stable(const State& state, double factor);  ///< as the last equilibrium was
+  bool is_stable(const State& state, double factor);  ///< compared with the last equilibrium
 
   const LoadRamp& ramp_;
   Equilibrium& equilibrium_;
@@ -42,9 +42,9 @@ class StabilityWatch {
   std::optional<State> last_;  ///< the last equilibrium
   double last_factor_ = 0;
   std::optional<int> last_count_;
-  std::optional<std::pair<double, State>> above_;  ///< an equilibrium just above what `locate` found last
-  std::optional<Stability::Mode> mode_;            ///< the critical one that was found last
-  double k_before_ = 0, k_after_ = 0;              ///< smallest stiffness on either side of it
+  std::optional<std::pair<double, State>> above_;  ///< an equilibrium just above the point found by `locate`
+  std::optional<Stability::Mode> mode_;            ///< the last critical motion
+  double k_before_ = 0, k_after_ = 0;              ///< smallest stiffness on both sides of it
 };
 
 }  // namespace bielle::mechanism

@@ -10,7 +10,8 @@ namespace {
 
 const TangentWeights tangent_at_rest{1, 0, 0, 0, 1, true};
 
-/// The mean stiffness of each kind of unknown (dofs); of a kind without any, that of the others by the model's length.
+/// Returns the mean stiffness of each kind of unknown (dofs); a kind without stiffness takes that of the others by the
+/// model's length.
 VectorX mean_stiffness(const System& system, const LinearStep& linear, const State& state) {
   std::array<double, kind_count> sum{}, count{};
   for (int i = 0; i < system.dofs(); ++i) {
@@ -83,7 +84,7 @@ std::string loose_unknown(const System& system, const Environment& environment, 
   if (!linear.try_factor(state, environment, weights, nullptr))
     return linear.singular_unknown() >= 0 ? system.unknown_name(linear.singular_unknown()) : "an unknown";
   if (!linear.nearly_singular()) return {};
-  // A solution for any forces lies along what is loose.
+  // A solution for arbitrary forces is along indifferent motions.
   VectorX motion(system.size());
   linear.solve(VectorX::LinSpaced(system.size(), 1, 2), motion);
   return moves_most(system, motion, state);

@@ -1,10 +1,10 @@
-// The tangent at rest, where something may lie about that nothing holds: a link that can turn about its own axis
-// between two spherical joints, a wheel on its axle.
+// The tangent at rest, with possibly unsupported parts: a link that can rotate about its own axis between two spherical
+// joints, a wheel on its axle.
 //
-// Along such a motion the stiffness K is zero. Where nothing loads it either there is equilibrium all the same, and it
-// stays where it is: K is factorised with e D added, D the mean stiffness of translations, rotations and amplitudes on
-// the diagonal and e = 1e-9. Residuals stay exact; Newton's method converges along all that is stiffer than e D as
-// without. What is loaded along such a motion runs away and finds no equilibrium.
+// Along such a motion the stiffness K is zero. If it is not loaded either, there is an equilibrium, and the motion is
+// held: K is factorised with e D added, where D is the mean stiffness of translations, rotations and amplitudes on the
+// diagonal and e = 1e-9. Residuals stay exact; for motions that are stiffer than e D, Newton's method converges as
+// without it. Parts that are loaded along such a motion diverge and find no equilibrium.
 #pragma once
 
 #include <string>
@@ -13,40 +13,42 @@
 
 namespace bielle::mechanism {
 
-/// A linear response that is longer (turns [rad], or of the mechanism's size) may run away along what is loose: e is
-/// 1e-9. Whether it does says StaticTangent::runs_loose: a mechanism drawn in a small space moves far along springs.
+/// A linear response longer than this (rotations [rad], or relative to the mechanism's size) may diverge along an
+/// indifferent motion: e is 1e-9. StaticTangent::runs_loose decides whether it does: a mechanism with small initial
+/// size moves far along springs.
 constexpr double runaway = 1e3;
 
 class StaticTangent {
  public:
   explicit StaticTangent(const System& system) : system_(system), linear_(system) {}
 
-  /// Decides from the tangent at a state, where an analysis sets off, whether something is loose.
+  /// Decides from the tangent at a state, at the start of an analysis, whether there are indifferent motions.
   void look_for_loose(const State& state, const Environment& environment);
-  /// dr/dq + inertia M, factorised. @param dq  see System::tangent; @throws ComputationError where it is singular, with
-  /// what was loose at the start held
+  /// Factorises dr/dq + inertia M. @param dq  see System::tangent; @throws ComputationError if it is singular, with the
+  /// initially indifferent motions held
   void factor(const State& state, const Environment& environment, double inertia = 0, const VectorX* dq = nullptr);
-  /// The same without inertia; @returns false where it is singular.
+  /// Factorises without inertia; @returns false if it is singular.
   bool try_factor(const State& state, const Environment& environment);
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const { linear_.solve(r, delta); }
   const LinearStep& linear() const { return linear_; }
-  /// Whether a solution with the last factors lies along what nothing but e D holds. With P = (K + e D)^-1 e D, which
-  /// leaves such motions as they are and makes e D/K of others, |P delta| > |delta|/2 in the norm of D: no length
-  /// decides. @param delta  (dofs or more)
+  /// Whether a solution with the last factors is along motions that only e D holds. With P = (K + e D)^-1 e D, which
+  /// preserves such motions and reduces others by e D/K, the criterion is |P delta| > |delta|/2 in the norm of D: no
+  /// length is involved. @param delta  (dofs or more)
   bool runs_loose(const VectorX& delta) const;
-  /// e D (dofs) where something was loose, otherwise none.
+  /// e D (dofs) if there was an indifferent motion, otherwise null.
   const VectorX* held() const { return held_.size() > 0 ? &held_ : nullptr; }
 
  private:
   const System& system_;
   LinearStep linear_;
-  VectorX held_;  ///< e D (dofs); empty: nothing is loose
+  VectorX held_;  ///< e D (dofs); empty: no indifferent motion
 };
 
-/// The unknown that moves most in a motion (dofs or more): displacements count relative to the mechanism's size.
+/// Returns the unknown with the largest part in a motion (dofs or more): displacements are relative to the mechanism's
+/// size.
 std::string moves_most(const System& system, const VectorX& motion, const State& state);
 
-/// The unknown that moves most where neither stiffness nor a constraint resists; empty: everything is held.
+/// Returns the unknown with the largest motion without stiffness or constraint; empty: everything is held.
 std::string loose_unknown(const System& system, const Environment& environment, const State& state);
 
 }  // namespace bielle::mechanism

@@ -38,7 +38,7 @@ class LoadStepping {
   }
 
   bool ended() const { return increments_.ended(); }
-  /// Makes an increment, or a smaller one the next. @returns the iterations, or -1 where it was refused
+  /// Makes an increment, or reduces the next one. @returns the number of iterations, or -1 if it was rejected
   int advance();
   double factor() const { return factor_at(increments_.made()); }
   StaticsLog log() {
@@ -69,13 +69,13 @@ class LoadStepping {
   StabilityWatch watch_;
   PathWatch path_;
   StaticsLog log_;
-  std::string why_;  ///< nothing was found
+  std::string why_;  ///< reason if no equilibrium was found
 };
 
 double LoadStepping::factor_at(double part) const {
   if (part == 1) return 1.0;
   const double factor = begin_ + part * (1 - begin_);
-  for (const double stop : steps_.stops)  // to the last bit
+  for (const double stop : steps_.stops)  // exactly equal
     if (std::abs(stop - factor) <= 1e-12) return stop;
   return factor;
 }
@@ -91,7 +91,7 @@ int LoadStepping::advance() {
     return -1;
   }
   if (falls) log_.fell = why_;
-  if (!loaded_ && !falls && !held_.any()) {  // the path of what is held is another one
+  if (!loaded_ && !falls && !held_.any()) {  // the path of held coordinates is another one
     followed = judge(before, factor);
     if (followed) iterations = static_cast<int>(equilibrium_.solves() - solves);
   }
@@ -101,7 +101,7 @@ int LoadStepping::advance() {
   return iterations;
 }
 
-/// @param falls  set where something has been let go
+/// @param falls  set if a part has been released
 int LoadStepping::find(double factor, bool& falls) {
   int iterations = equilibrium_.find(factor, state_);
   falls = equilibrium_.falls();
@@ -119,7 +119,7 @@ int LoadStepping::find(double factor, bool& falls) {
   return iterations;
 }
 
-/// The last means when Newton's method finds nothing. @returns the iterations, or -1
+/// The last method if Newton's method does not converge. @returns the number of iterations, or -1
 int LoadStepping::follow(double factor) {
   const long solves = equilibrium_.solves();
   PathWatch::Point point{this->factor(), state_};
@@ -139,8 +139,7 @@ void LoadStepping::refuse(double factor, bool falls) {
                   loaded_ || falls ? "" : "; if the load has a maximum there, `arc_length` follows the path past it"));
 }
 
-/// An increment has been found: puts the state onto its path, and notes where it jumps. @returns whether the path had
-/// to be followed
+/// Moves a new increment to its path, and records jumps. @returns whether the path had to be followed
 bool LoadStepping::judge(const PathWatch::Point& from, double factor) {
   PathWatch::Point to{factor, state_};
   const PathWatch::Verdict verdict = path_.look(from, to);
@@ -149,7 +148,7 @@ bool LoadStepping::judge(const PathWatch::Point& from, double factor) {
     const PathWatch::Point found = to;
     land(to, verdict, jump);
     log_.jumps.push_back(jump);
-    // Stability is watched along paths, not across jumps.
+    // Stability is monitored along paths, not across jumps.
     const bool same = path_.jump_between(found, to).distance == 0;
     const PathWatch::Point& landing = verdict.landing && same ? *verdict.landing : to;
     watch_.begin(landing.factor, landing.state);
@@ -158,7 +157,7 @@ bool LoadStepping::judge(const PathWatch::Point& from, double factor) {
   return verdict.followed;
 }
 
-/// Lets the mechanism go down from where a jump began, if it has led to an equilibrium that cannot stay.
+/// Moves the mechanism to its rest position from the start of a jump that led to an unstable equilibrium.
 void LoadStepping::land(PathWatch::Point& to, const PathWatch::Verdict& verdict, LoadJump& jump) {
   if (!watch_.less_stable(to.factor, to.state) && !verdict.sign_changed) return;
   PathWatch::Point down{to.factor, verdict.below->state};
@@ -187,7 +186,7 @@ namespace {
 
 void note_stability(const System& system, const Environment& environment, const State& state, StartReport& report) {
   StaticTangent tangent(system);
-  tangent.look_for_loose(state, environment);  // what nothing holds is indifferent: its sign is rounding
+  tangent.look_for_loose(state, environment);  // an unsupported motion is indifferent: its sign is rounding
   Stability stability(system, tangent.held());
   report.unstable = stability.count(state, environment).value_or(0);
   if (report.unstable > 0)
@@ -225,7 +224,7 @@ void settle(const System& system, const Environment& of_motion, const NewtonOpti
     state = assembled;
     relax(system, environment, options, held, state);
   }
-  // A held coordinate would count as loose, or as unstable.
+  // A held coordinate would count as indifferent, or as unstable.
   if (held.empty()) {
     report.loose = loose_unknown(system, environment, state);
     note_stability(system, environment, state, report);

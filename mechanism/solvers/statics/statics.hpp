@@ -1,5 +1,5 @@
 // Static equilibrium by load steps: loads, gravity and prescribed motions grow with the load factor to their full
-// value. Past limit points of the load: arc_length.hpp.
+// value. For paths past limit points of the load see arc_length.hpp.
 #pragma once
 
 #include <functional>
@@ -17,53 +17,54 @@ namespace bielle::mechanism {
 
 /// Equal increments of the load factor.
 struct LoadSteps {
-  /// 0: a tenth of the way is tried first, and increments grow as long as Newton's method converges fast.
+  /// 0: a tenth of the interval is tried first, and increments grow as long as Newton's method converges fast.
   int count = 1;
-  Loaded start{};  ///< what acts already
-  /// Where the stiffness becomes negative the branch is followed that leaves there: with a force on the way that
-  /// deflects it along the critical motion by this much of the mechanism's size, or in radians. 0: the path goes on,
+  Loaded start{};  ///< fractions already applied
+  /// If the stiffness becomes negative, the branch at this point is followed: by a temporary force that deflects it
+  /// along the critical motion by this fraction of the mechanism's size, or in radians. 0: the path continues,
   /// unstable.
   double branch = 0;
-  std::vector<double> stops;              ///< load factors at which an increment ends in any case, ascending
-  std::vector<CoordinateCondition> held;  ///< coordinates that stay where their values say
+  std::vector<double> stops;              ///< load factors at which an increment must end, ascending
+  std::vector<CoordinateCondition> held;  ///< coordinates that are kept at their values
   LoadSteps(int steps, const Loaded& begin = {}) : count(steps), start(begin) {}
 };
 
-/// An increment that led to another equilibrium than the one it came from, because that one ends on the way.
+/// An increment that led to another equilibrium, because the path of the first one ends within it.
 struct LoadJump {
-  double factor = 0;    ///< where
-  std::string node;     ///< that moves farthest at once
+  double factor = 0;    ///< load factor
+  std::string node;     ///< node with the largest sudden movement
   double distance = 0;  ///< [m]
 };
 
-/// What increments of the load factor cost, and what stability was found.
+/// Cost of the increments of the load factor, and the stability found.
 struct StaticsLog {
   std::vector<CriticalPoint> critical;
-  std::optional<int> unstable;  ///< motions of negative stiffness at the end; none: not known
+  std::optional<int> unstable;  ///< number of motions of negative stiffness at the end; no value: not known
   std::vector<LoadJump> jumps;
-  std::string fell;         ///< what nothing held against its load, until it rested elsewhere; empty: nothing
-  std::string loose;        ///< what nothing holds or loads at the end, and stays as drawn; empty: nothing
-  long solves = 0;          ///< linear solves, those of refused increments included
-  long refused = 0;         ///< increments that did not converge
-  double refused_at = 0;    ///< the load factor where the last one should have led
-  std::string why_refused;  ///< of the last one
+  std::string fell;         ///< part without support against its load that moved to another rest position; empty: none
+  std::string loose;        ///< unknown without support or load at the end, which keeps its initial value; empty: none
+  long solves = 0;          ///< number of linear solutions, including those of rejected increments
+  long refused = 0;         ///< number of increments that did not converge
+  double refused_at = 0;    ///< load factor at the end of the last rejected increment
+  std::string why_refused;  ///< reason of the last one
 };
 
-/// Brings the state into equilibrium under the full load in increments of the load factor, each by Newton's method; an
+/// Brings the state to equilibrium under the full load in increments of the load factor, each by Newton's method; an
 /// increment that does not converge is halved (down to 1/1024 of the first). Later ones grow again, up to the next
-/// point of the grid that was asked for. Velocities and accelerations are zero. Where all of the load acts already
-/// (after a motion), there is one step, from the present state to equilibrium.
+/// point of the requested grid. Velocities and accelerations are zero. If all of the load acts already (after a
+/// motion), there is one step, from the present state to equilibrium.
 /// @param environment  with gravity of load factor 1
 /// @param record       called after each increment with the state, its load factor and the iterations
-/// @throws ComputationError naming the load factor and what refused, or the equation where Newton stalled
+/// @throws ComputationError naming the load factor and the component that could not be evaluated, or the equation at
+/// which Newton's method stalled
 StaticsLog solve_statics(const System& system, const Environment& environment, const LoadSteps& steps,
                          const NewtonOptions& options, State& state,
                          const std::function<void(const State&, double, int)>& record = {});
 
-/// Brings the state into equilibrium under the loads at its time, as the start of a motion: velocities stay as they
-/// are. Adds to the report what had to move, by assembly and by equilibrium.
-/// @param held  coordinates that stay where their values say, whatever loads them
-/// @throws ComputationError when there is no equilibrium near, or when the mechanism can move without resistance in it
+/// Brings the state to equilibrium under the loads at its time, as the start of a motion: velocities are not changed.
+/// Adds the movements by assembly and by equilibrium to the report.
+/// @param held  coordinates that are kept at their values, for any load
+/// @throws ComputationError if there is no equilibrium nearby, or if the mechanism can move without resistance in it
 void settle(const System& system, const Environment& environment, const NewtonOptions& options,
             const std::vector<CoordinateCondition>& held, State& state, StartReport& report);
 
