@@ -1,5 +1,5 @@
-// Contribution of ties to the geometric stiffness: the second-order displacement of tied surfaces and of the arms to their
-// nodes.
+// Contribution of ties to the geometric stiffness: the second-order displacement of tied surfaces and of the arms to
+// their nodes.
 //
 // Per interface, with theta (3,n) the rotation of its surface in terms of q, body axes:
 //     rigid     theta^T [sym(N) - tr(N) I] theta,  N = sum over nodes f_s (X_s - X)^T,  f_s the force of the tie on

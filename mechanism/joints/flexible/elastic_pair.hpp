@@ -1,7 +1,7 @@
 // Joints without constraints: an elastic law (laws/elastic_law.hpp) connects their two nodes.
 //
-// A type computes its measures, up to six, as numbers with derivatives. The resisting forces of the law act along their gradients: forces
-// with a potential, and their exact tangent.
+// A type computes its measures, up to six, as numbers with derivatives. The resisting forces of the law act along their
+// gradients: forces with a potential, and their exact tangent.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"

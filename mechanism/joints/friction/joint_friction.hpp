@@ -84,8 +84,8 @@ class JointFriction : public Component {
   /// Computes v with its derivatives over the joint's layout: valid until the next call in this thread.
   struct Slip {
     Vector v;
-    MatrixX w;                          ///< (n, components): v = w^T velocities
-    MatrixX by_position;                ///< (n, components): dv = by_position^T increments; if requested
+    MatrixX w;                                  ///< (n, components): v = w^T velocities
+    MatrixX by_position;                        ///< (n, components): dv = by_position^T increments; if requested
     std::array<CoordinateDerivatives, 3> jets;  ///< jets of the parts
   };
   Slip& slip(const LocalState& state, bool with_positions) const;
