@@ -31,7 +31,7 @@ struct Campbell : LinearisedSetting {  ///< the setting is that of the last valu
   SweptModes swept;
   Vector3 axis = Vector3::Zero();
   std::vector<double> unsteady;  ///< values at which the motion was not steady in these axes
-  std::string gathered;          ///< summary of the gatherers of another model, for the last value
+  std::string gathered;          ///< summary of the step recorders of another model, for the last value
 };
 
 /// Computes the modes over a speed, tracked, with critical speeds; the present state of the session is kept. If the

@@ -162,13 +162,15 @@ std::string judge_flow(double balance, double stored, double through) {
 
 std::string format_energy(const Session& session, const Motion& motion, const DynamicsOptions& options) {
   const Energy& energy = motion.energy();
-  const EnergyBalance& books = motion.books();
-  const double balance = books.balance(), stored = books.largest(), through = books.through();
+  const EnergyBalance& energy_balance = motion.energy_balance();
+  const double balance = energy_balance.balance(), stored = energy_balance.largest(),
+               through = energy_balance.through();
   const double largest = std::max(stored, through);
   const std::string text = format_energies(energy);
   if (!(largest > energy_noise(session))) return text + "  nothing moved\n";
-  const Gap gap{balance / largest, 0 - motion.scheme_loss() / largest,
-                books.largest_error() / std::max(stored, part_of_turnover * books.largest_turnover())};
+  const Gap gap{
+      balance / largest, 0 - motion.scheme_loss() / largest,
+      energy_balance.largest_error() / std::max(stored, part_of_turnover * energy_balance.largest_turnover())};
   return text +
          fmt::format("  balance {:.3g} J, {:.2g} of {} ({})\n", balance, gap.whole,
                      through > stored ? "what flowed through" : "the largest energy",

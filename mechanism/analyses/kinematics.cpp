@@ -14,7 +14,7 @@
 
 #include "mechanism/session/computation.hpp"
 #include "mechanism/session/time_grid.hpp"
-#include "mechanism/solvers/dynamics/crossing_watch.hpp"
+#include "mechanism/solvers/dynamics/event_locator.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/branch_sign.hpp"
@@ -139,7 +139,7 @@ class RigidPositions {
   const System& system_;
   const Environment& environment_;
   const SoughtEfforts& efforts_;
-  MassSaddle saddle_;
+  KktMatrix saddle_;
 };
 
 /// A prescribed motion from time to time, and from event to event.
@@ -161,7 +161,7 @@ class CrossedMotion {
   /// billionth of the step.
   /// @param jumps  whether velocities may jump at that time
   /// @returns the events that occur, in their order
-  std::vector<CrossingWatch::Noted> advance(State& state, double time, bool jumps) {
+  std::vector<EventLocator::Noted> advance(State& state, double time, bool jumps) {
     State next = motion_.advance(state, time, jumps);
     const double h = time - state.time;
     passed_.clear();
@@ -174,8 +174,8 @@ class CrossedMotion {
       if (watch_.behind() < h) next = motion_.advance(state, state.time + watch_.behind(), false);
     }
     const auto between = [&](double at) { return motion_.advance(state, at, false); };
-    std::vector<CrossingWatch::Noted> met =
-        watch_.idle() ? std::vector<CrossingWatch::Noted>()
+    std::vector<EventLocator::Noted> met =
+        watch_.idle() ? std::vector<EventLocator::Noted>()
                       : watch_.pass_noted(state.time, next.time, between, environment_, same_time * h);
     std::sort(met.begin(), met.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
     system_.accept(next, environment_);
@@ -190,16 +190,16 @@ class CrossedMotion {
   const Environment& environment_;
   BranchSign sign_;
   ContinuousMotion motion_;
-  CrossingWatch watch_;
+  EventLocator watch_;
   std::vector<int> passed_;  ///< sides of the event functions at the end of the last step
 };
 
 /// @returns whether one of the events ends the analysis
-bool note_crossings(const System& system, const std::vector<CrossingWatch::Noted>& crossed, Computation& computation,
-                    KinematicsReport& report) {
+bool note_events(const System& system, const std::vector<EventLocator::Noted>& crossed, Computation& computation,
+                 KinematicsReport& report) {
   bool stops = false;
-  for (const CrossingWatch::Noted& each : crossed) {
-    const MemberCrossing& met = system.crossings()[static_cast<std::size_t>(each.crossing)];
+  for (const EventLocator::Noted& each : crossed) {
+    const MemberEventFunction& met = system.event_functions()[static_cast<std::size_t>(each.crossing)];
     computation.note(Event{each.time, each.crossing, met.name});
     report.last_event = met.name;
     ++report.events;
@@ -238,7 +238,7 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
   Computation computation(session);
   State& state = computation.state();
   begin_kinematics(session, options, computation, report);
-  EnergyBalance books;
+  EnergyBalance energy_balance;
   const double begin = state.time;
   const std::vector<double> times = times_of(system, options, recording, begin);
   const std::vector<double> kinks = system.break_points();
@@ -252,11 +252,11 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
   CrossedMotion motion(system, environment, [&](const State& from, double time) {
     return elastic ? elastic->position(from, time) : rigid(from, time);
   });
-  books.start(begin, system.energy(state, environment));
+  energy_balance.start(begin, system.energy(state, environment));
   const auto point = [&](double step, bool recorded) {
     StepRecord row;
-    row.energy = books.totals();
-    row.balance = books.balance();
+    row.energy = energy_balance.totals();
+    row.balance = energy_balance.balance();
     row.step = step;
     computation.show(state, environment, row, recorded);
     if (elastic) elastic->note_left_out(state);
@@ -268,17 +268,17 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
   double last = begin;
   for (std::size_t k = 0; k < times.size() && !session.stopping() && !report.stopped_by_event;) {
     try {
-      std::vector<CrossingWatch::Noted> jumped;
+      std::vector<EventLocator::Noted> jumped;
       for (const int crossing : motion.begin(state)) jumped.push_back({state.time, crossing});
-      report.stopped_by_event = note_crossings(system, jumped, computation, report);
+      report.stopped_by_event = note_events(system, jumped, computation, report);
       if (report.stopped_by_event) break;
       const bool jumps = contains(kinks, times[k], rounding);
-      report.stopped_by_event = note_crossings(system, motion.advance(state, times[k], jumps), computation, report);
+      report.stopped_by_event = note_events(system, motion.advance(state, times[k], jumps), computation, report);
     } catch (const ComputationError& error) {
       const std::string time = fmt::format("t = {:.6g} s: ", times[k]), why = error.what();
       throw ComputationError(why.starts_with("t = ") ? why : time + why);
     }
-    books.advance(state.time, system.energy(state, environment));
+    energy_balance.advance(state.time, system.energy(state, environment));
     const bool ends = report.stopped_by_event;
     if (state.time < times[k] && !ends) continue;  // an event between two times
     ++k;
@@ -289,8 +289,8 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
     last = state.time;
   }
   if (elastic) report.left_out = elastic->left_out();
-  report.energy = books.totals();
-  report.balance = books.balance();
+  report.energy = energy_balance.totals();
+  report.balance = energy_balance.balance();
   return report;
 }
 

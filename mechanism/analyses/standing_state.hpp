@@ -17,7 +17,7 @@ struct StandingState {
 
 /// Returns the present state of a session, which is kept: a start made consistent, an equilibrium under its fraction of
 /// the load, or the end of a motion.
-/// @param rotation  steady rotation into which the state is brought; gatherers then receive it. @throws
+/// @param rotation  steady rotation into which the state is brought; step recorders then receive it. @throws
 ///                  ComputationError
 StandingState standing_state(Session& session, const std::optional<SteadyRotation>& rotation);
 

@@ -42,9 +42,9 @@ PathEnd read_path_end(const YamlValue& entry, const Model& model) {
 }
 
 /// Reads `arc_length: {until: {..}, points: 1000}`.
-PathOptions read_path(const YamlValue& entry, int steps, const Model& model) {
+ContinuationOptions read_path(const YamlValue& entry, int steps, const Model& model) {
   entry.check_keys({"until", "points"}, "`arc_length`");
-  PathOptions path;
+  ContinuationOptions path;
   path.end = read_path_end(entry.at("until"), model);
   path.steps = steps;
   if (entry.has("points")) path.most_points = entry.at("points").integer();

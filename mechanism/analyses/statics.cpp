@@ -60,15 +60,15 @@ void follow_loads(const Session& session, const StaticsOptions& options, const E
   const System& system = session.system();
   const Loaded begin = session.loaded();
   if (options.path) {
-    PathOptions path = *options.path;
+    ContinuationOptions path = *options.path;
     path.stops = session.recording().load_factors;
-    computation.loaded() = follow_path(system, statics, begin, path, options.newton, computation.state(),
-                                       [&](const State& state, const PathPoint& at) {
-                                         if (at.limit) report.limit_points.push_back(at.load_factor);
-                                         if (at.bifurcation) report.log.critical.push_back(*at.bifurcation);
-                                         report.log.unstable = at.unstable;
-                                         use(state, {at.load_factor, at.iterations, at.done, at.limit});
-                                       });
+    computation.loaded() = follow_by_continuation(system, statics, begin, path, options.newton, computation.state(),
+                                                  [&](const State& state, const PathPoint& at) {
+                                                    if (at.limit) report.limit_points.push_back(at.load_factor);
+                                                    if (at.bifurcation) report.log.critical.push_back(*at.bifurcation);
+                                                    report.log.unstable = at.unstable;
+                                                    use(state, {at.load_factor, at.iterations, at.done, at.limit});
+                                                  });
     return;
   }
   LoadSteps steps(options.steps, begin);

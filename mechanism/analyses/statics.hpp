@@ -12,9 +12,9 @@
 namespace bielle::mechanism {
 
 struct StaticsOptions {
-  int steps = 1;                    ///< number of equal increments of the load factor; 0: chosen automatically
-  double branch = 0;                ///< follows branches of load steps, see LoadSteps
-  std::optional<PathOptions> path;  ///< if set, follows a path past limit points instead of load steps
+  int steps = 1;                            ///< number of equal increments of the load factor; 0: chosen automatically
+  double branch = 0;                        ///< follows branches of load steps, see LoadSteps
+  std::optional<ContinuationOptions> path;  ///< if set, follows a path past limit points instead of load steps
   NewtonOptions newton;
 };
 

@@ -52,9 +52,9 @@ void Contact::declare(Declaration& declaration) const {
                                                              bristle_entry * most_bristles_),
         0);
   if (!remembers_touches()) return;
-  Crossing touches{"touches", Crossing::Direction::falling};
+  EventFunction touches{"touches", EventFunction::Direction::falling};
   touches.restarts = false;  // forces begin at zero
-  declaration.crossings = {touches};
+  declaration.event_functions = {touches};
 }
 
 void Contact::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const {
@@ -302,7 +302,7 @@ void Contact::write_output(const LocalState& state, double* values) const {
   Eigen::Map<Vector3>(values + 2 + 3 * forces) = smallest.place;
 }
 
-void Contact::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void Contact::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   values[0] = nearest_of_all(state, true).found.gap;
 }
 

@@ -83,7 +83,7 @@ class Contact final : public Component, public OpenContact {
   std::string what_is_open(const LocalState& state) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   bool knows_memory(const LocalState& state) const override;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
 
  private:

@@ -7,8 +7,8 @@ namespace bielle::mechanism {
 
 /// An event is recorded when the contact force, the value of the event function, changes its sign; the contact stays
 /// closed.
-inline Crossing lift_off() {
-  Crossing crossing{"lifts off", Crossing::Direction::falling};
+inline EventFunction lift_off() {
+  EventFunction crossing{"lifts off", EventFunction::Direction::falling};
   crossing.restarts = false;
   crossing.reads_reaction = true;
   return crossing;

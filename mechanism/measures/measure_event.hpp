@@ -16,25 +16,26 @@ namespace bielle::mechanism {
 class MeasureEvent final : public Component {
  public:
   enum class Action { note, restart, stop };
-  MeasureEvent(std::string name, const Measure& measure, double value, Crossing::Direction direction, Action action);
+  MeasureEvent(std::string name, const Measure& measure, double value, EventFunction::Direction direction,
+               Action action);
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState&, Eigen::Ref<VectorX>) const override {}
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;
   const Measure& measure() const { return measure_; }
   double value() const { return value_; }
-  Crossing::Direction direction() const { return direction_; }
+  EventFunction::Direction direction() const { return direction_; }
 
  private:
   References references_;
   const Measure& measure_;
   double value_;
-  Crossing::Direction direction_;
+  EventFunction::Direction direction_;
   Action action_;
 };
 
 /// Reads the key `direction` of an entry; the default is both.
-Crossing::Direction read_crossing_direction(const YamlValue& entry);
+EventFunction::Direction read_crossing_direction(const YamlValue& entry);
 
 /// Reads an entry of `events`, after the model has been read: `{when: measure or formula, crosses: value, direction:
 /// rising | falling | both, action: note | restart | stop}`. @throws InputError

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "mechanism/model/gatherer.hpp"
 #include "mechanism/model/measure.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
@@ -27,7 +27,7 @@ double Component::turning_rate(const LocalState& state) const {
   return std::sqrt(squared);
 }
 
-std::unique_ptr<Gatherer> Component::make_gatherer() const { return nullptr; }
+std::unique_ptr<StepRecorder> Component::make_step_recorder() const { return nullptr; }
 
 std::unique_ptr<Measure> Component::make_measure(const std::string& /*name*/, const std::string& measure) const {
   throw std::logic_error("component type '" + type_ + "' has no measure '" + measure + "'");

@@ -32,7 +32,7 @@ namespace bielle::mechanism {
 
 class Component;
 class Description;
-class Gatherer;
+class StepRecorder;
 class Measure;
 class MeasureGradient;
 class MeshFields;
@@ -40,7 +40,7 @@ class MeshFields;
 enum class ConstraintKind { holonomic, nonholonomic };  ///< Phi(q,t) = 0, or B(q) v + c(q,t) = 0
 
 /// An event function: its zero begins another branch of the motion (contact, a force limit, an end of a range).
-struct Crossing {
+struct EventFunction {
   enum class Direction { rising, falling, both };
   std::string name;  ///< "gap closes"
   Direction direction = Direction::both;
@@ -92,8 +92,8 @@ struct Declaration {
   std::vector<double> memory;  ///< initial values
   /// Components whose unknowns, memory or measures this component uses, each once.
   std::vector<const Component*> references;
-  /// Event functions whose zeros end steps, see Component::calc_crossings.
-  std::vector<Crossing> crossings;
+  /// Event functions whose zeros end steps, see Component::calc_event_functions.
+  std::vector<EventFunction> event_functions;
   /// The forces depend on the reactions of a component referred to (LocalState::reaction).
   bool reads_reactions = false;
   /// The forces have kinks in the state at which no step ends: a tangent from one side of a kink may be wrong on the
@@ -203,7 +203,7 @@ class Component {
   /// Creates an object that gathers data over all steps of an analysis, if the component needs one. @returns nullptr if
   /// it needs none.
   /// The component must outlive it
-  virtual std::unique_ptr<Gatherer> make_gatherer() const;
+  virtual std::unique_ptr<StepRecorder> make_step_recorder() const;
   /// Attributes of the component's group in the results file (e.g. {"file", "conrod.h5"}).
   virtual std::vector<std::pair<std::string, std::string>> attributes() const { return {}; }
 
@@ -217,7 +217,7 @@ class Component {
   virtual void accept(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
 
   /// Values of the declared event functions at a state (crossings). Each should be smooth on either side of its zero.
-  virtual void calc_crossings(const LocalState& /*state*/, Eigen::Ref<VectorX> /*values*/) const {}
+  virtual void calc_event_functions(const LocalState& /*state*/, Eigen::Ref<VectorX> /*values*/) const {}
 
   /// Computes new values of the component's memory at the start of a motion and after every discontinuity (an event
   /// that restarts, a break point, an accepted step that requests it). The state is the one just after it; its rates

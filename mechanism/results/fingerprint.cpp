@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/step_recorder.hpp"
 #include "mechanism/results/checkpoint.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/system/system.hpp"
@@ -50,9 +50,9 @@ std::string forces(const Component& component, const LocalState& state) {
   // Forces do not show future events and break points.
   Declaration declaration;
   component.declare(declaration);
-  if (!declaration.crossings.empty()) {
-    VectorX values(static_cast<Eigen::Index>(declaration.crossings.size()));
-    component.calc_crossings(state, values);
+  if (!declaration.event_functions.empty()) {
+    VectorX values(static_cast<Eigen::Index>(declaration.event_functions.size()));
+    component.calc_event_functions(state, values);
     for (const double value : values) text += fmt::format(" {:.10g}", value);
   }
   std::vector<double> times;
@@ -84,7 +84,7 @@ std::string fingerprint(const Model& model) {
                         forces(component, LocalState(probe, system.slots()[m], model.environment)));
   }
   for (const Member& member : model.members())
-    if (const auto gatherer = member.component->make_gatherer()) text += gatherer->what() + "\n";
+    if (const auto recorder = member.component->make_step_recorder()) text += recorder->what() + "\n";
   return text;
 }
 

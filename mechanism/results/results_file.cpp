@@ -86,7 +86,7 @@ void ResultsFile::name_equations(const System& system) {
   Hdf5File& written = file();
   if (!written.has("/equations")) written.write_text("/equations", names);
   std::string crossings;
-  for (const MemberCrossing& each : system.crossings()) crossings += each.name + "\n";
+  for (const MemberEventFunction& each : system.event_functions()) crossings += each.name + "\n";
   if (!crossings.empty() && !written.has("/crossings")) written.write_text("/crossings", crossings);
   written.flush();
 }

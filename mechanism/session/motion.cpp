@@ -46,7 +46,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   parts_.integration = std::make_unique<TimeIntegration>(system, environment, options.scheme, std::move(state),
                                                          options.form, options.newton);
   start_.add(parts_.integration->start_report());
-  parts_.books.start(parts_.begin, system.energy(this->state(), environment));
+  parts_.energy_balance.start(parts_.begin, system.energy(this->state(), environment));
   make_march(parts_, stepping);
   StepRecord row;
   row.energy = energy();
@@ -108,7 +108,7 @@ void Motion::make_march(Parts& parts, StepOptions stepping) {
       std::make_unique<March>(*parts.integration, parts.begin, parts.begin + options_.duration, std::move(stepping));
   // A Motion can be neither copied nor moved: `this` stays valid.
   parts.march->on_jump([this](const Jump& jump) {
-    parts_.books.jump(jump.before, jump.after, jump.work);
+    parts_.energy_balance.jump(jump.before, jump.after, jump.work);
     prescribed_jumps_.add(session_->system_, jump);
   });
   if (!session_->on_attempt_.empty())
@@ -120,10 +120,10 @@ void Motion::make_march(Parts& parts, StepOptions stepping) {
 
 // -- moving
 
-StepRecord Motion::row(const MarchStep& step, const EnergyBalance& books) const {
+StepRecord Motion::row(const MarchStep& step, const EnergyBalance& energy_balance) const {
   StepRecord row;
-  row.energy = books.totals();
-  row.balance = books.balance();
+  row.energy = energy_balance.totals();
+  row.balance = energy_balance.balance();
   row.step = step.report.size;
   row.newton_iterations = step.report.iterations;
   row.error_estimate = step.error;
@@ -132,7 +132,7 @@ StepRecord Motion::row(const MarchStep& step, const EnergyBalance& books) const 
   return row;
 }
 
-void Motion::record_step(const MarchStep& step, double before, const EnergyBalance& books_before) {
+void Motion::record_step(const MarchStep& step, double before, const EnergyBalance& balance_before) {
   const Recording& recording = session_->recording_;
   const Environment& environment = session_->environment_;
   const State& now = state();
@@ -141,9 +141,9 @@ void Motion::record_step(const MarchStep& step, double before, const EnergyBalan
     for (auto time = std::upper_bound(recording.times.begin(), recording.times.end(), before);
          time != recording.times.end() && *time <= now.time; ++time) {
       const State state = *time == now.time ? now : interpolated(*time);
-      EnergyBalance books = books_before;
-      books.advance(*time, session_->system_.energy(state, environment));
-      session_->record(state, environment, row(step, books));
+      EnergyBalance energy_balance = balance_before;
+      energy_balance.advance(*time, session_->system_.energy(state, environment));
+      session_->record(state, environment, row(step, energy_balance));
     }
     if (parts_.march->stopped()) session_->record(now, environment, *session_->report_);
   } else if ((step.on_grid && parts_.grid_steps % recording.every == 0) || done()) {
@@ -169,7 +169,7 @@ void Motion::take_step(bool seen) {
   Session& session = *session_;
   const double before = time();
   last_begin_ = std::numeric_limits<double>::infinity();  // in case the step fails
-  const EnergyBalance books_before = parts_.books;
+  const EnergyBalance balance_before = parts_.energy_balance;
   const MarchStep step = parts_.march->advance();
   ++parts_.steps;
   last_begin_ = before;
@@ -180,12 +180,12 @@ void Motion::take_step(bool seen) {
       session.note(caution);
       cautioned_ = true;
     }
-  parts_.books.advance(time(), session.system_.energy(state(), session.environment_), scheme_loss());
+  parts_.energy_balance.advance(time(), session.system_.energy(state(), session.environment_), scheme_loss());
   if (step.on_grid) ++parts_.grid_steps;
-  session.report_ = row(step, parts_.books);
-  record_step(step, before, books_before);
+  session.report_ = row(step, parts_.energy_balance);
+  record_step(step, before, balance_before);
   session.gather(state(), session.environment_);
-  const auto& crossings = session.system_.crossings();
+  const auto& crossings = session.system_.event_functions();
   for (const Passed& passed : step.passed) {
     last_event_ = crossings[static_cast<std::size_t>(passed.crossing)].name;
     if (seen) session.note(Event{passed.time, passed.crossing, last_event_});
@@ -209,7 +209,8 @@ void Motion::set_memory(int place, double value, bool smooth) {
 
 std::vector<std::string> Motion::doubts() const {
   std::vector<std::string> doubts = parts_.march->doubts();
-  for (std::string& doubt : prescribed_jumps_.doubts(parts_.books.largest())) doubts.push_back(std::move(doubt));
+  for (std::string& doubt : prescribed_jumps_.doubts(parts_.energy_balance.largest()))
+    doubts.push_back(std::move(doubt));
   return doubts;
 }
 

@@ -59,9 +59,9 @@ class Motion {
   /// @param time  time within the last step [s]. @throws InputError if it is not
   State interpolated(double time) const;
   /// Present stored energies, input and dissipation since the start [J].
-  const Energy& energy() const { return parts_.books.totals(); }
-  double balance() const { return parts_.books.balance(); }  ///< missing energy [J]
-  const EnergyBalance& books() const { return parts_.books; }
+  const Energy& energy() const { return parts_.energy_balance.totals(); }
+  double balance() const { return parts_.energy_balance.balance(); }  ///< missing energy [J]
+  const EnergyBalance& energy_balance() const { return parts_.energy_balance; }
   /// Energy removed by the scheme's own damping since the start [J].
   double scheme_loss() const { return parts_.integration->scheme_loss(); }
   /// Changes made by the consistent start. They are empty if a saved motion was continued.
@@ -76,9 +76,9 @@ class Motion {
     double begin = 0;
     std::unique_ptr<TimeIntegration> integration;
     std::unique_ptr<March> march;
-    EnergyBalance books;
+    EnergyBalance energy_balance;
     long grid_steps = 0;        ///< number of grid steps taken
-    VectorX gathered;           ///< data of the gatherers, when the motion was written or read
+    VectorX gathered;           ///< data of the step recorders, when the motion was written or read
     long steps = 0, saves = 0;  ///< steps and checkpoints since the last rebuilt tangent (save_where_interrupted)
   };
   Motion(Session& session, const DynamicsOptions& options);
@@ -89,13 +89,13 @@ class Motion {
   void show();  ///< makes the session show this motion
   Parts read(Archive& archive, Notes* notes);
   void write(Archive& archive, ResultSink* sink);
-  static void exchange_books(Archive& archive, Parts& parts);
+  static void exchange_energy_balance(Archive& archive, Parts& parts);
   void go_on(Archive& archive, ResultSink* sink);
   bool arrives(Parts anchor);
   void write_to_sinks();
   void make_march(Parts& parts, StepOptions stepping);
-  StepRecord row(const MarchStep& step, const EnergyBalance& books) const;
-  void record_step(const MarchStep& step, double before, const EnergyBalance& books_before);
+  StepRecord row(const MarchStep& step, const EnergyBalance& energy_balance) const;
+  void record_step(const MarchStep& step, double before, const EnergyBalance& balance_before);
   void save_for_sinks();
   void save_where_interrupted();
   void take_step(bool seen);

@@ -23,19 +23,19 @@ bool same_motion(const State& a, const State& b) {
 
 }  // namespace
 
-void Motion::exchange_books(Archive& archive, Parts& parts) {
+void Motion::exchange_energy_balance(Archive& archive, Parts& parts) {
   archive.within(parts.steps, 0, 1e15);
   archive.within(parts.saves, 0, 1e15);
   archive(parts.begin);
   archive.within(parts.grid_steps, 0, 1e15);
-  parts.books.exchange(archive);
+  parts.energy_balance.exchange(archive);
   archive.of_any_length(parts.gathered);
 }
 
 /// The numbers of the sink come last.
 void Motion::write(Archive& archive, ResultSink* sink) {
-  parts_.gathered = session_->gatherers_.numbers();
-  exchange_books(archive, parts_);
+  parts_.gathered = session_->step_recorders_.numbers();
+  exchange_energy_balance(archive, parts_);
   parts_.integration->exchange(archive);
   parts_.march->exchange(archive);
   if (sink) sink->exchange(archive);
@@ -45,7 +45,7 @@ void Motion::write(Archive& archive, ResultSink* sink) {
 Motion::Parts Motion::read(Archive& archive, Notes* notes) {
   session_->norm_.reset();
   Parts parts;
-  exchange_books(archive, parts);
+  exchange_energy_balance(archive, parts);
   StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, notes);
   parts.integration = std::make_unique<TimeIntegration>(session_->system_, session_->environment_, options_.scheme,
                                                         archive, options_.form, options_.newton);
@@ -69,7 +69,7 @@ void Motion::go_on(Archive& archive, ResultSink* sink) {
     anchor = read(archive, nullptr);
   else if (!archive.exhausted())
     throw std::out_of_range("there are more numbers than are needed");
-  session.gatherers_.set(now.gathered);
+  session.step_recorders_.set(now.gathered);
   session.at_rest();
   session.stopping_ = false;
   parts_ = std::move(now);
@@ -87,7 +87,7 @@ bool Motion::arrives(Parts anchor) {
   bool arrived = false;
   session.going_again_ = true;
   try {
-    session.gatherers_.set(parts_.gathered);
+    session.step_recorders_.set(parts_.gathered);
     while (parts_.steps < steps && !parts_.march->done()) take_step(false);
     arrived = same_motion(state(), interrupted.integration->state());
   } catch (const ComputationError&) {
@@ -95,7 +95,7 @@ bool Motion::arrives(Parts anchor) {
   }
   session.going_again_ = false;
   if (!arrived) {
-    session.gatherers_.set(interrupted.gathered);
+    session.step_recorders_.set(interrupted.gathered);
     parts_ = std::move(interrupted);
     return false;
   }

@@ -26,7 +26,7 @@ Session::Session(std::unique_ptr<const Model> owned, const Model* model, int thr
       acting_(environment_),
       state_(system_.start(0)),
       shown_(&state_),
-      gatherers_(model_) {
+      step_recorders_(model_) {
   system_.use_threads(threads);
   State assembled;
   redundant_ = name_constraints(system_, take_out_redundant_at_start(system_, environment_, state_, assembled));
@@ -75,11 +75,11 @@ StartReport Session::assemble(const AssemblyOptions& options) {
   system_.accept(state_, environment_);
   count_as_not_begun(system_, memory, state_);
   loaded_.motions = 1;
-  EnergyBalance books;
-  books.start(state_.time, system_.energy(state_, environment_));
+  EnergyBalance energy_balance;
+  energy_balance.start(state_.time, system_.energy(state_, environment_));
   report_.emplace();
-  report_->energy = books.totals();
-  report_->balance = books.balance();
+  report_->energy = energy_balance.totals();
+  report_->balance = energy_balance.balance();
   record(state_, environment_, *report_);
   return report;
 }
@@ -189,7 +189,7 @@ void Session::set_recording(Recording recording) {
 void Session::begin_analysis(const std::string& type, std::size_t expected_rows, const ResultSink* goes_on) {
   open_ = true;
   rows_ = 0;
-  gatherers_.begin();
+  step_recorders_.begin();
   for (ResultSink* sink : sinks_)
     if (sink != goes_on) sink->begin_analysis(type, expected_rows);
 }
@@ -203,7 +203,7 @@ void Session::record(const State& state, const Environment& environment, const S
 }
 
 void Session::gather(const State& state, const Environment& environment) {
-  if (open_) gatherers_.add(state, system_.slots(), environment);
+  if (open_) step_recorders_.add(state, system_.slots(), environment);
 }
 
 const State& Session::reported(const State& state, const Environment& environment) const {
@@ -226,7 +226,7 @@ void Session::write(const ResultNames& names) {
 
 void Session::end_analysis() {
   if (open_)
-    for (const ResultArray& array : gatherers_.results()) write(array);
+    for (const ResultArray& array : step_recorders_.results()) write(array);
   if (open_ && rows_ > 0)
     if (const EntryNumbers numbers = unique_reaction_numbers(system_, acting_, *shown_); !numbers.values.empty())
       for (ResultSink* sink : sinks_) sink->write(numbers);

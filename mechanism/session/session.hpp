@@ -25,10 +25,10 @@
 #include "mechanism/results/result_sink.hpp"
 #include "mechanism/results/results_rows.hpp"
 #include "mechanism/session/assembly_options.hpp"
-#include "mechanism/session/gatherers.hpp"
 #include "mechanism/session/gauge.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/notes.hpp"
+#include "mechanism/session/step_recorders.hpp"
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
@@ -142,13 +142,13 @@ class Session {
   void begin_analysis(const std::string& type, std::size_t expected_rows = 0, const ResultSink* goes_on = nullptr);
   void write(const ResultArray& array);  ///< writes a result that is not a row
   void write(const ResultNames& names);
-  void end_analysis();                        ///< writes the results of the gatherers
+  void end_analysis();                        ///< writes the results of the step recorders
   void abandon_analysis() { open_ = false; }  ///< after a failure: nothing more is recorded of the analysis
   /// Call this function at each state that an analysis has found: an accepted step, a start, an equilibrium in
   /// rotation.
   void gather(const State& state, const Environment& environment);
-  /// Summary of the gatherers of this analysis, as lines for the user.
-  std::string gathered() { return gatherers_.summary(); }
+  /// Summary of the step recorders of this analysis, as lines for the user.
+  std::string gathered() { return step_recorders_.summary(); }
   long rows() const { return rows_; }  ///< number of rows of this analysis
 
  private:
@@ -185,7 +185,7 @@ class Session {
 
   Recording recording_;
   std::vector<ResultSink*> sinks_;
-  Gatherers gatherers_;
+  StepRecorders step_recorders_;
   bool open_ = false;  ///< an analysis is open
   long rows_ = 0;
   std::vector<std::function<void(Session&)>> on_step_;

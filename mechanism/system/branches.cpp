@@ -8,8 +8,8 @@ namespace bielle::mechanism {
 void Branches::add(const Declaration& declaration) {
   const std::size_t index = members_++;
   if (!declaration.memory.empty()) remembering_.push_back(index);
-  for (int k = 0; k < static_cast<int>(declaration.crossings.size()); ++k) {
-    const Crossing& crossing = declaration.crossings[static_cast<std::size_t>(k)];
+  for (int k = 0; k < static_cast<int>(declaration.event_functions.size()); ++k) {
+    const EventFunction& crossing = declaration.event_functions[static_cast<std::size_t>(k)];
     const std::string owner = describe(model_.members()[index]);
     crossings_.push_back({index, k, crossing, crossing.name.empty() ? owner : owner + ": " + crossing.name});
     crossings_read_reactions_ = crossings_read_reactions_ || crossing.reads_reaction;
@@ -19,14 +19,15 @@ void Branches::add(const Declaration& declaration) {
   kinks_ = kinks_ || declaration.kinks || declaration.reads_reactions;
 }
 
-void Branches::calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const {
+void Branches::calc_event_functions(const State& state, const Environment& environment,
+                                    Eigen::Ref<VectorX> values) const {
   for (std::size_t k = 0; k < crossings_.size();) {
     const std::size_t member = crossings_[k].member;
     std::size_t end = k;
     while (end < crossings_.size() && crossings_[end].member == member) ++end;
     const auto count = static_cast<Eigen::Index>(end - k);
-    model_.members()[member].component->calc_crossings(local(state, member, environment),
-                                                       values.segment(static_cast<Eigen::Index>(k), count));
+    model_.members()[member].component->calc_event_functions(local(state, member, environment),
+                                                             values.segment(static_cast<Eigen::Index>(k), count));
     k = end;
   }
 }
@@ -37,7 +38,7 @@ double Branches::calc_crossing(const State& state, const Environment& environmen
   std::size_t end = k;
   while (end < crossings_.size() && crossings_[end].member == member) ++end;
   VectorX values(static_cast<Eigen::Index>(end - begin));
-  model_.members()[member].component->calc_crossings(local(state, member, environment), values);
+  model_.members()[member].component->calc_event_functions(local(state, member, environment), values);
   return values[crossings_[k].index];
 }
 
@@ -49,7 +50,7 @@ void Branches::begin(State& state, const Environment& environment, const std::ve
   for (const std::size_t m : remembering_) {
     own.clear();
     for (; next != ascending.end() && crossings_[static_cast<std::size_t>(*next)].member <= m; ++next)
-      if (const MemberCrossing& crossing = crossings_[static_cast<std::size_t>(*next)]; crossing.member == m)
+      if (const MemberEventFunction& crossing = crossings_[static_cast<std::size_t>(*next)]; crossing.member == m)
         own.push_back(crossing.index);
     const Slots& slots = unknowns_.slots()[m];
     model_.members()[m].component->begin_branch(local(state, m, environment), own,

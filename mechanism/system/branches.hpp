@@ -8,11 +8,11 @@
 
 namespace bielle::mechanism {
 
-/// An event function that a member declares, see Component::calc_crossings.
-struct MemberCrossing {
+/// An event function that a member declares, see Component::calc_event_functions.
+struct MemberEventFunction {
   std::size_t member;
   int index;  ///< index among the member's own event functions
-  Crossing crossing;
+  EventFunction crossing;
   std::string name;  ///< name with its owner: "joint 'door': angle at its upper stop"
 };
 
@@ -27,13 +27,15 @@ class Branches {
   /// Adds the event functions and memory that the next member of the model declares.
   void add(const Declaration& declaration);
 
-  const std::vector<MemberCrossing>& crossings() const { return crossings_; }  ///< in the order of the members
+  const std::vector<MemberEventFunction>& event_functions() const {
+    return crossings_;
+  }  ///< in the order of the members
   bool reads_reactions() const { return reads_reactions_; }
   bool has_kinks() const { return kinks_; }
   bool crossings_read_reactions() const { return crossings_read_reactions_; }
 
   // See the functions of the same names in System.
-  void calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const;
+  void calc_event_functions(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const;
   double calc_crossing(const State& state, const Environment& environment, int crossing) const;
   void begin(State& state, const Environment& environment, const std::vector<int>& crossed) const;
   void begin_motion(State& state, const Environment& environment, bool known) const;
@@ -50,7 +52,7 @@ class Branches {
   const SharedWork& work_;
   std::size_t members_ = 0;
   std::vector<std::size_t> remembering_;  ///< members with memory
-  std::vector<MemberCrossing> crossings_;
+  std::vector<MemberEventFunction> crossings_;
   bool reads_reactions_ = false, kinks_ = false, crossings_read_reactions_ = false;
 };
 

@@ -25,7 +25,7 @@ TangentWorkspace::TangentWorkspace(int n) {
   r.resize(n);
 }
 
-MemberTangent::MemberTangent(const TangentRequest& request, const Placement& placement, const LocalState& local,
+MemberTangent::MemberTangent(const TangentRequest& request, const LocalToGlobal& placement, const LocalState& local,
                              const Component& component, TangentWorkspace& work)
     : kinematics_(request.kinematics),
       weights_(request.weights),

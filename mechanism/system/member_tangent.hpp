@@ -7,8 +7,8 @@
 
 #include <vector>
 
+#include "mechanism/system/local_to_global.hpp"
 #include "mechanism/system/node_relation.hpp"
-#include "mechanism/system/placement.hpp"
 #include "mechanism/system/tangent_weights.hpp"
 
 namespace bielle::mechanism {
@@ -34,7 +34,7 @@ struct TangentRequest {
 class MemberTangent {
  public:
   /// The object serves one evaluation: all arguments must outlive it.
-  MemberTangent(const TangentRequest& request, const Placement& placement, const LocalState& local,
+  MemberTangent(const TangentRequest& request, const LocalToGlobal& placement, const LocalState& local,
                 const Component& component, TangentWorkspace& work);
   /// Adds the part to the values of the global tangent.
   void add_to(std::vector<double>& values);
@@ -65,7 +65,7 @@ class MemberTangent {
   const VectorX* dq_;
   const Matrix3* turns_;
   TangentWorkspace& work_;
-  const Placement& placement_;
+  const LocalToGlobal& placement_;
   const LocalState& local_;
   const Component& component_;
   const Slots& slots_;

@@ -89,10 +89,10 @@ class System {
   /// Whether values of event functions depend on reactions.
   bool crossings_read_reactions() const { return branches_.crossings_read_reactions(); }
 
-  const std::vector<MemberCrossing>& crossings() const { return branches_.crossings(); }
-  /// Computes the values of all event functions (crossings().size()).
-  void calc_crossings(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const {
-    branches_.calc_crossings(state, environment, values);
+  const std::vector<MemberEventFunction>& event_functions() const { return branches_.event_functions(); }
+  /// Computes the values of all event functions (event_functions().size()).
+  void calc_event_functions(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const {
+    branches_.calc_event_functions(state, environment, values);
   }
   /// Computes the value of one event function, by number.
   double calc_crossing(const State& state, const Environment& environment, int crossing) const {

@@ -48,7 +48,7 @@ class TangentAssembly::KeptEntries {
   /// A constraint does not depend on multipliers: that block is not in the pattern, except the diagonal entries of
   /// constraints that may be out of the equations. No component adds to the constraints of others.
   void add(std::size_t member, const LocalPattern& pattern) {
-    const Placement& placement = placements_[member];
+    const LocalToGlobal& placement = placements_[member];
     const int n = placement.reduced_size();
     if (pattern.has_passing()) {
       std::vector<bool>& passing = passing_[member];
@@ -69,7 +69,7 @@ class TangentAssembly::KeptEntries {
       }
   }
 
-  const std::vector<Placement>& placements_;
+  const std::vector<LocalToGlobal>& placements_;
   int first_multiplier_;
   std::vector<bool> kept_;
   std::vector<std::size_t> begin_;                    ///< first bit of each member, and the end
@@ -87,11 +87,11 @@ void TangentAssembly::find_lone_amplitudes() {
   const auto first = [&](const ScalarPart& part) {
     return referred.begin() + part.unknown - unknowns_.first_amplitude();
   };
-  for (const Placement& placement : placements_)
+  for (const LocalToGlobal& placement : placements_)
     if (placement.contributes())
       for (const ScalarPart& part : placement.scalars)
         if (part.kind == Kind::amplitude && !part.own) std::fill_n(first(part), part.count, true);
-  for (Placement& placement : placements_) {
+  for (LocalToGlobal& placement : placements_) {
     const ScalarPart* own = placement.contributes() ? placement.own_amplitudes() : nullptr;
     placement.lone_amplitudes =
         own && std::find(first(*own), first(*own) + own->count, true) == first(*own) + own->count;
@@ -100,7 +100,7 @@ void TangentAssembly::find_lone_amplitudes() {
 
 std::vector<std::vector<int>> TangentAssembly::lone_amplitudes() const {
   std::vector<std::vector<int>> all;
-  for (const Placement& placement : placements_) {
+  for (const LocalToGlobal& placement : placements_) {
     if (!placement.lone_amplitudes) continue;
     const ScalarPart& part = *placement.own_amplitudes();
     std::vector<int>& amplitudes = all.emplace_back(static_cast<std::size_t>(part.count));
@@ -163,8 +163,8 @@ void TangentAssembly::set_places(const KeptEntries& kept, std::size_t member) {
 }
 
 /// Adds each block directly to its places.
-void TangentAssembly::add_in_place(const Placement& placement, const LocalState& local, const TangentWeights& weights,
-                                   const Component& component, const Matrix3* turns,
+void TangentAssembly::add_in_place(const LocalToGlobal& placement, const LocalState& local,
+                                   const TangentWeights& weights, const Component& component, const Matrix3* turns,
                                    std::vector<double>& values) const {
   const auto into = [&](double weight, double constraint, const Matrix3* turned) {
     return LocalMatrix(placement.places, values.data(), weight, constraint, turned);
@@ -224,7 +224,7 @@ void TangentAssembly::add_small(const State& state, const Environment& environme
   TangentWorkspace& work = workspace(unknowns_.largest_local());
   if (request.weights.velocity_level) work.probe = state;
   for (const std::size_t m : small_) {
-    const Placement& placement = placements_[m];
+    const LocalToGlobal& placement = placements_[m];
     const LocalState local(state, unknowns_.slots()[m], environment);
     const Component& component = *model_.members()[m].component;
     if (placement.in_place && !request.weights.velocity_level)

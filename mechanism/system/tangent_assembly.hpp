@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "mechanism/math/sparse.hpp"
+#include "mechanism/system/local_to_global.hpp"
 #include "mechanism/system/member_tangent.hpp"
-#include "mechanism/system/placement.hpp"
 #include "mechanism/system/shared_work.hpp"
 #include "mechanism/system/tangent_weights.hpp"
 
@@ -43,16 +43,16 @@ class TangentAssembly {
   void set_places(const KeptEntries& kept, std::size_t member);
   void add_small(const State& state, const Environment& environment, const TangentRequest& request,
                  std::vector<double>& values) const;
-  void add_in_place(const Placement& placement, const LocalState& local, const TangentWeights& weights,
+  void add_in_place(const LocalToGlobal& placement, const LocalState& local, const TangentWeights& weights,
                     const Component& component, const Matrix3* turns, std::vector<double>& values) const;
 
   const Model& model_;
   const NodeKinematics& kinematics_;
   const Unknowns& unknowns_;
   const SharedWork& work_;
-  std::vector<Placement> placements_;  ///< placement of each member
-  std::vector<std::size_t> small_;     ///< members that have entries and are not costly
-  std::vector<std::size_t> waiting_;   ///< buffer for entries of the costly members to whose places others may add
+  std::vector<LocalToGlobal> placements_;  ///< placement of each member
+  std::vector<std::size_t> small_;         ///< members that have entries and are not costly
+  std::vector<std::size_t> waiting_;       ///< buffer for entries of the costly members to whose places others may add
   SparsePattern pattern_;
 };
 

@@ -17,7 +17,7 @@ struct FullModel {
   const Solid& solid;
   const BodyMatrices& matrices;
   const Ties& ties;
-  const HeldBody& held;
+  const FixedInterfaceBody& held;
   const Basis& basis;
 };
 

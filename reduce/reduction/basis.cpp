@@ -34,7 +34,7 @@ RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const
 
 /// Solves for the held body under unit displacements of its interfaces and under the inertia of linear fields, as one
 /// block of right-hand sides, since the time of solutions is limited by memory bandwidth, not by their number.
-Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
+Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties, const FixedInterfaceBody& held,
                                  const RowMatrix& inertia) {
   const Eigen::Index kept = ties.carry_kept.cols();
   Eigen::MatrixXd loads(held.size(), kept + inertia.cols());
@@ -59,7 +59,7 @@ void keep_first(Eigenpairs& pairs, Eigen::Index count) {
   pairs.residuals.conservativeResize(count);
 }
 
-Eigenpairs fixed_boundary_modes(const BodyMatrices& matrices, const HeldBody& held, const ModeRequest& modes,
+Eigenpairs fixed_boundary_modes(const BodyMatrices& matrices, const FixedInterfaceBody& held, const ModeRequest& modes,
                                 Progress& progress, int threads) {
   if (!modes.count && !modes.below) {
     return {};
@@ -149,7 +149,7 @@ void put_rigid_motions_in(const Solid& solid, const Ties& ties, const MassProper
 
 double radius_of_gyration(const MassProperties& body) { return std::sqrt(body.inertia.trace() / (2 * body.mass)); }
 
-Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
+Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, const FixedInterfaceBody& held,
                  const MassProperties& body, const ModeRequest& modes, Progress& progress, int threads) {
   progress.start("constraint modes");
   Basis basis;

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "reduce/common/progress.hpp"
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 
 namespace bielle::reduce {
@@ -56,7 +56,7 @@ double radius_of_gyration(const MassProperties& body);
 /// If modes are requested, one more is computed, to know the frequency of the first omitted mode.
 /// @throws InputError if more modes are requested than the inside has degrees of freedom; ComputationError if they do
 /// not converge
-Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, const HeldBody& held,
+Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, const FixedInterfaceBody& held,
                  const MassProperties& body, const ModeRequest& modes, Progress& progress, int threads);
 
 }  // namespace bielle::reduce

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reduce/fe/solid.hpp"
-#include "reduce/reduction/inside_graph.hpp"
+#include "reduce/reduction/interior_graph.hpp"
 #include "reduce/sparse/factor.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 

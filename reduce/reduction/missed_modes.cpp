@@ -15,7 +15,7 @@ constexpr int most_trials = 3;
 
 }  // namespace
 
-std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis) {
+std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const FixedInterfaceBody& held, const Basis& basis) {
   const Eigen::Index found = basis.modes() - basis.residual_vectors;
   int trials = 0;
   for (Eigen::Index k = found; k > 0; --k) {

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "reduce/reduction/basis.hpp"
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 
 namespace bielle::reduce {
 
@@ -24,6 +24,6 @@ struct ModeCount {
 /// or pivots too small.
 /// @returns nothing if the count is impossible: no modes, too few separated ones, or matrices that are not in this
 /// process
-std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis);
+std::optional<ModeCount> count_modes(const BodyMatrices& matrices, const FixedInterfaceBody& held, const Basis& basis);
 
 }  // namespace bielle::reduce

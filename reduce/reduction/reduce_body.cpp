@@ -142,7 +142,7 @@ std::vector<Check> check_reduction(const Superelement& body, const ReducedStiffn
 }
 
 /// Reports the count of the modes, or that it was impossible.
-std::optional<ModeCount> prove_modes(const BodyMatrices& matrices, const HeldBody& held, const Basis& basis,
+std::optional<ModeCount> prove_modes(const BodyMatrices& matrices, const FixedInterfaceBody& held, const Basis& basis,
                                      Progress& progress) {
   if (basis.modes() == 0) return std::nullopt;
   progress.start("count of the modes");
@@ -173,7 +173,8 @@ auto in_section(const ReductionOptions& options, const std::string& section, con
 
 /// Adds the vectors that loads and points request, and those for the body's own inertia.
 void add_all_residual_vectors(const ReductionOptions& options, std::vector<ResidualRequest> requests,
-                              const BodyMatrices& matrices, const HeldBody& held, Basis& basis, Progress& progress) {
+                              const BodyMatrices& matrices, const FixedInterfaceBody& held, Basis& basis,
+                              Progress& progress) {
   const bool relieved = options.inertia_relief;
   if (relieved) {
     const auto line = options.lines.find("inertia_relief");
@@ -209,7 +210,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
                [] { throw InputError("proof: modes are counted by bielle-reduce alone, not on ranks"); });
 
   progress.start("factorisation");
-  const HeldBody held(std::move(freedoms), solid, matrices, ties, threads);
+  const FixedInterfaceBody held(std::move(freedoms), solid, matrices, ties, threads);
   Basis basis = in_section(options, "modes", [&] {
     return make_basis(solid, matrices, ties, held, properties,
                       {options.mode_count, options.modes_below, options.mode_method}, progress, threads);

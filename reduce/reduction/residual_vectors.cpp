@@ -145,7 +145,7 @@ std::vector<ResidualRequest> residual_requests(const Solid& solid, const std::ve
 }
 
 void add_residual_vectors(const std::vector<ResidualRequest>& requests, const BodyMatrices& matrices,
-                          const HeldBody& held, Basis& basis) {
+                          const FixedInterfaceBody& held, Basis& basis) {
   if (requests.empty()) return;
   const Eigen::MatrixXd loads = held.restrict(all_loads(requests, basis.shapes.rows()));
   const Eigen::MatrixXd answers = held.solve(loads);

@@ -36,6 +36,6 @@ std::vector<ResidualRequest> residual_requests(const Solid& solid, const std::ve
 /// @throws InputError, with the place of the request, if nothing is left of any of its loads, unless `may_be_empty` is
 /// set
 void add_residual_vectors(const std::vector<ResidualRequest>& requests, const BodyMatrices& matrices,
-                          const HeldBody& held, Basis& basis);
+                          const FixedInterfaceBody& held, Basis& basis);
 
 }  // namespace bielle::reduce

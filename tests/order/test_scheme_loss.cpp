@@ -62,18 +62,18 @@ Books run(const ReadyModel& model, const Scheme& scheme, double h, int steps) {
            h * h * (b * product(A, A) + l * product(e, e)) / 2;
   };
   const double before = stored(model, integration.state());
-  Books books;
-  books.lent = -lent();
+  Books energy_balance;
+  energy_balance.lent = -lent();
   for (int k = 0; k < steps; ++k) {
     integration.step(h);
     const Vector3 now = rates(&NodeState::a);
     A = ((1 - alpha_f) * now + alpha_f * a - alpha_m * A) / (1 - alpha_m);
     a = now;
   }
-  books.lent += lent();
-  books.lost = before - stored(model, integration.state());
-  books.loss = integration.scheme_loss();
-  return books;
+  energy_balance.lent += lent();
+  energy_balance.lost = before - stored(model, integration.state());
+  energy_balance.loss = integration.scheme_loss();
+  return energy_balance;
 }
 
 }  // namespace
@@ -83,11 +83,11 @@ TEST_CASE("in linear oscillations all that is lost is the scheme's dissipation, 
   const double energy = stored(model, model.system.start(0));
   for (const Scheme& scheme : schemes)
     for (const double h : {0.05, 0.3, 1.0, 3.0, 10.0}) {
-      const Books books = run(model, scheme, h, 90);
-      CAPTURE(scheme.alpha_m, scheme.alpha_f, h, books.lost, books.loss, books.lent);
-      CHECK(books.loss + books.lent == Approx(books.lost).margin(1e-10 * energy));
-      if (!SchemeLoss::is_of(scheme)) CHECK(books.loss == 0);
-      if (SchemeLoss::is_of(scheme) && h == 1.0) CHECK(books.loss > 1e-3 * energy);
+      const Books energy_balance = run(model, scheme, h, 90);
+      CAPTURE(scheme.alpha_m, scheme.alpha_f, h, energy_balance.lost, energy_balance.loss, energy_balance.lent);
+      CHECK(energy_balance.loss + energy_balance.lent == Approx(energy_balance.lost).margin(1e-10 * energy));
+      if (!SchemeLoss::is_of(scheme)) CHECK(energy_balance.loss == 0);
+      if (SchemeLoss::is_of(scheme) && h == 1.0) CHECK(energy_balance.loss > 1e-3 * energy);
     }
 }
 
@@ -105,9 +105,9 @@ TEST_CASE("a long motion is judged by some of its steps, also where they keep ti
   const ReadyModel model = oscillators();
   for (const double h :
        {0.3, 2 * M_PI / (10 * 0.5411961), 2 * M_PI / (8 * 1.3065630)}) {  // ten and eight steps per period
-    const Books books = run(model, Scheme::generalized_alpha(0.98), h, 4000);
-    CAPTURE(h, books.lost, books.loss);
-    CHECK(books.loss == Approx(books.lost).epsilon(0.05));
+    const Books energy_balance = run(model, Scheme::generalized_alpha(0.98), h, 4000);
+    CAPTURE(h, energy_balance.lost, energy_balance.loss);
+    CHECK(energy_balance.loss == Approx(energy_balance.lost).epsilon(0.05));
   }
 }
 

@@ -66,8 +66,8 @@ Run integrate(const MechanismFile& file, const System& system, bool reuse, const
   TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.8), system.start(0),
                               ConstraintForm::position, newton);
   integration.start(step);
-  EnergyBalance books;
-  books.start(0, system.energy(integration.state(), file.model.environment));
+  EnergyBalance energy_balance;
+  energy_balance.start(0, system.energy(integration.state(), file.model.environment));
   std::unique_ptr<ResultsFile> results;
   if (!results_path.empty()) {
     results = std::make_unique<ResultsFile>(results_path, file.model, file.text);
@@ -83,11 +83,11 @@ Run integrate(const MechanismFile& file, const System& system, bool reuse, const
     run.evaluations += report.evaluations;
     run.solutions += report.solutions;
     run.orders += report.order;
-    books.advance(integration.state().time, system.energy(integration.state(), file.model.environment));
+    energy_balance.advance(integration.state().time, system.energy(integration.state(), file.model.environment));
     if (results) {
       StepRecord row;
-      row.energy = books.totals();
-      row.balance = books.balance();
+      row.energy = energy_balance.totals();
+      row.balance = energy_balance.balance();
       row.step = step;
       row.newton_iterations = report.iterations;
       results->record(integration.state(), system.slots(), file.model.environment, row);
@@ -181,7 +181,7 @@ void measure(const std::string& title, const std::string& text) {
     const Run with = fastest(file, system, reuse, path), without = fastest(file, system, reuse, "");
     std::filesystem::remove(path);
 
-    LinearStep linear(system);
+    NewtonMatrix linear(system);
     const TangentWeights weights{1, 2 / step, 4 / (step * step), 0, 1};
     const VectorX dq = VectorX::Constant(system.dofs(), 1e-3);
     VectorX r(system.size()), delta(system.size());

@@ -140,7 +140,7 @@ void measure(const LargeModel& model, const std::vector<int>& sizes) {
 }
 
 /// Factorises the last tangent of a linear step by one of KLU's orderings, scaled as in SparseLU.
-void factorise(const System& system, const LinearStep& linear, const char* name, int ordering) {
+void factorise(const System& system, const NewtonMatrix& linear, const char* name, int ordering) {
   const SparsePattern& pattern = system.pattern();
   VectorX scale = VectorX::Ones(pattern.size()), row_size = VectorX::Zero(pattern.size());
   scale.tail(system.multipliers()).setConstant(linear.scale());
@@ -183,7 +183,7 @@ void factorise(const System& system, const LinearStep& linear, const char* name,
 }
 
 /// Factorises it by SparseLU, which chooses the ordering.
-void factorise_by_choice(const System& system, const LinearStep& linear) {
+void factorise_by_choice(const System& system, const NewtonMatrix& linear) {
   VectorX scale = VectorX::Ones(system.size());
   scale.tail(system.multipliers()).setConstant(linear.scale());
   SparseLU factors(system.pattern());
@@ -199,7 +199,7 @@ void compare_orderings(const LargeModel& model, int parts) {
   System system(file.model);
   State state = system.start(0);
   take_out_redundant(system, file.model.environment, state);
-  LinearStep linear(system);
+  NewtonMatrix linear(system);
   const VectorX dq = VectorX::Zero(system.dofs());
   constexpr double h = 1e-3;
   fmt::print("\n{}: {}, {} parts, {} equations\n", model.name, model.what, parts, system.size());

@@ -184,7 +184,7 @@ class Bodies {
 
 /// Measures factors with and without condensation, in turns, so that other work on the machine affects both.
 template <class Line, class Products>
-void compare_factors(const System& system, const LinearStep& linear, const Line& line, const Products& products) {
+void compare_factors(const System& system, const NewtonMatrix& linear, const Line& line, const Products& products) {
   VectorX scales = VectorX::Ones(system.size());
   scales.tail(system.multipliers()).setConstant(linear.scale());
   CondensedLU condensed(system.condensed_pattern());
@@ -222,7 +222,7 @@ void compare_factors(const System& system, const LinearStep& linear, const Line&
 
 void measure_parts(const MechanismFile& file, const System& system, const State& state) {
   const Environment& environment = file.model.environment;
-  LinearStep linear(system);
+  NewtonMatrix linear(system);
   const TangentWeights weights{1, 2 / step, 4 / (step * step), 0, 1};
   const VectorX dq = VectorX::Constant(system.dofs(), 1e-3);
   VectorX r(system.size()), delta(system.size());

@@ -24,7 +24,7 @@
 #include "reduce/common/progress.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/mesh/import.hpp"
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 
 namespace {
@@ -138,7 +138,7 @@ void measure(double size, const Settings& settings) {
   const Ties ties = make_ties(solid, file.options.interfaces);
   HeldFreedoms freedoms(solid, ties);
   const std::unique_ptr<BodyMatrices> matrices = assembled_matrices(solid, freedoms.inside(), settings.threads);
-  const HeldBody held(std::move(freedoms), solid, *matrices, ties, settings.threads);
+  const FixedInterfaceBody held(std::move(freedoms), solid, *matrices, ties, settings.threads);
   fmt::print("\n{} dofs, {:.0f} MB of factor, factorised in {:.2f} s ({:.1f} GFLOP/s)\n", held.size(),
              held.statistics().memory_MB(), held.statistics().factorisation_seconds, held.statistics().speed());
   const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },

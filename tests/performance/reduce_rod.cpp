@@ -21,7 +21,7 @@
 #include "reduce/common/progress.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/mesh/import.hpp"
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 
 namespace {
@@ -44,7 +44,7 @@ Bare measure_bare(const Mesh& mesh, const ReductionOptions& options, int threads
   const Ties ties = make_ties(solid, options.interfaces);
   HeldFreedoms freedoms(solid, ties);
   const std::unique_ptr<BodyMatrices> matrices = assembled_matrices(solid, freedoms.inside(), threads);
-  const HeldBody held(std::move(freedoms), solid, *matrices, ties, threads);
+  const FixedInterfaceBody held(std::move(freedoms), solid, *matrices, ties, threads);
   Bare bare;
   bare.factor = held.statistics();
   Eigen::MatrixXd b = Eigen::MatrixXd::Ones(held.size(), 1);

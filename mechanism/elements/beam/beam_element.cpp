@@ -287,7 +287,9 @@ BeamElement::Validity BeamElement::validity(const LocalState& state) const {
   return {section_.largest_strain(to_middle_ * e), L_ * std::sqrt(std::max(0.0, tension) * softness_)};
 }
 
-std::unique_ptr<Gatherer> BeamElement::make_gatherer() const { return std::make_unique<BeamStrainWatch>(*this); }
+std::unique_ptr<StepRecorder> BeamElement::make_step_recorder() const {
+  return std::make_unique<BeamStrainWatch>(*this);
+}
 
 std::vector<OutputField> BeamElement::output_fields() const {
   std::vector<OutputField> fields{

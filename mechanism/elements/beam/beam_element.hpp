@@ -90,7 +90,7 @@ class BeamElement : public Component {
                     ///< EI is that of the softer direction
   };
   Validity validity(const LocalState& state) const;
-  std::unique_ptr<Gatherer> make_gatherer() const override;
+  std::unique_ptr<StepRecorder> make_step_recorder() const override;
 
  private:
   struct Deformation;

@@ -12,13 +12,13 @@
 #include <string>
 
 #include "mechanism/elements/beam/beam_element.hpp"
-#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
 /// The watch keeps the largest strain of a beam element over all steps, and whether its length resolves bending under
 /// tension. The element that is farthest beyond a bound speaks for its beam.
-class BeamStrainWatch final : public Gatherer {
+class BeamStrainWatch final : public StepRecorder {
  public:
   explicit BeamStrainWatch(const BeamElement& element) : element_(element) {}
 

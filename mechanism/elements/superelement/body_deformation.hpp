@@ -1,4 +1,4 @@
-// The gatherers of a superelement look at its deformation, which is computed once for all of them in each step.
+// The step recorders of a superelement look at its deformation, which is computed once for all of them in each step.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mechanism/math/types.hpp"
-#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
@@ -19,8 +19,8 @@ struct BodyDeformation {
   Eigen::Matrix<double, 12, 1> acceleration = Eigen::Matrix<double, 12, 1>::Zero();
 };
 
-/// First among the gatherers of a body: computes the deformation that the others look at.
-class DeformationReader final : public Gatherer {
+/// First among the step recorders of a body: computes the deformation that the others look at.
+class DeformationReader final : public StepRecorder {
  public:
   using Read = std::function<void(const LocalState& state, BodyDeformation& deformation)>;
   explicit DeformationReader(Read read) : read_(std::move(read)), now_(std::make_shared<BodyDeformation>()) {}

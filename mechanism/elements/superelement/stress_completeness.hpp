@@ -20,7 +20,7 @@
 
 namespace bielle::mechanism {
 
-class StressCompleteness final : public Gatherer {
+class StressCompleteness final : public StepRecorder {
  public:
   /// @param answer  not empty @param deformation  renewed before each `add`
   StressCompleteness(std::string body, const InertiaAnswer& answer, std::shared_ptr<const BodyDeformation> deformation);

@@ -12,7 +12,7 @@
 #include "mechanism/elements/superelement/superelement_body_tangent.hpp"
 #include "mechanism/elements/superelement/validity.hpp"
 #include "mechanism/model/description.hpp"
-#include "mechanism/model/gatherer_list.hpp"
+#include "mechanism/model/step_recorder_list.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 
@@ -299,8 +299,8 @@ void SuperelementBody::read_deformation(const LocalState& state, BodyDeformation
   deformation.elastic = 0.5 * deformation.eps.dot(force);
 }
 
-std::unique_ptr<Gatherer> SuperelementBody::make_gatherer() const {
-  std::vector<std::unique_ptr<Gatherer>> all;
+std::unique_ptr<StepRecorder> SuperelementBody::make_step_recorder() const {
+  std::vector<std::unique_ptr<StepRecorder>> all;
   auto reader = std::make_unique<DeformationReader>(
       [this](const LocalState& state, BodyDeformation& deformation) { read_deformation(state, deformation); });
   const std::shared_ptr<const BodyDeformation> now = reader->now();
@@ -315,7 +315,7 @@ std::unique_ptr<Gatherer> SuperelementBody::make_gatherer() const {
         std::make_unique<StressPeaks>(name(), recovered_.stress(), peaks_, [this, now](const LocalState&, double* q) {
           matrices_->to_file(now->eps, Eigen::Map<VectorX>(q, coordinates()));
         }));
-  return std::make_unique<GathererList>(std::move(all));
+  return std::make_unique<StepRecorderList>(std::move(all));
 }
 
 std::vector<std::pair<std::string, std::string>> SuperelementBody::attributes() const {

@@ -101,7 +101,7 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   void record_peaks(const std::vector<std::string>& quantities) override;
   bool outputs_together() const override { return recovered_.large(); }
   void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const override;
-  std::unique_ptr<Gatherer> make_gatherer() const override;
+  std::unique_ptr<StepRecorder> make_step_recorder() const override;
   /// File, mass, modes with the range of their frequencies, interfaces with their nodes, loads.
   void describe(const LocalState& state, Description& description) const override;
 

@@ -27,7 +27,7 @@
 #include "mechanism/elements/superelement/body_deformation.hpp"
 #include "mechanism/elements/superelement/body_strain.hpp"
 #include "mechanism/elements/superelement/corotated_frame.hpp"
-#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
@@ -50,7 +50,7 @@ struct ValidityMeasures {
 };
 
 /// The largest estimate over all steps of an analysis, and when it was reached.
-class Validity final : public Gatherer {
+class Validity final : public StepRecorder {
  public:
   /// @param body         name of the element
   /// @param points       its interfaces, node k of the state being point k

@@ -92,7 +92,7 @@ void Cylinder::declare(Declaration& declaration) const {
   declaration.memory = {0, 0};
   if (geometry_.stop_stiffness == 0) return;
   declaration.kinks = true;  // where the damper of a stop lets go
-  declaration.crossings = {{"the long end of its stroke is reached"}, {"the short end of its stroke is reached"}};
+  declaration.event_functions = {{"the long end of its stroke is reached"}, {"the short end of its stroke is reached"}};
 }
 
 PairMeasure Cylinder::length(const LocalState& state) const {
@@ -235,7 +235,7 @@ void Cylinder::begin_motion(const LocalState& state, bool /*known*/, Eigen::Ref<
 
 // -- stops
 
-void Cylinder::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void Cylinder::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   if (values.size() == 0) return;
   const double l = length(state).value;
   values[0] = l - geometry_.longest;
@@ -299,7 +299,7 @@ void Cylinder::describe(const LocalState& state, Description& description) const
                                      geometry_.stop_damping));
 }
 
-std::unique_ptr<Gatherer> Cylinder::make_gatherer() const {
+std::unique_ptr<StepRecorder> Cylinder::make_step_recorder() const {
   if (geometry_.stop_stiffness > 0) return nullptr;
   return std::make_unique<StrokeWatch>(*this);
 }

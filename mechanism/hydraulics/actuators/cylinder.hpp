@@ -46,12 +46,12 @@ class Cylinder final : public Component {
   void begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   /// `pressure` (of the chambers), `flow`, `length`, `rate`, `force`, `friction_force`, `stop_force`.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
-  std::unique_ptr<Gatherer> make_gatherer() const override;
+  std::unique_ptr<StepRecorder> make_step_recorder() const override;
   const Geometry& geometry() const { return geometry_; }
   /// length, length.rate, force, pressure_1, pressure_2
   std::vector<std::string> measure_names() const override;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "mechanism/hydraulics/actuators/cylinder.hpp"
-#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
-class StrokeWatch final : public Gatherer {
+class StrokeWatch final : public StepRecorder {
  public:
   explicit StrokeWatch(const Cylinder& cylinder) : cylinder_(cylinder) {}
   void begin() override { most_ = {}; }

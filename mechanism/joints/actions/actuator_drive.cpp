@@ -32,7 +32,7 @@ void ActuatorDrive::add_tangent(const LocalState& state, LocalTangent& tangent) 
   if (tangent.wants_C) tangent.C.dense().middleRows(at, n) -= factor * jet.w() * effort.by_rate.transpose();
 }
 
-std::unique_ptr<Gatherer> ActuatorDrive::make_gatherer() const { return std::make_unique<StillWatch>(*this); }
+std::unique_ptr<StepRecorder> ActuatorDrive::make_step_recorder() const { return std::make_unique<StillWatch>(*this); }
 
 // -- limits
 

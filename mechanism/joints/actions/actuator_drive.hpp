@@ -35,7 +35,7 @@ class ActuatorDrive : public Drive {
   ActuatorDrive(std::string name, const Joint& joint, std::size_t coordinate, const ForceLimit& limit)
       : Drive(std::move(name), joint, coordinate), limit_(limit) {}
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
-  std::unique_ptr<Gatherer> make_gatherer() const final;
+  std::unique_ptr<StepRecorder> make_step_recorder() const final;
   /// Returns force or torque, and value of the coordinate.
   std::pair<double, double> watched(const LocalState& state) const { return {force(state), value(state).value}; }
 

@@ -36,7 +36,7 @@ void Drive::describe(const LocalState& /*state*/, Description& description) cons
 
 // -- release
 
-void Drive::release_when(const Measure& measure, double value, Crossing::Direction direction) {
+void Drive::release_when(const Measure& measure, double value, EventFunction::Direction direction) {
   release_measure_ = &measure;
   release_reference_ = references().add(measure);
   release_value_ = value;
@@ -48,9 +48,9 @@ void Drive::declare_drive(Declaration& declaration) const {
   if (!can_release()) return;
   declaration.memory.push_back(0);
   if (!release_measure_) return;
-  Crossing release{"lets go of its joint", release_direction_};
+  EventFunction release{"lets go of its joint", release_direction_};
   release.reads_reaction = release_measure_->reads_reactions();
-  declaration.crossings.push_back(release);
+  declaration.event_functions.push_back(release);
 }
 
 void Drive::add_break_points(std::vector<double>& times) const {
@@ -58,7 +58,7 @@ void Drive::add_break_points(std::vector<double>& times) const {
   add_kinks(times);
 }
 
-void Drive::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void Drive::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   if (!release_measure_) return;
   // The event can occur only once: afterwards the value stays on its side.
   values[0] =

@@ -29,7 +29,7 @@ class Drive : public CoordinateAction {
   /// Sets the time at which the drive is released [s].
   void release_at(double time) { release_time_ = time; }
   /// Releases the drive when the measure crosses a value. The function is called once after the model has been read.
-  void release_when(const Measure& measure, double value, Crossing::Direction direction);
+  void release_when(const Measure& measure, double value, EventFunction::Direction direction);
 
   /// Adds `force` along the coordinate, and its power. Drives that prescribe a motion by a constraint have rows
   /// instead.
@@ -40,7 +40,7 @@ class Drive : public CoordinateAction {
   void write_output(const LocalState& state, double* values) const final { write_force(force(state), values); }
   void describe(const LocalState& state, Description& description) const final;
   void add_break_points(std::vector<double>& times) const final;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const final;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const final;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const final;
   bool leaves_branch(const LocalState& state) const final;
 
@@ -66,7 +66,7 @@ class Drive : public CoordinateAction {
   const Measure* release_measure_ = nullptr;
   int release_reference_ = 0;
   double release_value_ = 0;
-  Crossing::Direction release_direction_ = Crossing::Direction::both;
+  EventFunction::Direction release_direction_ = EventFunction::Direction::both;
 };
 
 /// Reads an entry of `drives`: `{joint: main, angle: "speed*t"}`.

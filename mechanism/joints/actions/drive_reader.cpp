@@ -95,7 +95,7 @@ void read_release(const YamlValue& value, Drive& drive, Model& model) {
   }
   const YamlValue when = value.at("when");
   const double crosses = value.has("crosses") ? value.at("crosses").number() : 0;
-  const Crossing::Direction direction = read_crossing_direction(value);
+  const EventFunction::Direction direction = read_crossing_direction(value);
   model.when_read(Model::Stage::formulas, [when, crosses, direction, &drive, &model] {
     drive.release_when(measure_named_by(when, model), crosses, direction);
   });

@@ -15,10 +15,10 @@ void JointLock::declare(Declaration& declaration) const {
   declaration.multipliers.push_back(row);
   declaration.memory = {open, 0};  // status, and locked value of the coordinate
   if (!std::isfinite(times_.release)) return;
-  Crossing release{coordinate().name + " is released", Crossing::Direction::rising};
+  EventFunction release{coordinate().name + " is released", EventFunction::Direction::rising};
   release.begins_on = -1;
   release.reads_reaction = true;
-  declaration.crossings = {release};
+  declaration.event_functions = {release};
 }
 
 double JointLock::distance(const LocalState& state, double value) const {
@@ -64,7 +64,7 @@ void JointLock::add_break_points(std::vector<double>& times) const {
     if (std::isfinite(time)) times.push_back(time);
 }
 
-void JointLock::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void JointLock::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   if (values.size() > 0) values[0] = std::abs(state.reaction()[0]) - times_.release;
 }
 

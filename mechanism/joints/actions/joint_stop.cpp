@@ -14,8 +14,8 @@ void JointStop::declare(Declaration& declaration) const {
   declaration.damping = range_.damping > 0;
   declaration.kinks = true;  // at zero total force
   declaration.memory = {0};  // side of the contact
-  if (std::isfinite(range_.upper)) declaration.crossings.push_back({coordinate().name + " at its upper stop"});
-  if (std::isfinite(range_.lower)) declaration.crossings.push_back({coordinate().name + " at its lower stop"});
+  if (std::isfinite(range_.upper)) declaration.event_functions.push_back({coordinate().name + " at its upper stop"});
+  if (std::isfinite(range_.lower)) declaration.event_functions.push_back({coordinate().name + " at its lower stop"});
 }
 
 JointStop::Contact JointStop::contact(const LocalState& state, double q, double v) const {
@@ -80,7 +80,7 @@ void JointStop::write_output(const LocalState& state, double* values) const {
   write_force(-contact(state, q, v).N, values);
 }
 
-void JointStop::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void JointStop::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const double q = value(state).value;
   Eigen::Index k = 0;
   if (std::isfinite(range_.upper)) values[k++] = q - range_.upper;

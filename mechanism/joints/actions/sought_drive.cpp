@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 namespace {
 
 /// Records the largest effort of an analysis, for its summary.
-class LargestEffort final : public Gatherer {
+class LargestEffort final : public StepRecorder {
  public:
   explicit LargestEffort(const SoughtDrive& drive) : drive_(drive) {}
   void begin() override {
@@ -57,7 +57,7 @@ void SoughtDrive::add_tangent(const LocalState& state, LocalTangent& tangent) co
   tangent.K.dense().block(at, at, n, n) -= u * jet.W();
 }
 
-std::unique_ptr<Gatherer> SoughtDrive::make_gatherer() const { return std::make_unique<LargestEffort>(*this); }
+std::unique_ptr<StepRecorder> SoughtDrive::make_step_recorder() const { return std::make_unique<LargestEffort>(*this); }
 
 SoughtEffort::Sought SoughtDrive::sought() const {
   const bool turns = coordinate().kind != JointCoordinate::Kind::displacement;

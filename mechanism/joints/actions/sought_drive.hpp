@@ -6,8 +6,8 @@
 #pragma once
 
 #include "mechanism/joints/actions/drive.hpp"
-#include "mechanism/model/gatherer.hpp"
 #include "mechanism/model/sought_effort.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
@@ -18,7 +18,7 @@ class SoughtDrive final : public Drive, public SoughtEffort {
       : Drive(std::move(name), joint, coordinate), moves_(std::move(moves)) {}
   void declare(Declaration& declaration) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
-  std::unique_ptr<Gatherer> make_gatherer() const override;
+  std::unique_ptr<StepRecorder> make_step_recorder() const override;
   Sought sought() const override;
   double force(const LocalState& state) const override { return state.memory()[own_memory()]; }
 

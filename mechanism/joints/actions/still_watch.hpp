@@ -2,11 +2,11 @@
 #pragma once
 
 #include "mechanism/joints/actions/actuator_drive.hpp"
-#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
-class StillWatch final : public Gatherer {
+class StillWatch final : public StepRecorder {
  public:
   /// The object keeps a reference.
   explicit StillWatch(const ActuatorDrive& drive) : drive_(drive) {}

@@ -38,13 +38,13 @@ RopeGrip::RopeGrip(const RopeSection& before, const RopeSection& after)
 void RopeGrip::declare(Declaration& declaration) const {
   declaration.passive = true;
   declaration.references = {&before_, &after_};
-  Crossing leaves{fmt::format("leaves pulley '{}', which it grips", after_.path().names.front()),
-                  Crossing::Direction::falling};
+  EventFunction leaves{fmt::format("leaves pulley '{}', which it grips", after_.path().names.front()),
+                       EventFunction::Direction::falling};
   leaves.restarts = false;
-  declaration.crossings = {leaves};
+  declaration.event_functions = {leaves};
 }
 
-void RopeGrip::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void RopeGrip::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   thread_local RopeSection::Stretch before, after;
   before_.calc_stretch(state.of(0), before);
   after_.calc_stretch(state.of(1), after);

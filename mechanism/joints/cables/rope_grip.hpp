@@ -19,7 +19,7 @@ class RopeGrip final : public Component {
   RopeGrip(const RopeSection& before, const RopeSection& after);
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& /*state*/, Eigen::Ref<VectorX> /*r*/) const override {}
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   std::string remark() const override;
 
  private:

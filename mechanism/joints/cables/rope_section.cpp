@@ -52,11 +52,13 @@ void RopeSection::declare(Declaration& declaration) const {
   declaration.memory[taut_memory] = E_drawn_ > 0 ? 1 : 0;
   remember_places(drawn_places_,
                   Eigen::Map<VectorX>(declaration.memory.data(), static_cast<Eigen::Index>(declaration.memory.size())));
-  declaration.crossings = {{"becomes taut or slack"}};
+  declaration.event_functions = {{"becomes taut or slack"}};
   for (const int place : watched_) {
     const std::string& pulley = path_.names[static_cast<std::size_t>(place)];
-    declaration.crossings.push_back({fmt::format("leaves pulley '{}'", pulley), Crossing::Direction::falling});
-    declaration.crossings.push_back({fmt::format("comes onto pulley '{}'", pulley), Crossing::Direction::falling});
+    declaration.event_functions.push_back(
+        {fmt::format("leaves pulley '{}'", pulley), EventFunction::Direction::falling});
+    declaration.event_functions.push_back(
+        {fmt::format("comes onto pulley '{}'", pulley), EventFunction::Direction::falling});
   }
 }
 
@@ -290,7 +292,7 @@ void RopeSection::begin_branch(const LocalState& state, std::span<const int> cro
   memory[taut_memory] = s.E > 0 || (s.E == 0 && s.E_rate >= 0) ? 1 : 0;
 }
 
-void RopeSection::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void RopeSection::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   thread_local Stretch s;
   thread_local std::vector<Frame> at;
   calc_stretch(state, s);

@@ -51,10 +51,10 @@ PairMeasure FlatFollower::calc_own_coordinate(std::size_t index, const LocalStat
 
 void FlatFollower::declare(Declaration& declaration) const {
   MeasuredPair::declare(declaration);
-  declaration.crossings = {lift_off()};
+  declaration.event_functions = {lift_off()};
 }
 
-void FlatFollower::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void FlatFollower::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   values[0] = state.reaction()[0];
 }
 
@@ -78,7 +78,7 @@ void LiftedCoordinate::declare(Declaration& declaration) const {
   references_.declare(declaration);
   declaration.stiffness = true;
   declaration.multipliers.push_back({"lift", lifted_.coordinate().force_units()});
-  declaration.crossings = {lift_off()};
+  declaration.event_functions = {lift_off()};
 }
 
 // Phi = c_2 - f(c_1)
@@ -126,7 +126,7 @@ void LiftedCoordinate::add_constraint_rates(const LocalState& state, Eigen::Ref<
   acceleration[0] += lifting_rate - f.slope * turning_rate - f.curvature * turning * turning;
 }
 
-void LiftedCoordinate::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void LiftedCoordinate::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   values[0] = -state.reaction()[0];  // force along the coordinate
 }
 

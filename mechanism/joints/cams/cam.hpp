@@ -26,7 +26,7 @@ class FlatFollower final : public MeasuredPair {
   void declare(Declaration& declaration) const override;
   /// The contact slides along `displacement`.
   std::vector<SlidingSurface> sliding_surfaces() const override { return {{{slide}}}; }
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
 
  private:
   /// psi, counted over turns, and s, both initially zero.
@@ -49,7 +49,7 @@ class LiftedCoordinate final : public Component {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   /// Output `force`: force of the cam on the follower's coordinate.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;

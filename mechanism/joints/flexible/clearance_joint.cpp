@@ -23,7 +23,7 @@ void ClearanceJoint::declare(Declaration& declaration) const {
   const double time = declaration.memory.back();  // the time is last
   declaration.memory.pop_back();
   for (const Place& place : places_) {
-    declaration.crossings.push_back({fmt::format("contact {}", place.name)});
+    declaration.event_functions.push_back({fmt::format("contact {}", place.name)});
     declaration.memory.insert(declaration.memory.end(),
                               {0, place.law.damping_after(place.law.slowest_impact), 0, 0, 0});
   }
@@ -143,7 +143,7 @@ void ClearanceJoint::add_energy(const LocalState& state, Energy& energy) const {
   }
 }
 
-void ClearanceJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void ClearanceJoint::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const PairRotation turned = rotation(state);
   for (std::size_t k = 0; k < places_.size(); ++k)
     values[static_cast<Eigen::Index>(k)] = contact(k, state, turned, false).p().value;

@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-enum StickSlipCrossing { comes_to_rest, begins_to_slip };
+enum StickSlipEvent { comes_to_rest, begins_to_slip };
 
 /// The memory: direction of slip, 0 if it sticks, NaN if no motion has begun; whether it has slipped through an
 /// accepted step; time at which it began to slip; number of consecutive rejections of its sticking at this instant;
@@ -24,12 +24,13 @@ void StickSlipFriction::declare(Declaration& declaration) const {
   declaration.multipliers.push_back(std::move(row));
   declaration.memory.assign(stuck_at + surface().parts.size(), 0.0);
   declaration.memory[slip_direction] = std::numeric_limits<double>::quiet_NaN();
-  Crossing rest{name + " sticks", Crossing::Direction::falling}, slip{name + " slips", Crossing::Direction::falling};
+  EventFunction rest{name + " sticks", EventFunction::Direction::falling},
+      slip{name + " slips", EventFunction::Direction::falling};
   rest.begins_on = slip.begins_on = 1;  // a joint that cannot stick slips immediately
   slip.one_by_one = true;
   rest.nearest = slip.nearest = 1e-5;
   slip.reads_reaction = true;
-  declaration.crossings = {rest, slip};
+  declaration.event_functions = {rest, slip};
 }
 
 double StickSlipFriction::direction(const LocalState& state) {
@@ -130,7 +131,7 @@ void StickSlipFriction::accept(const LocalState& state, Eigen::Ref<VectorX> memo
   if (direction(state) * velocity(state)[0] > no_velocity(state)) memory[has_slipped] = 1;
 }
 
-void StickSlipFriction::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void StickSlipFriction::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const double dir = direction(state);
   values.setOnes();
   if (dir != 0) {

@@ -26,7 +26,7 @@ class StickSlipFriction final : public JointFriction {
                             Eigen::Ref<VectorX> acceleration) const override;
   void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;

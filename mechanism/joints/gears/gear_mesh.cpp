@@ -122,7 +122,7 @@ void ElasticGearMesh::declare(Declaration& declaration) const {
   declaration.kinks = true;  // at zero total force
   const double touch = plays() ? 0 : 1;
   declaration.memory.insert(declaration.memory.end(), {touch, touch});  // whether each flank touches
-  if (plays()) declaration.crossings = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};
+  if (plays()) declaration.event_functions = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};
 }
 
 Vector3 ElasticGearMesh::normal(int side) const {
@@ -176,7 +176,7 @@ void ElasticGearMesh::add_energy(const LocalState& state, Energy& energy) const 
   }
 }
 
-void ElasticGearMesh::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void ElasticGearMesh::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   for (int side = 0; side < values.size(); ++side) values[side] = flank(side, state).p.value;
 }
 

@@ -40,15 +40,15 @@ void PointOnCurve::declare(Declaration& declaration) const {
   constexpr const char* names[] = {"x", "y", "z"};
   for (int axis = 0; axis < rows(); ++axis) declaration.multipliers.push_back({names[axis], "N"});
   if (guide_ == Guide::plane) {
-    declaration.crossings = {lift_off()};
+    declaration.event_functions = {lift_off()};
     return;
   }
   if (curve_.closed()) return;
-  Crossing leaves{"leaves the curve at its end", Crossing::Direction::falling};
+  EventFunction leaves{"leaves the curve at its end", EventFunction::Direction::falling};
   leaves.stops = true;
-  Crossing leaves_start{"leaves the curve at its beginning", Crossing::Direction::falling};
+  EventFunction leaves_start{"leaves the curve at its beginning", EventFunction::Direction::falling};
   leaves_start.stops = true;
-  declaration.crossings = {leaves_start, leaves};
+  declaration.event_functions = {leaves_start, leaves};
 }
 
 std::vector<SlidingSurface> PointOnCurve::sliding_surfaces() const {
@@ -137,7 +137,7 @@ void PointOnCurve::calc_coordinate(std::size_t index, const LocalState& state, C
   jet.S()(parameter, parameter) = jet.W()(parameter, parameter) = c.first.dot(c.second) / speed;
 }
 
-void PointOnCurve::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void PointOnCurve::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   if (guide_ == Guide::plane) {
     const Vector3 along = curve_(state.amplitude()[0]).first;
     const auto lambda = state.reaction();

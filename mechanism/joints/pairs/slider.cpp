@@ -56,10 +56,10 @@ void SliderJoint::declare(Declaration& declaration) const {
   if (tangent_)
     for (const char* name : {"ry", "rz"}) declaration.multipliers.push_back({name, "N m"});
   if (ends_ == Ends::error) return;
-  Crossing beginning{"reaches the beam's start", Crossing::Direction::falling},
-      end{"reaches the beam's end", Crossing::Direction::falling};
+  EventFunction beginning{"reaches the beam's start", EventFunction::Direction::falling},
+      end{"reaches the beam's end", EventFunction::Direction::falling};
   beginning.stops = end.stops = true;
-  declaration.crossings = {beginning, end};
+  declaration.event_functions = {beginning, end};
 }
 
 std::size_t SliderJoint::element_at(double u) const {
@@ -248,7 +248,7 @@ void SliderJoint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) co
                     name(), u < 0 ? "start" : "end"));
 }
 
-void SliderJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void SliderJoint::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   if (values.size() == 0) return;
   values[0] = state.amplitude()[0];
   values[1] = line_.place.back() - state.amplitude()[0];

@@ -30,13 +30,14 @@ UniversalJoint::UniversalJoint(std::string name, JointFrames frames, const Model
 void UniversalJoint::declare(Declaration& declaration) const {
   MeasuredPair::declare(declaration);
   for (const char* shaft : {"angle_1", "angle_2"}) {
-    Crossing singular{fmt::format("{} passes a right angle, where a shaft drawn straight transmits no torque", shaft)};
+    EventFunction singular{
+        fmt::format("{} passes a right angle, where a shaft drawn straight transmits no torque", shaft)};
     singular.restarts = false;
-    declaration.crossings.push_back(singular);
+    declaration.event_functions.push_back(singular);
   }
 }
 
-void UniversalJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void UniversalJoint::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   for (std::size_t k : {0U, 1U}) values[static_cast<Eigen::Index>(k)] = std::cos(coordinate(k, state).value);
 }
 

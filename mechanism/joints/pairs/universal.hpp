@@ -32,7 +32,7 @@ class UniversalJoint final : public MeasuredPair {
  public:
   UniversalJoint(std::string name, JointFrames frames, const Model& model);
   void declare(Declaration& declaration) const override;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   /// The bearings of the two axes of its cross.
   std::vector<SlidingSurface> sliding_surfaces() const override { return {{{0}}, {{1}}}; }
 

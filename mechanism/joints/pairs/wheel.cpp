@@ -69,10 +69,10 @@ WheelJoint::WheelJoint(std::string name, JointFrames frames, double radius, bool
 
 void WheelJoint::declare(Declaration& declaration) const {
   MeasuredPair::declare(declaration);
-  declaration.crossings = {lift_off()};
+  declaration.event_functions = {lift_off()};
 }
 
-void WheelJoint::calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const {
+void WheelJoint::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   values[0] = state.reaction()[0];
 }
 

@@ -23,7 +23,7 @@ class WheelJoint final : public MeasuredPair {
   /// @param rolls  with the two rows that prevent slip
   WheelJoint(std::string name, JointFrames frames, double radius, bool rolls, const Model& model);
   void declare(Declaration& declaration) const override;
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;
 
   /// Slip velocities as gradients w with their derivatives; the value is the velocity itself [m/s].

@@ -143,29 +143,29 @@ void ReactionNorm::balance(const Environment& environment, State& state) {
 }
 
 /// Otherwise the reactions that forces read are already set: the equations of the state were solved with them.
-bool CrossingValues::needs(const State& state) const {
+bool EventFunctionValues::needs(const State& state) const {
   if (!system_.crossings_read_reactions() || !ReactionNorm::needed(system_, state)) return false;
   return !system_.reads_reactions() || state.reaction.size() == 0;
 }
 
-bool CrossingValues::balance(const Environment& environment, State& state) {
+bool EventFunctionValues::balance(const Environment& environment, State& state) {
   if (!needs(state)) return false;
   if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
   norm_->balance(environment, state);
   return true;
 }
 
-void CrossingValues::calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) {
+void EventFunctionValues::calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) {
   if (!needs(state)) {
-    system_.calc_crossings(state, environment, values);
+    system_.calc_event_functions(state, environment, values);
     return;
   }
   State balanced = state;
   balance(environment, balanced);
-  system_.calc_crossings(balanced, environment, values);
+  system_.calc_event_functions(balanced, environment, values);
 }
 
-double CrossingValues::calc(const State& state, const Environment& environment, int crossing) {
+double EventFunctionValues::calc(const State& state, const Environment& environment, int crossing) {
   if (!needs(state)) return system_.calc_crossing(state, environment, crossing);
   State balanced = state;
   balance(environment, balanced);

@@ -46,13 +46,13 @@ class ReactionNorm {
 };
 
 /// Computes the values of a system's event functions, with the reactions of smallest norm if they read reactions.
-class CrossingValues {
+class EventFunctionValues {
  public:
-  explicit CrossingValues(const System& system) : system_(system) {}
+  explicit EventFunctionValues(const System& system) : system_(system) {}
   /// Sets the reactions that a state's event functions read, if they differ from its multipliers.
   /// @returns whether reactions were set
   bool balance(const Environment& environment, State& state);
-  /// @param values  (system.crossings().size())
+  /// @param values  (system.event_functions().size())
   void calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values);
   double calc(const State& state, const Environment& environment, int crossing);  ///< value of one of them
 

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "mechanism/math/rank.hpp"
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 
 namespace bielle::mechanism {
@@ -221,7 +221,7 @@ bool stands_in_singular_position(const System& system, const Environment& enviro
     VectorX still(system.multipliers());
     system.set_rates(moving, VectorX::Zero(v.size()), VectorX::Zero(v.size()));
     system.constraint_rates(moving, environment, still, unused);
-    MassSaddle saddle(system);
+    KktMatrix saddle(system);
     saddle.factor(environment, state);
     VectorX r = VectorX::Zero(system.size()), change(system.size());
     r.tail(system.multipliers()) = rates - still;  // the prescribed rates of drives are removed

@@ -125,7 +125,7 @@ void March::exchange(Archive& archive) {
   }
   norm_.exchange(archive);  // also with fixed steps: adaptive ones may continue them
   watch_.exchange(archive);
-  VectorX crossed = VectorX::Zero(static_cast<Eigen::Index>(integration_.system().crossings().size()));
+  VectorX crossed = VectorX::Zero(static_cast<Eigen::Index>(integration_.system().event_functions().size()));
   for (const int k : crossed_) crossed[k] = 1;
   for (double& flag : crossed) archive.within(flag, 0, 1);
   crossed_.clear();
@@ -142,7 +142,7 @@ void March::begin_branch(double h, std::optional<Jump>& before) {
   if (before && jump_listener_) jump_listener_(*before);
   std::vector<int> begins;  // events that begin the branch
   for (const int k : crossed_)
-    if (integration_.system().crossings()[static_cast<std::size_t>(k)].crossing.restarts) begins.push_back(k);
+    if (integration_.system().event_functions()[static_cast<std::size_t>(k)].crossing.restarts) begins.push_back(k);
   before = integration_.begin_branch(h, begins);
 }
 
@@ -229,7 +229,7 @@ double March::locate(double time, StepReport& report) {
 }
 
 /// Processes the events at the end of an accepted step.
-void March::pass_crossings(MarchStep& step) {
+void March::pass_events(MarchStep& step) {
   const double time = integration_.state().time;
   crossings_at_once_ = time - last_crossing_ <= 1e-7 * size_ ? crossings_at_once_ + 1 : 0;
   last_crossing_ = time;
@@ -243,13 +243,13 @@ void March::throw_chattering(int crossing) const {
   throw ComputationError(fmt::format(
       "t = {:.6g} s: {} is met again and again without the motion going on; give the contact some compliance, or the "
       "switch some hysteresis",
-      integration_.state().time, integration_.system().crossings()[static_cast<std::size_t>(crossing)].name));
+      integration_.state().time, integration_.system().event_functions()[static_cast<std::size_t>(crossing)].name));
 }
 
 void March::note(const std::vector<int>& passed, MarchStep& step) {
   const double time = integration_.state().time;
   for (const int k : passed) {
-    const Crossing& crossing = integration_.system().crossings()[static_cast<std::size_t>(k)].crossing;
+    const EventFunction& crossing = integration_.system().event_functions()[static_cast<std::size_t>(k)].crossing;
     step.passed.push_back({time, k});
     crossed_.push_back(k);
     ++log_.crossings;
@@ -355,7 +355,7 @@ void March::pass_noted(double begin, MarchStep& step) {
   const auto noted = watch_.pass_noted(
       begin, end, [this](double time) { return integration_.interpolated(time); }, integration_.environment(),
       tolerance_of(end - begin, begin));
-  for (const CrossingWatch::Noted& each : noted) {
+  for (const EventLocator::Noted& each : noted) {
     step.passed.push_back({each.time, each.crossing});
     crossed_.push_back(each.crossing);
     ++log_.crossings;
@@ -385,7 +385,7 @@ MarchStep March::advance() {
     pulses_.add(integration_.state().time);
   }
   pass_noted(planned.begin, step);
-  if (trial.crossing > 0) pass_crossings(step);
+  if (trial.crossing > 0) pass_events(step);
   std::stable_sort(step.passed.begin(), step.passed.end(),
                    [](const Passed& a, const Passed& b) { return a.time < b.time; });
   if (branch_left) pending_ = Pending::branch;

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/solvers/dynamics/crossing_watch.hpp"
 #include "mechanism/solvers/dynamics/error_norm.hpp"
+#include "mechanism/solvers/dynamics/event_locator.hpp"
 #include "mechanism/solvers/dynamics/pulse_watch.hpp"
 
 namespace bielle::mechanism {
@@ -132,7 +132,7 @@ class March {
   void change_step(double h);
   StepReport attempt(double h, double end, bool kink);
   [[noreturn]] void throw_chattering(int crossing) const;
-  void pass_crossings(MarchStep& step);
+  void pass_events(MarchStep& step);
   void refuse_by_error(double h, double error);
   void refuse_by_newton(double h, const StepReport& report);
 
@@ -142,7 +142,7 @@ class March {
   std::unique_ptr<Stops> stops_;
   ErrorNorm norm_;
   Pending pending_ = Pending::start;
-  CrossingWatch watch_;
+  EventLocator watch_;
   PulseWatch pulses_;
   std::vector<int> crossed_;  ///< events at the start of the next step
   bool stopped_ = false;

@@ -47,7 +47,7 @@ bool ShortSpan::is_slow(const State& begin, const State& after, const VectorX& d
   return true;
 }
 
-bool ShortSpan::leap(SchemeStep& step, MassSaddle& saddle, double span, double end, double offset, bool small) const {
+bool ShortSpan::leap(SchemeStep& step, KktMatrix& saddle, double span, double end, double offset, bool small) const {
   State begin = step.state();
   begin.time += offset;
   StartReport unused;
@@ -71,7 +71,7 @@ bool ShortSpan::leap(SchemeStep& step, MassSaddle& saddle, double span, double e
   return true;
 }
 
-void ShortSpan::settle(SchemeStep& step, MassSaddle& saddle) const {
+void ShortSpan::settle(SchemeStep& step, KktMatrix& saddle) const {
   State after = step.trial();
   const VectorX dq = step.dq();
   StartReport unused;

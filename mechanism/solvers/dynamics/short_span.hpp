@@ -33,7 +33,7 @@
 // series.
 #pragma once
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/dynamics/scheme_step.hpp"
 
 namespace bielle::mechanism {
@@ -50,9 +50,9 @@ class ShortSpan {
   /// @param small   whether the span is shorter than any time constant
   /// @returns whether the series is valid; otherwise the trial is undefined
   /// @throws ComputationError if there are no consistent accelerations
-  bool leap(SchemeStep& step, MassSaddle& saddle, double span, double end, double offset, bool small) const;
+  bool leap(SchemeStep& step, KktMatrix& saddle, double span, double end, double offset, bool small) const;
   /// Solves for the accelerations of a trial whose positions and velocities are known.
-  void settle(SchemeStep& step, MassSaddle& saddle) const;
+  void settle(SchemeStep& step, KktMatrix& saddle) const;
 
  private:
   bool moves_little(const State& begin, double span) const;

@@ -127,7 +127,7 @@ void StabilisedEquations::factor(const SchemeStep& step, const Environment& envi
   system_.tangent(trial, environment, velocity, dq, velocity_);
   system_.tangent(trial, environment, velocity_position, dq, velocity_position_);
   put_values();
-  // lambda is scaled by the size of the forces that move the dofs (see LinearStep), mu by that of their weights.
+  // lambda is scaled by the size of the forces that move the dofs (see NewtonMatrix), mu by that of their weights.
   const double weight = weight_.size() > 0 ? weight_.maxCoeff() : 1;
   scale_.segment(system_.size() - system_.multipliers(), system_.multipliers()).setConstant(linear_.scale());
   scale_.tail(system_.multipliers()).setConstant(weight);

@@ -12,7 +12,7 @@ namespace {
 
 /// Computes forward differences of the consistent accelerations along the motion: functions of time may not exist
 /// before the start. The difference step only has to be small relative to h.
-VectorX acceleration_rate(const SchemeStep& step, const Environment& environment, MassSaddle& saddle, double h) {
+VectorX acceleration_rate(const SchemeStep& step, const Environment& environment, KktMatrix& saddle, double h) {
   const System& system = step.system();
   const State& state = step.state();
   const VectorX &v = step.rates().v, &a = step.rates().a;
@@ -54,7 +54,7 @@ bool resolved(const SchemeStep& step, const VectorX& j, double h) {
 
 void set_start_values(SchemeStep& step, const Environment& environment, VelocityCorrection& correction, double h) {
   SchemeStep::Rates& rates = step.rates();
-  MassSaddle& saddle = correction.saddle();
+  KktMatrix& saddle = correction.saddle();
   step.set_size(h);
   if (!saddle.serves()) saddle.factor(environment, step.state());
   try {

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "mechanism/solvers/dynamics/scheme_step.hpp"
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 
 namespace bielle::mechanism {
 
@@ -37,11 +37,11 @@ class StepEquations {
   /// Returns the residual that is compared with the tolerance (system.size()). @param h  size of the step [s]
   virtual const VectorX& judged(const VectorX& r, double /*h*/) { return r; }
   virtual void choose_pivots_anew() { linear_.choose_pivots_anew(); }
-  const LinearStep& linear() const { return linear_; }  ///< the tangent of the system's own equations
+  const NewtonMatrix& linear() const { return linear_; }  ///< the tangent of the system's own equations
 
  protected:
   const System& system_;
-  LinearStep linear_;
+  NewtonMatrix linear_;
 };
 
 }  // namespace bielle::mechanism

@@ -39,7 +39,7 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       step_(system, scheme, std::move(state)),
       correction_(system, environment_, form),
       newton_(system, environment_, equations_of(system, form), options),
-      crossing_values_(system),
+      event_function_values_(system),
       extrapolation_(system.size(), options.extrapolation),
       short_span_(system, environment_) {
   start_report_ = make_consistent(system_, environment_, step_.state());
@@ -56,7 +56,7 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       step_(system, scheme, system.start(0)),
       correction_(system, environment_, form),
       newton_(system, environment_, equations_of(system, form), options),
-      crossing_values_(system),
+      event_function_values_(system),
       extrapolation_(system.size(), options.extrapolation),
       short_span_(system, environment_) {
   exchange(archive);
@@ -114,14 +114,14 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.before = system_.energy(state, environment_);
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
-  const bool balanced = crossing_values_.balance(environment_, state);
+  const bool balanced = event_function_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
   if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
   set_redundant_aside(system_, environment_, state);
   std::vector<int> new_holds = active_holds(system_, state);
   std::erase_if(new_holds, [&](int k) { return before[static_cast<std::size_t>(k)] == Idle::active; });
   StartReport report;
-  MassSaddle& saddle = correction_.saddle();
+  KktMatrix& saddle = correction_.saddle();
   try {
     if (holds_stop_more(system_, environment_, state, new_holds, saddle)) {
       refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, saddle);
@@ -145,7 +145,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
     }
   } catch (const ComputationError& error) {
     std::vector<std::string> events;
-    for (const int k : crossed) events.push_back(system_.crossings()[static_cast<std::size_t>(k)].name);
+    for (const int k : crossed) events.push_back(system_.event_functions()[static_cast<std::size_t>(k)].name);
     if (events.empty()) throw;
     throw ComputationError(fmt::format("{}; this is where {}", error.what(), fmt::join(events, ", ")));
   }
@@ -257,7 +257,7 @@ StepReport TimeIntegration::attempt_again(const StepReport& before, double h, do
 
 StepReport TimeIntegration::attempt_short(double h, double end, bool kink, bool small) {
   const double offset = just_off(state().time, h), trial_end = kink ? end - just_off(end, h) : end;
-  MassSaddle& saddle = correction_.saddle();
+  KktMatrix& saddle = correction_.saddle();
   StepReport report;
   report.size = h;
   try {

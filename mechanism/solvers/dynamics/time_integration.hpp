@@ -131,7 +131,7 @@ class TimeIntegration {
   SchemeStep step_;
   VelocityCorrection correction_;
   StepNewton newton_;
-  CrossingValues crossing_values_;
+  EventFunctionValues event_function_values_;
   Extrapolation extrapolation_;
   SchemeLoss loss_;
   ShortSpan short_span_;

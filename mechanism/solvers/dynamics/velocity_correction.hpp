@@ -21,7 +21,7 @@
 #include <optional>
 #include <string>
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/dynamics/scheme_step.hpp"
 
 namespace bielle::mechanism {
@@ -42,7 +42,7 @@ class VelocityCorrection {
   void watch(SchemeStep& step);
   /// Returns a warning if joints rotate far in the last accepted step; otherwise empty.
   std::string caution(const SchemeStep& step);
-  MassSaddle& saddle() { return saddle_; }
+  KktMatrix& saddle() { return saddle_; }
   void exchange(Archive& archive);
 
  private:
@@ -59,10 +59,10 @@ class VelocityCorrection {
   const System& system_;
   const Environment& environment_;
   ConstraintForm form_;
-  MassSaddle saddle_;
-  std::optional<MassSaddle> watching_saddle_;  ///< separate, so that the check does not change the motion
-  double turn_ = 0;                            ///< rotation of constraints in the last accepted step [rad]
-  bool turning_ = false;                       ///< rotation was large enough for the correction, now or before
+  KktMatrix saddle_;
+  std::optional<KktMatrix> watching_saddle_;  ///< separate, so that the check does not change the motion
+  double turn_ = 0;                           ///< rotation of constraints in the last accepted step [rad]
+  bool turning_ = false;                      ///< rotation was large enough for the correction, now or before
 };
 
 }  // namespace bielle::mechanism

@@ -8,8 +8,8 @@
 #include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
 #include "mechanism/solvers/newton/convergence.hpp"
-#include "mechanism/solvers/newton/linear_step.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -177,7 +177,7 @@ class RotationEquilibrium {
 
   const System& system_;
   Environment environment_;
-  LinearStep linear_;
+  NewtonMatrix linear_;
   Convergence convergence_;
   Hold hold_ = Hold::displacements;
   VectorX step_;  ///< (size)

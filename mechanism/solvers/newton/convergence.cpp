@@ -25,7 +25,7 @@ Convergence::Convergence(const System& system, const NewtonOptions& options)
   }
 }
 
-void Convergence::measure_rounding(const LinearStep& linear, const State& state) {
+void Convergence::measure_rounding(const NewtonMatrix& linear, const State& state) {
   const int n = system_.size(), scalars = system_.kinematics().unknowns();
   const double length = model_length(state);
   unknown_scale_.resize(n);
@@ -53,7 +53,7 @@ void Convergence::measure_rounding(const LinearStep& linear, const State& state)
   measured_ = false;
 }
 
-void Convergence::measure_amplitudes(const LinearStep& linear) {
+void Convergence::measure_amplitudes(const NewtonMatrix& linear) {
   const int scalars = system_.kinematics().unknowns(), end = system_.dofs();
   amplitude_per_force_ = {};
   double softest = std::numeric_limits<double>::infinity();
@@ -69,7 +69,7 @@ void Convergence::measure_amplitudes(const LinearStep& linear) {
     if (stiffest[k] > 0) amplitude_per_force_[k] = std::sqrt(softest / stiffest[k]);
 }
 
-void Convergence::measure_highest_rates(const LinearStep& linear, const State& state) {
+void Convergence::measure_highest_rates(const NewtonMatrix& linear, const State& state) {
   const TangentWeights& weights = linear.weights();
   if (own_.empty() || (weights.mass == 0 && weights.first_order == 0)) return;
   system_.tangent(state, Environment{}, TangentWeights{0, 0, 1, 1, 0}, nullptr, highest_rates_);
@@ -79,7 +79,7 @@ void Convergence::measure_highest_rates(const LinearStep& linear, const State& s
   }
 }
 
-void Convergence::measure_terms(const LinearStep& linear, const State& state) {
+void Convergence::measure_terms(const NewtonMatrix& linear, const State& state) {
   constexpr double steps = 1e3;
   const int first_amplitude = system_.kinematics().unknowns(), first = system_.dofs();
   for (const Own& own : own_) {

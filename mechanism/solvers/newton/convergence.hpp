@@ -23,7 +23,7 @@
 #include <array>
 #include <vector>
 
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 
 namespace bielle::mechanism {
 
@@ -45,9 +45,9 @@ class Convergence {
   Convergence(const System& system, const NewtonOptions& options);
 
   /// Computes the rounding limits from the last tangent, and the terms of equations that are judged separately.
-  void measure_rounding(const LinearStep& linear, const State& state);
+  void measure_rounding(const NewtonMatrix& linear, const State& state);
   /// Computes only these terms, at low cost.
-  void measure_terms(const LinearStep& linear, const State& state);
+  void measure_terms(const NewtonMatrix& linear, const State& state);
   /// @param r  residual (size) with its scale
   bool reached(const Eigen::Ref<const VectorX>& r, const ResidualScale& scale);
   /// Whether a residual of the given size (by `size_of`) certainly exceeds the tolerance at this scale: a check at no
@@ -70,8 +70,8 @@ class Convergence {
   /// Tolerances of each kind, without rounding; zero for equations that are judged separately.
   using Tolerances = std::array<double, kind_count + 1>;
   Tolerances tolerances(const ResidualScale& scale) const;
-  void measure_amplitudes(const LinearStep& linear);
-  void measure_highest_rates(const LinearStep& linear, const State& state);
+  void measure_amplitudes(const NewtonMatrix& linear);
+  void measure_highest_rates(const NewtonMatrix& linear, const State& state);
 
   /// An equation that is judged separately.
   struct Own {

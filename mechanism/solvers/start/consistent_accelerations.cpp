@@ -21,7 +21,7 @@ class AccelerationEquations {
  public:
   /// Initial guess of the search for the accelerations.
   enum class From { nothing, state };
-  AccelerationEquations(const System& system, const Environment& environment, State& state, MassSaddle& saddle,
+  AccelerationEquations(const System& system, const Environment& environment, State& state, KktMatrix& saddle,
                         From from)
       : system_(system),
         environment_(environment),
@@ -458,7 +458,7 @@ class AccelerationEquations {
   const System& system_;
   const Environment& environment_;
   State& state_;
-  MassSaddle& saddle_;
+  KktMatrix& saddle_;
   ReadReactions reactions_;
   double length_;
   VectorX known_;  ///< multipliers of the given state
@@ -471,7 +471,7 @@ class AccelerationEquations {
 }  // namespace
 
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state,
-                                   MassSaddle& saddle) {
+                                   KktMatrix& saddle) {
   AccelerationEquations equations(system, environment, state, saddle, AccelerationEquations::From::nothing);
   if (system.reads_reactions())
     equations.solve_with_reactions();
@@ -482,7 +482,7 @@ void make_accelerations_consistent(const System& system, const Environment& envi
   saddle.serve_no_more();
 }
 
-void continue_accelerations(const System& system, const Environment& environment, State& state, MassSaddle& saddle) {
+void continue_accelerations(const System& system, const Environment& environment, State& state, KktMatrix& saddle) {
   if (system.reads_reactions()) {
     AccelerationEquations equations(system, environment, state, saddle, AccelerationEquations::From::state);
     const bool found = equations.continue_with_reactions();
@@ -493,7 +493,7 @@ void continue_accelerations(const System& system, const Environment& environment
 }
 
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state) {
-  MassSaddle saddle(system);
+  KktMatrix saddle(system);
   make_accelerations_consistent(system, environment, state, saddle);
 }
 

@@ -16,7 +16,7 @@
 // from which a second search starts, lead to the same solution.
 #pragma once
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 
 namespace bielle::mechanism {
 
@@ -27,11 +27,11 @@ namespace bielle::mechanism {
 /// @throws ComputationError naming an unknown without mass, an algebraic one that its equation does not determine, or
 ///         reactions for which there is no solution, or more than one (Painleve's paradox)
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state,
-                                   MassSaddle& saddle);
+                                   KktMatrix& saddle);
 void make_accelerations_consistent(const System& system, const Environment& environment, State& state);
 
 /// Does the same from accelerations and multipliers of a state nearby, for which the solution is known to be unique:
 /// uniqueness is not checked again if forces depend on reactions.
-void continue_accelerations(const System& system, const Environment& environment, State& state, MassSaddle& saddle);
+void continue_accelerations(const System& system, const Environment& environment, State& state, KktMatrix& saddle);
 
 }  // namespace bielle::mechanism

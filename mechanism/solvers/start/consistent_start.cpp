@@ -17,15 +17,15 @@ namespace {
 
 /// Releases overloaded holds, the most overloaded first.
 void release_overloaded(const System& system, const Environment& environment, State& state, StartReport& report,
-                        MassSaddle& saddle) {
-  const auto& crossings = system.crossings();
+                        KktMatrix& saddle) {
+  const auto& crossings = system.event_functions();
   const auto count = static_cast<int>(crossings.size());
   const bool any = std::any_of(crossings.begin(), crossings.end(), [](const auto& c) { return c.crossing.one_by_one; });
   if (!any) return;
   VectorX values(count);
   // Each hold is released only once; holds that engage again are left to the motion.
   for (int k = 0; k < count; ++k) {
-    system.calc_crossings(state, environment, values);
+    system.calc_event_functions(state, environment, values);
     int worst = -1;
     for (int i = 0; i < count; ++i)
       if (crossings[static_cast<std::size_t>(i)].crossing.one_by_one && values[i] < 0 &&
@@ -50,7 +50,7 @@ StartReport make_consistent(const System& system, const Environment& environment
   set_redundant_aside(system, environment, state);
   check_set_aside(system, environment, state);
   check_massless_directions(system, state);
-  MassSaddle saddle(system);
+  KktMatrix saddle(system);
   make_velocities_consistent(system, environment, state, report, saddle);
   if (system.begin_motion(state, environment, true)) {
     set_redundant_aside(system, environment, state);

@@ -6,7 +6,7 @@
 namespace bielle::mechanism {
 
 void make_velocities_consistent(const System& system, const Environment& environment, State& state, StartReport& report,
-                                MassSaddle& saddle) {
+                                KktMatrix& saddle) {
   VectorX v(system.dofs()), a(system.dofs());
   system.get_rates(state, v, a);
   if (system.multipliers() > 0) {

@@ -6,7 +6,7 @@
 // an inelastic impulse.
 #pragma once
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 
 namespace bielle::mechanism {
@@ -14,6 +14,6 @@ namespace bielle::mechanism {
 /// Projects the state's velocities on the constraints.
 /// @param saddle  contains the factors of these positions afterwards
 void make_velocities_consistent(const System& system, const Environment& environment, State& state, StartReport& report,
-                                MassSaddle& saddle);
+                                KktMatrix& saddle);
 
 }  // namespace bielle::mechanism

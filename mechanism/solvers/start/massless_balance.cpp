@@ -179,7 +179,7 @@ class Balance {
 
   const System& system_;
   const Environment& environment_;
-  LinearStep linear_;
+  NewtonMatrix linear_;
   VectorX mass_, damping_, own_forces_;
   double length_ = 1;
   VectorX r_, step_;

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
 
 namespace bielle::mechanism {

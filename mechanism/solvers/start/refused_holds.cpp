@@ -16,7 +16,7 @@ char& idle_of(State& state, int multiplier) { return state.idle[static_cast<std:
 double overload(const System& system, const VectorX& crossings, int hold) {
   double most = 0;
   for (Eigen::Index k = 0; k < crossings.size(); ++k) {
-    const MemberCrossing& each = system.crossings()[static_cast<std::size_t>(k)];
+    const MemberEventFunction& each = system.event_functions()[static_cast<std::size_t>(k)];
     const Slots& slots = system.slots()[each.member];
     const int own = hold - slots.multiplier_begin;
     if (each.crossing.one_by_one && own >= 0 && own < slots.multipliers) most = std::max(most, -crossings[k]);
@@ -34,7 +34,7 @@ std::vector<int> active_holds(const System& system, const State& state) {
 }
 
 bool holds_stop_more(const System& system, const Environment& environment, const State& state,
-                     const std::vector<int>& new_holds, MassSaddle& saddle) {
+                     const std::vector<int>& new_holds, KktMatrix& saddle) {
   if (new_holds.empty()) return false;
   State held = state, free = state;
   for (const int hold : new_holds) idle_of(free, hold) = Idle::redundant;
@@ -61,8 +61,8 @@ bool holds_stop_more(const System& system, const Environment& environment, const
 }
 
 void refuse_holds(const System& system, const Environment& environment, State& state, std::vector<int> new_holds,
-                  Overloaded overloaded, MassSaddle& saddle) {
-  VectorX crossings = VectorX::Zero(static_cast<Eigen::Index>(system.crossings().size()));
+                  Overloaded overloaded, KktMatrix& saddle) {
+  VectorX crossings = VectorX::Zero(static_cast<Eigen::Index>(system.event_functions().size()));
   while (!new_holds.empty()) {
     State trial = state;
     for (const int hold : new_holds) idle_of(trial, hold) = Idle::redundant;
@@ -74,7 +74,7 @@ void refuse_holds(const System& system, const Environment& environment, State& s
     auto refused = new_holds.end();
     try {
       make_accelerations_consistent(system, environment, trial, saddle);
-      if (overloaded == Overloaded::refused) system.calc_crossings(trial, environment, crossings);
+      if (overloaded == Overloaded::refused) system.calc_event_functions(trial, environment, crossings);
       double most = 0;
       for (auto hold = new_holds.begin(); hold != new_holds.end(); ++hold)
         if (const double each = overload(system, crossings, *hold); each > most) {

@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 
 namespace bielle::mechanism {
 
@@ -24,7 +24,7 @@ std::vector<int> active_holds(const System& system, const State& state);
 /// Whether new holds stop more than the coordinates that have come to rest: if one does, the joint is at a dead centre,
 /// or all connected parts come to rest. This is never the case in chains without loops.
 bool holds_stop_more(const System& system, const Environment& environment, const State& state,
-                     const std::vector<int>& new_holds, MassSaddle& saddle);
+                     const std::vector<int>& new_holds, KktMatrix& saddle);
 
 /// Treatment of overloaded new holds. If they stop no motion they engage first, and are released later, one by one.
 enum class Overloaded { refused, holds };
@@ -35,6 +35,6 @@ enum class Overloaded { refused, holds };
 /// @param saddle   its factors belong to other constraints afterwards
 /// @throws ComputationError if there are no accelerations for any set of holds
 void refuse_holds(const System& system, const Environment& environment, State& state, std::vector<int> new_holds,
-                  Overloaded overloaded, MassSaddle& saddle);
+                  Overloaded overloaded, KktMatrix& saddle);
 
 }  // namespace bielle::mechanism

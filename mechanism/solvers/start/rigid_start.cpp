@@ -236,7 +236,7 @@ class RigidStart {
 
 void begin_velocities(const System& system, const Environment& environment, State& state,
                       const StartConditions& conditions, StartReport& report) {
-  MassSaddle saddle(system);
+  KktMatrix saddle(system);
   if (conditions.carrying.empty()) {
     make_velocities_consistent(system, environment, state, report, saddle);
   } else {

@@ -9,7 +9,7 @@
 // of superelements are treated like other nodes; modal amplitudes are relative to the body's frame: they are at rest.
 #pragma once
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 

@@ -26,7 +26,7 @@ VectorX answer_of_accelerations(const SoughtEfforts& efforts, const Environment&
 }  // namespace
 
 void find_sought_efforts(const SoughtEfforts& efforts, const Environment& environment, State& state,
-                         MassSaddle& saddle) {
+                         KktMatrix& saddle) {
   if (!efforts.any()) return;
   constexpr int most = 30;  // friction that depends on reactions is nonlinear; otherwise the first solution is exact
   const System& system = efforts.system();

@@ -1,7 +1,7 @@
 // Sought efforts for known positions and velocities: rigid parts.
 #pragma once
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/constraints/sought_efforts.hpp"
 
 namespace bielle::mechanism {
@@ -11,7 +11,6 @@ namespace bielle::mechanism {
 /// @param state  state with consistent accelerations @param saddle  valid factors are used
 /// @throws ComputationError if the efforts do not move the nodes independently, or if their dependence on each other
 ///         through friction does not converge
-void find_sought_efforts(const SoughtEfforts& efforts, const Environment& environment, State& state,
-                         MassSaddle& saddle);
+void find_sought_efforts(const SoughtEfforts& efforts, const Environment& environment, State& state, KktMatrix& saddle);
 
 }  // namespace bielle::mechanism

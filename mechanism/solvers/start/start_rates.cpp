@@ -61,7 +61,7 @@ std::vector<bool> dependent_rows(const System& system, const Environment& enviro
 }
 
 void set_start_rates(const System& system, const Environment& environment, State& state,
-                     const StartConditions& conditions, MassSaddle& saddle, StartReport& report) {
+                     const StartConditions& conditions, KktMatrix& saddle, StartReport& report) {
   std::vector<RateRow> rows;
   for (const CoordinateCondition& each : conditions.coordinates) {
     if (!each.rate) continue;

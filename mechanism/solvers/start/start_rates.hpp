@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
 
@@ -18,7 +18,7 @@ namespace bielle::mechanism {
 /// @param saddle  contains the factors of these positions
 /// @throws ComputationError naming a rate that contradicts constraints, drives or earlier rates
 void set_start_rates(const System& system, const Environment& environment, State& state,
-                     const StartConditions& conditions, MassSaddle& saddle, StartReport& report);
+                     const StartConditions& conditions, KktMatrix& saddle, StartReport& report);
 
 /// Returns for each row over the dofs whether it depends on the constraints and earlier rows; zero rows do.
 std::vector<bool> dependent_rows(const System& system, const Environment& environment, const State& state,

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
 
@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 namespace {
 
 /// Returns a basis of the null space, orthonormal with respect to the weights (dofs).
-MatrixX null_space(const System& system, const LinearStep& linear, const VectorX& weights, int most) {
+MatrixX null_space(const System& system, const NewtonMatrix& linear, const VectorX& weights, int most) {
   constexpr double nothing = 1e-4;  // remainder of a vector of length one if all motions are determined
   constexpr int passes = 4;         // each pass reduces a motion with a soft stiffness k by the factor e D/k
   MatrixX basis(system.dofs(), 0);
@@ -103,7 +103,7 @@ UndrivenMotions find_undriven(const System& system, const Environment& environme
   system.set_rates(resting, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
   resting.multiplier.setZero();
   resting.reaction.resize(0);
-  LinearStep linear(system);
+  NewtonMatrix linear(system);
   const TangentWeights weights{1, 0, 0, 0, 1, true};
   linear.assemble(resting, unloaded, weights, nullptr);
   const VectorX held = small_diagonal(system, linear, state, e);

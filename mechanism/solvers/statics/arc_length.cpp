@@ -76,7 +76,7 @@ struct Tangent {
 
 class Path {
  public:
-  Path(const LoadRamp& ramp, const PathOptions& path, const NewtonOptions& options, State& state)
+  Path(const LoadRamp& ramp, const ContinuationOptions& path, const NewtonOptions& options, State& state)
       : ramp_(ramp),
         system_(ramp.system()),
         path_(path),
@@ -348,7 +348,7 @@ class Path {
 
   const LoadRamp& ramp_;
   const System& system_;
-  const PathOptions& path_;
+  const ContinuationOptions& path_;
   State& state_;
   double factor_;
   PathStep step_;
@@ -369,9 +369,9 @@ class Path {
 
 }  // namespace
 
-Loaded follow_path(const System& system, const Environment& environment, const Loaded& start,
-                   const PathOptions& options, const NewtonOptions& newton, State& state,
-                   const std::function<void(const State&, const PathPoint&)>& record) {
+Loaded follow_by_continuation(const System& system, const Environment& environment, const Loaded& start,
+                              const ContinuationOptions& options, const NewtonOptions& newton, State& state,
+                              const std::function<void(const State&, const PathPoint&)>& record) {
   const LoadRamp ramp(system, environment, start);
   ramp.set_off(state);
   begin_states(system, ramp.environment(1), state);

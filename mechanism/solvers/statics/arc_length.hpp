@@ -35,7 +35,7 @@ struct PathEnd {
   double displacement = 0;              ///< [m]
 };
 
-struct PathOptions {
+struct ContinuationOptions {
   PathEnd end;
   /// The first step is this fraction of the distance by the linear response, and no step is longer than four times
   /// that; 0: a twentieth, with steps as long as Newton's method converges fast.
@@ -62,8 +62,8 @@ struct PathPoint {
 /// @param record       called at each point
 /// @throws ComputationError with the load factor after which no further point was found and the reason; if the end was
 ///         not reached within the number of points; if nothing moves with the load factor
-Loaded follow_path(const System& system, const Environment& environment, const Loaded& start, const PathOptions& path,
-                   const NewtonOptions& options, State& state,
-                   const std::function<void(const State&, const PathPoint&)>& record = {});
+Loaded follow_by_continuation(const System& system, const Environment& environment, const Loaded& start,
+                              const ContinuationOptions& path, const NewtonOptions& options, State& state,
+                              const std::function<void(const State&, const PathPoint&)>& record = {});
 
 }  // namespace bielle::mechanism

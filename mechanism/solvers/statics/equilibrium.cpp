@@ -171,7 +171,7 @@ int Equilibrium::iterate_relaxing(double factor, State& state) {
   constexpr int most_iterations = 300;
   apply_motions(system_, ramp_.motion(factor), state);
   evaluate(state);
-  LinearStep assembled(system_);  // inertia does not act at rest: rounding of its forces does not count
+  NewtonMatrix assembled(system_);  // inertia does not act at rest: rounding of its forces does not count
   length_ = std::max(model_length(state), longest_arm_of_inertia(state, assembled));
   double tau_squared = first_tau_squared(state);
   for (int iteration = 0; iteration < most_iterations && r_.allFinite(); ++iteration) {
@@ -205,7 +205,7 @@ double Equilibrium::largest_turn() const {
 
 /// Returns the largest radius of gyration about a node [m], including the distance of the centre of mass: the size of a
 /// body whose node is at the origin.
-double Equilibrium::longest_arm_of_inertia(const State& state, LinearStep& mass) const {
+double Equilibrium::longest_arm_of_inertia(const State& state, NewtonMatrix& mass) const {
   mass.assemble(state, environment_, TangentWeights{0, 0, 1, 0, 0}, nullptr);
   double translation = 0, rotation = 0;
   for (int i = 0; i < system_.dofs(); ++i) {

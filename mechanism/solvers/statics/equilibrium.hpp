@@ -89,7 +89,7 @@ class Equilibrium {
   void solve();
   double largest_turn() const;
   double extent(const State& state) const;
-  double longest_arm_of_inertia(const State& state, LinearStep& mass) const;
+  double longest_arm_of_inertia(const State& state, NewtonMatrix& mass) const;
   void factor(const State& state, double inertia = 0);
   void move(State& state, const State& base, double part);
   bool reached();

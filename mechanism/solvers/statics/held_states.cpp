@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 #include "mechanism/solvers/start/begin_first_order.hpp"
 #include "reduce/dense/dense_solves.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr double negligible_answer = 1e-9;  // for an entry of S, relative to its terms
 
 /// Returns a small inertia, so that the responses can be computed even if only the controllers hold a part.
-double some_inertia(const System& system, const Environment& environment, const State& state, LinearStep& linear) {
+double some_inertia(const System& system, const Environment& environment, const State& state, NewtonMatrix& linear) {
   const auto largest = [&](const TangentWeights& weights) {
     linear.assemble(state, environment, weights, nullptr);
     double most = 0;
@@ -40,7 +40,7 @@ std::optional<Answers> calc_answers(const System& system, const Environment& env
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{1, 0, 0, 0, 1, true}, nullptr, values);
   for (const int k : some) state.held[static_cast<std::size_t>(k)] = 1;
-  LinearStep linear(system);
+  NewtonMatrix linear(system);
   const double inertia = some_inertia(system, environment, state, linear);
   if (!linear.try_factor(state, environment, TangentWeights{1, 0, inertia, 0, 1, true}, nullptr)) return std::nullopt;
   std::vector<Eigen::Index> row_of(static_cast<std::size_t>(system.first_orders()), -1);

@@ -14,7 +14,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 
 namespace bielle::mechanism {
 
@@ -52,7 +52,7 @@ class Stability {
   bool is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over) const;
   const VectorX* held() const { return held_.size() > 0 ? &held_ : nullptr; }
   const System& system_;
-  LinearStep linear_;
+  NewtonMatrix linear_;
   std::vector<int> group_;  ///< (dofs) groups of equal units
   VectorX held_;
 };

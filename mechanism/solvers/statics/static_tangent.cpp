@@ -12,7 +12,7 @@ const TangentWeights tangent_at_rest{1, 0, 0, 0, 1, true};
 
 /// Returns the mean stiffness of each kind of unknown (dofs); a kind without stiffness takes that of the others by the
 /// model's length.
-VectorX mean_stiffness(const System& system, const LinearStep& linear, const State& state) {
+VectorX mean_stiffness(const System& system, const NewtonMatrix& linear, const State& state) {
   std::array<double, kind_count> sum{}, count{};
   for (int i = 0; i < system.dofs(); ++i) {
     const auto kind = static_cast<std::size_t>(system.kind(i));
@@ -78,7 +78,7 @@ std::string moves_most(const System& system, const VectorX& motion, const State&
 }
 
 std::string loose_unknown(const System& system, const Environment& environment, const State& state) {
-  LinearStep linear(system);
+  NewtonMatrix linear(system);
   TangentWeights weights;
   weights.acceleration_level = true;
   if (!linear.try_factor(state, environment, weights, nullptr))

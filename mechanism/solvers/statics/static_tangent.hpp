@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 
 namespace bielle::mechanism {
 
@@ -30,7 +30,7 @@ class StaticTangent {
   /// Factorises without inertia; @returns false if it is singular.
   bool try_factor(const State& state, const Environment& environment);
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const { linear_.solve(r, delta); }
-  const LinearStep& linear() const { return linear_; }
+  const NewtonMatrix& linear() const { return linear_; }
   /// Whether a solution with the last factors is along motions that only e D holds. With P = (K + e D)^-1 e D, which
   /// preserves such motions and reduces others by e D/K, the criterion is |P delta| > |delta|/2 in the norm of D: no
   /// length is involved. @param delta  (dofs or more)
@@ -40,7 +40,7 @@ class StaticTangent {
 
  private:
   const System& system_;
-  LinearStep linear_;
+  NewtonMatrix linear_;
   VectorX held_;  ///< e D (dofs); empty: no indifferent motion
 };
 

@@ -44,10 +44,10 @@ struct Path {
       return Point{P, moved.x(), -moved.y()};
     };
     const StaticsOptions& options = dynamic_cast<const StaticAnalysis&>(*model.file.analyses.front()).options();
-    const Loaded loaded = follow_path(model.system, model.environment(), {}, *options.path, options.newton, state,
-                                      [&](const State& s, const PathPoint& p) {
-                                        if (p.limit) limits.push_back(point(s, p.load_factor));
-                                      });
+    const Loaded loaded = follow_by_continuation(model.system, model.environment(), {}, *options.path, options.newton,
+                                                 state, [&](const State& s, const PathPoint& p) {
+                                                   if (p.limit) limits.push_back(point(s, p.load_factor));
+                                                 });
     end = point(state, loaded.factor);
   }
 };

@@ -146,7 +146,7 @@ TEST_CASE("a path of a shallow arch meets its bifurcation before its limit point
       "arch.yaml");
   Session session(file.model);
   StaticsOptions options;
-  PathOptions path;
+  ContinuationOptions path;
   path.end.node = *file.model.find_node("load");
   path.end.direction = Vector3::UnitY();
   path.end.displacement = -3;

@@ -74,7 +74,7 @@ TEST_CASE("a heap that is restored goes on as it did, to the last bit") {
   CHECK(places() == end);
 }
 
-TEST_CASE("what the books of a heap with a restitution miss falls with the square of the steps") {
+TEST_CASE("the error in the energy balance of a heap with a restitution falls with the square of the steps") {
   // Some 120 impacts of 8 ms, of which friction and the rest of them take 9 of 10 J.
   BallsOnFloor balls;
   balls.along = 6;

@@ -159,7 +159,7 @@ TEST_CASE("momentum and angular momentum of what collides freely stay what they 
   CHECK(worst < 2e-6);
 }
 
-TEST_CASE("adaptive steps shorten for an impact and lengthen after it, and the books close") {
+TEST_CASE("adaptive steps shorten for an impact and lengthen after it, and the energy balance closes") {
   const std::string text = contact_model(
       {{"ball", "position: [0, 0, 1.1]"}},
       "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: ball, sphere: 0.1}], stiffness: 1e7, "

@@ -180,7 +180,7 @@ joints:
   CHECK(0.05 * std::sin(tilt) - 2e-3 == Approx(std::pow(force / 1e7, 2. / 3)).epsilon(1e-6));
 }
 
-TEST_CASE("the books of energy close for a journal that tumbles in its bush with friction and restitution") {
+TEST_CASE("the energy balance closes for a journal that tumbles in its bush with friction and restitution") {
   const std::string text = R"yaml(
 gravity: [0, -10, 0]
 nodes:

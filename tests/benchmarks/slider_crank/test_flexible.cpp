@@ -15,16 +15,16 @@ using bielle::test::ReadyModel;
 TEST_CASE("a flexible rod of eight beams deflects as the geometrically exact reference") {
   const ReadyModel model(slider_crank(beam_rod(8)));
   double lowest = 0, highest = 0;
-  EnergyBalance books;
+  EnergyBalance energy_balance;
   const State end = integrate(model, Scheme::generalized_alpha(0.9), 2e-5, 0.1, [&](const State& state) {
     const double w = deflection(model.node(state, "rod.4").x, model.node(state, "a").x, model.node(state, "b").x);
     lowest = std::min(lowest, w);
     highest = std::max(highest, w);
     const Energy energy = model.system.energy(state, model.environment());
     if (state.time == 0)
-      books.start(0, energy);
+      energy_balance.start(0, energy);
     else
-      books.advance(state.time, energy);
+      energy_balance.advance(state.time, energy);
   });
   // Eight elements of fourth order in frequency are within 1e-3 of the rod; the step resolves its first mode 70 times.
   const bielle::test::ReferenceTable exact("flexible_crank");
@@ -34,7 +34,7 @@ TEST_CASE("a flexible rod of eight beams deflects as the geometrically exact ref
   // whose phase after 300 periods is not resolved.
   CHECK(model.node(end, "b").x.x() == Approx(exact("rigid_start.slider")).margin(2e-5));
   // Work of the drive against kinetic and elastic energy: the scheme dissipates in the axial modes only.
-  CHECK(std::abs(books.balance()) < 2e-3 * books.largest());
+  CHECK(std::abs(energy_balance.balance()) < 2e-3 * energy_balance.largest());
 }
 
 namespace {
@@ -48,7 +48,7 @@ Extremes run_with_superelement(const bielle::test::BeamSuperelement& rod, double
   WithSuperelement crank(rod);
   const ReadyModel& model = crank.model;
   Extremes result;
-  EnergyBalance books;
+  EnergyBalance energy_balance;
   integrate(model, Scheme::generalized_alpha(0.9), h, 0.1, [&](const State& state) {
     const double w = crank.deflection(state);
     result.lowest = std::min(result.lowest, w);
@@ -58,12 +58,12 @@ Extremes run_with_superelement(const bielle::test::BeamSuperelement& rod, double
     result.slider_error = std::max(result.slider_error, std::abs(model.node(state, "slider").x.x() - x));
     const Energy energy = model.system.energy(state, model.environment());
     if (state.time == 0)
-      books.start(0, energy);
+      energy_balance.start(0, energy);
     else
-      books.advance(state.time, energy);
-    result.largest_balance = std::max(result.largest_balance, std::abs(books.balance()));
+      energy_balance.advance(state.time, energy);
+    result.largest_balance = std::max(result.largest_balance, std::abs(energy_balance.balance()));
   });
-  result.largest_energy = books.largest();
+  result.largest_energy = energy_balance.largest();
   return result;
 }
 

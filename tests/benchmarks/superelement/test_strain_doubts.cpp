@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
-#include "mechanism/session/gatherers.hpp"
+#include "mechanism/session/step_recorders.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 #include "tests/support/box_mesh.hpp"
@@ -55,7 +55,7 @@ struct Placed {
     place.R = exp_so3(turn);
   }
   std::string says() {
-    Gatherers gatherers(model.file.model);
+    StepRecorders gatherers(model.file.model);
     gatherers.begin();
     gatherers.add(state, model.system.slots(), model.environment());
     for (const ResultArray& array : gatherers.results()) values[array.dataset] = array.values.front();

@@ -28,7 +28,7 @@ double estimate_of(const std::string& text) {
   environment.statics = true;
   State state = model.system.start(0);
   solve_statics(model.system, environment, LoadSteps(4), NewtonOptions{}, state);
-  const auto gatherer = model.file.model.members()[0].component->make_gatherer();
+  const auto gatherer = model.file.model.members()[0].component->make_step_recorder();
   gatherer->begin();
   gatherer->add(LocalState(state, model.system.slots()[0], environment));
   return gatherer->results()[0].values[0];

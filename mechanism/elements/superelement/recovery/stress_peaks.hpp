@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "mechanism/elements/superelement/recovery/stress_recovery.hpp"
-#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
@@ -26,7 +26,7 @@ struct StressPeak {
   int row = -1;      ///< place among the nodes of the recovery; -1: nothing was seen yet
 };
 
-class StressPeaks : public Gatherer {
+class StressPeaks : public StepRecorder {
  public:
   static const std::vector<std::string>& names();  ///< what can be asked for
 

@@ -72,7 +72,7 @@ VectorX solve(const Factors& factors, VectorX b) {
   return b;
 }
 
-constexpr double singular = 1e-13;  // LinearStep::nearly_singular
+constexpr double singular = 1e-13;  // NewtonMatrix::nearly_singular
 constexpr double rounding = 1e-13;  // some hundred terms in a row, and the growth of a random matrix
 
 }  // namespace

@@ -58,13 +58,13 @@ class Relay final : public Component {
   void declare(Declaration& declaration) const override {
     declaration.nodes = {node_};
     declaration.memory = {1};
-    declaration.crossings = {{"the velocity's change of sign"}};
+    declaration.event_functions = {{"the velocity's change of sign"}};
   }
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override {
     r[0] += force_ * state.memory()[0];
   }
   void add_tangent(const LocalState&, LocalTangent&) const override {}
-  void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override {
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override {
     values[0] = state.node(0).v.x();
   }
   void begin_branch(const LocalState&, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override {

@@ -1,7 +1,7 @@
 // Bodies and requests that the tests of the reduction share.
 #pragma once
 
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 #include "tests/support/box_mesh.hpp"
 
@@ -60,7 +60,7 @@ inline reduce::Mesh twisted_block() {
   });
 }
 
-inline reduce::HeldBody held_body(const reduce::Solid& solid, const reduce::Ties& ties) {
+inline reduce::FixedInterfaceBody held_body(const reduce::Solid& solid, const reduce::Ties& ties) {
   reduce::HeldFreedoms freedoms(solid, ties);
   const auto matrices = reduce::assembled_matrices(solid, freedoms.inside(), 2);
   return {std::move(freedoms), solid, *matrices, ties, 2};

@@ -3,7 +3,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/fe/assembly.hpp"
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "tests/unit/reduce/reduction/bodies.hpp"
 
@@ -24,7 +24,7 @@ struct Model {
         solid(make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}})),
         stiffness(assemble_stiffness(solid, node_graph(solid.nodes, solid.points()))),
         ties(make_ties(solid, requests)) {}
-  HeldBody held() const { return test::held_body(solid, ties); }
+  FixedInterfaceBody held() const { return test::held_body(solid, ties); }
 };
 
 }  // namespace
@@ -52,7 +52,7 @@ TEST_CASE("The held body is in equilibrium under any load, with its conditions m
       requests = {test::interface("a", "x0", Tie::rigid), test::interface("b", "x1", Tie::average)};
   }
   const Model model(test::twisted_block(), requests);
-  const HeldBody held = model.held();
+  const FixedInterfaceBody held = model.held();
   CHECK(held.supports() == supports);
 
   const auto averages = static_cast<Eigen::Index>(model.ties.averages.size());
@@ -81,7 +81,7 @@ TEST_CASE("The held body is in equilibrium under any load, with its conditions m
 TEST_CASE("A held average gets the force that its surface passes on, and works by it") {
   const Model model(test::twisted_block(),
                     {test::interface("a", "x0", Tie::average), test::interface("b", "x1", Tie::average)});
-  const HeldBody held = model.held();
+  const FixedInterfaceBody held = model.held();
   const Eigen::MatrixXd spread = held.restrict(RowMatrix(model.ties.spread));
   const Eigen::MatrixXd z = held.solve(Eigen::MatrixXd::Zero(held.size(), 12), Eigen::MatrixXd::Identity(12, 12));
   const Eigen::MatrixXd forces = held.restrict(model.stiffness.multiply(held.expand(z)));
@@ -97,7 +97,7 @@ TEST_CASE("Forces on points and displacements of points are transposed maps") {
   requests[0].kept[5] = false;
   requests.push_back(test::interface("b", "x1", Tie::rigid));
   const Model model(test::twisted_block(), requests);
-  const HeldBody held = model.held();
+  const FixedInterfaceBody held = model.held();
   const Eigen::MatrixXd z = Eigen::MatrixXd::Random(held.size(), 2);
   const RowMatrix f = RowMatrix::Random(3 * model.mesh.point_count(), 2);
   CHECK((z.transpose() * held.restrict(f) - Eigen::MatrixXd(held.expand(z).transpose() * f)).norm() < 1e-12 * f.norm());

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/fe/assembly.hpp"
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 #include "reduce/reduction/reduce_pieces.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "tests/unit/reduce/reduction/bodies.hpp"
@@ -93,7 +93,7 @@ TEST_CASE("With inertia relief the static answer to any acceleration that is lin
   CHECK(body.residual_vectors == 12);
   const Solid solid = make_solid(mesh, options.materials, options.regions);
   const RowMatrix loads = inertia_loads(solid);
-  const HeldBody held = test::held_body(solid, make_ties(solid, {options.interfaces.front()}));
+  const FixedInterfaceBody held = test::held_body(solid, make_ties(solid, {options.interfaces.front()}));
   const RowMatrix exact = held.expand(held.solve(held.restrict(loads)));
   const Eigen::MatrixXd& T = body.displacement_recovery;
   const Eigen::Index of_a = body.interface_directions() - 6;
@@ -119,7 +119,7 @@ TEST_CASE("The energies of the answer to accelerations say what is missing") {
   CHECK(without.missing.norm() > 0.01 * without.whole.norm());
   // The energies of the mesh, held at its interfaces.
   const Solid solid = make_solid(mesh, options.materials, options.regions);
-  const HeldBody held = test::held_body(solid, make_ties(solid, options.interfaces));
+  const FixedInterfaceBody held = test::held_body(solid, make_ties(solid, options.interfaces));
   const RowMatrix loads = inertia_loads(solid);
   const RowMatrix exact = held.expand(held.solve(held.restrict(loads)));
   CHECK(relative(with.whole, loads.transpose() * exact) < 1e-9);

@@ -6,7 +6,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/fe/assembly.hpp"
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 #include "tests/unit/reduce/reduction/bodies.hpp"
 
 using namespace bielle;
@@ -82,9 +82,9 @@ TEST_CASE("A structure that was prepared while matrices were assembled gives the
     CHECK(prepared->stiffness_times(u) == nothing_known->stiffness_times(u));
     CHECK(prepared->mass_times(u) == nothing_known->mass_times(u));
     const auto held = [&](const BodyMatrices& matrices) {
-      return HeldBody(model.freedoms, model.solid, matrices, model.ties, threads);
+      return FixedInterfaceBody(model.freedoms, model.solid, matrices, model.ties, threads);
     };
-    const HeldBody first = held(*prepared);
+    const FixedInterfaceBody first = held(*prepared);
     const Eigen::MatrixXd f = Eigen::MatrixXd::Random(first.size(), 2);
     CHECK(first.solve(f) == held(*nothing_known).solve(f));
     CHECK(first.solve(f) == held(*another_known).solve(f));

@@ -16,7 +16,7 @@ struct HeldModel {
   Solid solid;
   Ties ties;
   std::unique_ptr<BodyMatrices> matrices;
-  HeldBody held;
+  FixedInterfaceBody held;
   Basis basis;
 
   HeldModel(Mesh m, const std::vector<InterfaceRequest>& requests, int modes)

@@ -7,7 +7,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/fe/assembly.hpp"
 #include "reduce/fe/surface.hpp"
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 #include "reduce/reduction/point_ties.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/unit/reduce/reduction/bodies.hpp"
@@ -30,7 +30,7 @@ struct FullMesh {
 
   Eigen::Vector3d centre() const { return mass_properties(solid).centre; }
   RowMatrix displacement(const RowMatrix& loads, Tie tie) const {
-    const HeldBody held = test::held_body(solid, make_ties(solid, {test::interface("a", "x0", tie)}));
+    const FixedInterfaceBody held = test::held_body(solid, make_ties(solid, {test::interface("a", "x0", tie)}));
     return held.expand(held.solve(held.restrict(loads)));
   }
 };
@@ -95,7 +95,7 @@ TEST_CASE("Residual vectors follow directions that an interface releases") {
   options.points = {test::point_on("pad", "y1")};
   options.points.front().residual = all_six;
   const Superelement body = test::reduced(full.mesh, options);
-  const HeldBody held = test::held_body(full.solid, make_ties(full.solid, options.interfaces));
+  const FixedInterfaceBody held = test::held_body(full.solid, make_ties(full.solid, options.interfaces));
   const TiedPoint point = tie_points(full.solid, options.points, "box").front();
   const RowMatrix exact = point.spread.transpose() * held.expand(held.solve(held.restrict(RowMatrix(point.spread))));
   const Eigen::MatrixXd shapes = body.points.at("pad").shapes.rightCols(body.modes());

@@ -38,14 +38,14 @@ TEST_CASE("what is gathered of a superelement's deformation allocates nothing af
   body.strains = MatrixX::Random(6 * 9, body.size());
   const SuperelementAlone alone(body);
   const State first = alone.random_state(random, 0.02, 2), second = alone.random_state(random, 0.02, 2);
-  const auto gatherer = alone.body().make_gatherer();
-  gatherer->begin();
-  gatherer->add(alone.local(first));
+  const auto recorder = alone.body().make_step_recorder();
+  recorder->begin();
+  recorder->add(alone.local(first));
   const LocalState local = alone.local(second);
   int calls = 0;
   {
     const AllocationCount count;
-    gatherer->add(local);
+    recorder->add(local);
     calls = count.calls();
   }
   CHECK(calls == 0);

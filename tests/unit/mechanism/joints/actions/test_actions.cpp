@@ -93,7 +93,7 @@ TEST_CASE("a stop balances what pushes beyond its range, on either side") {
   }
 }
 
-TEST_CASE("spring and damper let a coordinate oscillate, and the books say where the energy goes") {
+TEST_CASE("spring and damper let a coordinate oscillate, and the energy balance tells its parts") {
   for (const Sample& sample : samples) {
     INFO(sample.type << ", " << sample.coordinate);
     const double m = sample.turns ? 0.5 : 2, k = 200, d = 4, rest = 0.3;

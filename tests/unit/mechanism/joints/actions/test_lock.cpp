@@ -65,7 +65,7 @@ TEST_CASE("two rotors are coupled for a time: momentum stays, the lost energy is
   CHECK(speed("second") == Approx(together + a * passed).epsilon(1e-11));
   const double lost = J1 * J2 / (J1 + J2) * (w1 - w2) * (w1 - w2) / 2;
   CHECK(session.energy().dissipation - before == Approx(lost).epsilon(1e-10));
-  // Powers grow linearly: the trapezoidal rule of the books is exact.
+  // Powers grow linearly: the trapezoidal rule of the energy balance is exact.
   CHECK(session.balance() == Approx(0).margin(1e-10 * lost));
   // The lock turns the second rotor.
   CHECK(session.read("joints/clutch/lock_force")[0] == Approx(J2 * a).epsilon(1e-8));
@@ -124,7 +124,8 @@ joints: {pair: {type: )yaml") +
     CHECK(dissipated < 0.99 * before);
     CHECK(session.balance() == Approx(0).margin(1e-5 * before));
   } else {
-    const double load = session.system().crossings().empty() && std::string(sample.coordinate) == "angle" ? 0.3 : 2;
+    const double load =
+        session.system().event_functions().empty() && std::string(sample.coordinate) == "angle" ? 0.3 : 2;
     CHECK(dissipated == Approx(load * start[sample.index] * start[sample.index] / 2).epsilon(1e-10));
     const std::vector<double> rate = session.read("joints/pair/rate");
     for (std::size_t k = 0; k < sample.count; ++k)

@@ -165,17 +165,17 @@ loads: {p: {node: apex, force: [0, -0.2, 0]}}
   for (const char* const side : {"left", "right"})
     model.add(std::make_unique<SeriesStrut>(side, model.node(side), model.node("apex"), half, false));
   State state = model.ready().start(0);
-  PathOptions options;
+  ContinuationOptions options;
   options.end.node = model.node("apex");
   options.end.displacement = 2.2;
   double limit = 0;
-  follow_path(*model.system, model.environment(), {}, options, NewtonOptions{}, state,
-              [&](const State& at, const PathPoint& point) {
-                const double w = h - at.nodes[3].x.y();
-                const double P = 2 * EA * (h - w) * (1 / std::hypot(b, h - w) - 1 / L0);
-                CHECK(std::abs(0.2 * point.load_factor - P) < 1e-9);
-                if (point.limit) limit = std::max(limit, point.load_factor);
-              });
+  follow_by_continuation(*model.system, model.environment(), {}, options, NewtonOptions{}, state,
+                         [&](const State& at, const PathPoint& point) {
+                           const double w = h - at.nodes[3].x.y();
+                           const double P = 2 * EA * (h - w) * (1 / std::hypot(b, h - w) - 1 / L0);
+                           CHECK(std::abs(0.2 * point.load_factor - P) < 1e-9);
+                           if (point.limit) limit = std::max(limit, point.load_factor);
+                         });
   const double w = h - std::sqrt(std::pow(b * b * L0, 2.0 / 3) - b * b);
   CHECK_THAT(0.2 * limit, WithinRel(2 * EA * (h - w) * (1 / std::hypot(b, h - w) - 1 / L0), 1e-9));
 }

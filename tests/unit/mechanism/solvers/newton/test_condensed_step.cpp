@@ -2,7 +2,7 @@
 // amplitudes; singular ones.
 #include <catch2/catch.hpp>
 
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 #include "tests/support/linear_amplitudes.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/random.hpp"
@@ -30,7 +30,7 @@ State moved(const System& system, Random& random) {
 }
 
 /// J x + r, row by row over |J| |x| + |r|.
-double backward_error(const System& system, const LinearStep& linear, const VectorX& x, const VectorX& r) {
+double backward_error(const System& system, const NewtonMatrix& linear, const VectorX& x, const VectorX& r) {
   VectorX sum = r, size = r.cwiseAbs();
   system.pattern().for_each([&](int k, int row, int column) {
     const double term = linear.values()[static_cast<std::size_t>(k)] * x[column];
@@ -77,7 +77,7 @@ TEST_CASE("a step with condensed amplitudes is the step of the whole") {
   // A time step, statics, a consistent start.
   const auto weights = GENERATE(TangentWeights{1, 2e3, 4e6, 0, 1}, TangentWeights{1, 0, 0, 0, 1, true},
                                 TangentWeights{0, 0, 1, 1, 1, true});
-  LinearStep linear(system);
+  NewtonMatrix linear(system);
   linear.factor(state, file.model.environment, weights, nullptr);
   VectorX x(system.size()), whole = -r;
   linear.solve(r, x);
@@ -122,7 +122,7 @@ TEST_CASE("amplitudes whose own matrix is singular are solved for with the other
   const Slider slider(K, random.positive_matrix(amplitudes + 1));
   const System system(slider.file.model);
   REQUIRE(system.condensed_pattern().blocks().size() == 1);
-  LinearStep linear(system);
+  NewtonMatrix linear(system);
   linear.factor(system.start(0), Environment{}, TangentWeights{1, 0, 0, 0, 1}, nullptr);
   const VectorX r = random.vector(system.size());
   VectorX x(system.size());
@@ -139,7 +139,7 @@ TEST_CASE("an amplitude that nothing determines is named although it would be co
   const Slider slider(K, MatrixX::Zero(amplitudes + 1, amplitudes + 1));
   const System system(slider.file.model);
   REQUIRE(system.condensed_pattern().blocks().size() == 1);
-  LinearStep linear(system);
+  NewtonMatrix linear(system);
   CHECK_THAT(message_of<ComputationError>([&] {
                linear.factor(system.start(0), Environment{}, TangentWeights{1, 0, 0, 0, 1}, nullptr);
              }),

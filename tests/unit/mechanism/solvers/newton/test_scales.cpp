@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
 #include "reduce/dense/orthogonal_factors.hpp"
 #include "tests/support/random.hpp"
@@ -108,7 +108,7 @@ TEST_CASE("a Newton step is as accurate with tiny steps and in tiny units") {
       const System& system = model.system;
       REQUIRE(system.set_aside().empty());
       const State state = system.start(0);
-      LinearStep linear(system);
+      NewtonMatrix linear(system);
       linear.factor(state, model.environment(), TangentWeights{1, 2 / h, 4 / (h * h), 0, 1}, nullptr);
       const int n = system.size();
       Wide A = Wide::Zero(n, n);

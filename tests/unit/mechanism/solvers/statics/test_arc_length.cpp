@@ -46,9 +46,9 @@ const std::string loaded_truss =
     "nodes:\n" + supports + "elements:\n" + truss + "loads: {p: {node: apex, force: [0, -0.2, 0]}}\n";
 constexpr double load = 0.2;
 
-PathOptions until(const ReadyModel& model, const std::string& node, const Vector3& direction, double displacement,
-                  int steps = 0) {
-  PathOptions options;
+ContinuationOptions until(const ReadyModel& model, const std::string& node, const Vector3& direction,
+                          double displacement, int steps = 0) {
+  ContinuationOptions options;
   options.end.node = *model.file.model.find_node(node);
   options.end.direction = direction;
   options.end.displacement = displacement;
@@ -56,8 +56,8 @@ PathOptions until(const ReadyModel& model, const std::string& node, const Vector
   return options;
 }
 
-PathOptions until(double factor, int steps = 0) {
-  PathOptions options;
+ContinuationOptions until(double factor, int steps = 0) {
+  ContinuationOptions options;
   options.end.load_factor = factor;
   options.steps = steps;
   return options;
@@ -70,16 +70,16 @@ struct Followed {
   std::vector<double> limits;
 };
 
-Followed follow(const ReadyModel& model, const PathOptions& options,
+Followed follow(const ReadyModel& model, const ContinuationOptions& options,
                 const std::function<void(const State&, const PathPoint&)>& check = {}) {
   Followed result;
   result.state = model.system.start(0);
-  result.end = follow_path(model.system, model.environment(), {}, options, NewtonOptions{}, result.state,
-                           [&](const State& state, const PathPoint& point) {
-                             result.points.push_back(point);
-                             if (point.limit) result.limits.push_back(point.load_factor);
-                             if (check) check(state, point);
-                           });
+  result.end = follow_by_continuation(model.system, model.environment(), {}, options, NewtonOptions{}, result.state,
+                                      [&](const State& state, const PathPoint& point) {
+                                        result.points.push_back(point);
+                                        if (point.limit) result.limits.push_back(point.load_factor);
+                                        if (check) check(state, point);
+                                      });
   return result;
 }
 
@@ -110,7 +110,8 @@ TEST_CASE("a path ends exactly at a load factor, before and past limit points, a
   // The path continues from its last point: over both limit points to the rising branch.
   Followed path = follow(model, until(model, "apex", -Vector3::UnitY(), 1.9));
   REQUIRE(path.limits.size() == 2);
-  const Loaded end = follow_path(model.system, model.environment(), path.end, until(1), NewtonOptions{}, path.state);
+  const Loaded end =
+      follow_by_continuation(model.system, model.environment(), path.end, until(1), NewtonOptions{}, path.state);
   CHECK(end.factor == 1);
   CHECK(end.motions == 1);
   CHECK_THAT(truss_load(h - model.node(path.state, "apex").x.y()), WithinAbs(load, 1e-10));
@@ -268,10 +269,10 @@ joints: {axle: {type: hinge, nodes: [ground, arm], axis: [0, 1, 0], position: [0
 
 TEST_CASE("why a path cannot be followed is said in one sentence") {
   const ReadyModel model(loaded_truss);
-  const auto why = [](const ReadyModel& of, const PathOptions& options) {
+  const auto why = [](const ReadyModel& of, const ContinuationOptions& options) {
     return message_of<ComputationError>([&] { follow(of, options); });
   };
-  PathOptions few = until(model, "apex", -Vector3::UnitY(), 2.5, 100);
+  ContinuationOptions few = until(model, "apex", -Vector3::UnitY(), 2.5, 100);
   few.most_points = 7;
   CHECK_THAT(why(model, few), Contains("not met in 7 points") && Contains("load factor") &&
                                   Contains("of the 2.5 m that node 'apex' is to move"));

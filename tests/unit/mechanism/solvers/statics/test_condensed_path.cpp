@@ -17,11 +17,11 @@ TEST_CASE("a path of equilibria is the same with condensed amplitudes") {
   const auto follow = [](const ArmsSystem& of) {
     Path path;
     path.state = of.system.start(0);
-    PathOptions options;
+    ContinuationOptions options;
     options.end.load_factor = 1;
     options.steps = 4;
-    follow_path(of.system, of.file.model.environment, {}, options, NewtonOptions{}, path.state,
-                [&](const State&, const PathPoint& point) { path.points.push_back(point); });
+    follow_by_continuation(of.system, of.file.model.environment, {}, options, NewtonOptions{}, path.state,
+                           [&](const State&, const PathPoint& point) { path.points.push_back(point); });
     return path;
   };
   const ArmsSystem condensed(arms, true), whole(arms, false);

@@ -44,7 +44,7 @@ struct Targets {
   std::size_t count() const { return 3 * triples.size() + singles.size(); }
 };
 
-struct Placement {
+struct LocalToGlobal {
   // Properties that the component declares.
   bool stiffness = false, damping = false, mass = false;  ///< matrices that it contributes to
   bool blocks_only = false;                               ///< it never requests a dense matrix
@@ -65,7 +65,7 @@ struct Placement {
   Targets lone, targets;
   SparsePlaces places;  ///< places of local entries whose blocks are added in place
 
-  explicit Placement(const Declaration& declaration);
+  explicit LocalToGlobal(const Declaration& declaration);
   int reduced_size() const { return static_cast<int>(unknown.size()); }
   bool contributes() const { return stiffness || damping || mass; }
   /// Finds rows and unknowns, after all members are numbered.

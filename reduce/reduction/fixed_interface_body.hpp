@@ -20,15 +20,16 @@
 
 namespace bielle::reduce {
 
-class HeldBody {
+class FixedInterfaceBody {
  public:
   /// @param freedoms  degrees of freedom of this solid with these ties
   /// @param solid     in one piece
   /// @param matrices  its own
   /// @param threads   threads for its own products; solutions do not vary between runs with the same number
   /// @throws ComputationError if a part of the mesh is connected by a point or an edge only: the place
-  HeldBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices, const Ties& ties, int threads);
-  ~HeldBody();
+  FixedInterfaceBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices, const Ties& ties,
+                     int threads);
+  ~FixedInterfaceBody();
 
   Eigen::Index size() const { return freedoms_.size; }  ///< number of unknowns z
   const FactorStatistics& statistics() const;

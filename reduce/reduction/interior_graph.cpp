@@ -1,4 +1,4 @@
-#include "reduce/reduction/inside_graph.hpp"
+#include "reduce/reduction/interior_graph.hpp"
 
 #include <algorithm>
 

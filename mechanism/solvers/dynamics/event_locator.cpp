@@ -1,4 +1,4 @@
-#include "mechanism/solvers/dynamics/crossing_watch.hpp"
+#include "mechanism/solvers/dynamics/event_locator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +10,15 @@ double side_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
 }  // namespace
 
-CrossingWatch::CrossingWatch(const System& system) : system_(system), values_(system) {
-  const auto count = static_cast<Eigen::Index>(system.crossings().size());
+EventLocator::EventLocator(const System& system) : system_(system), values_(system) {
+  const auto count = static_cast<Eigen::Index>(system.event_functions().size());
   for (VectorX* vector : {&sides_, &at_start_, &at_low_, &at_high_, &weight_}) vector->setZero(count);
-  last_end_.assign(system.crossings().size(), 0);
+  last_end_.assign(system.event_functions().size(), 0);
   for (Eigen::Index k = 0; k < sides_.size(); ++k)
-    sides_[k] = system.crossings()[static_cast<std::size_t>(k)].crossing.begins_on;
+    sides_[k] = system.event_functions()[static_cast<std::size_t>(k)].crossing.begins_on;
   std::size_t declared = system.model().members().size();  // member whose declaration is cached; initially none
   bool kinks = false;
-  for (const MemberCrossing& each : system.crossings()) {
+  for (const MemberEventFunction& each : system.event_functions()) {
     if (each.member != declared) {
       Declaration declaration;
       system.model().members()[each.member].component->declare(declaration);
@@ -30,8 +30,8 @@ CrossingWatch::CrossingWatch(const System& system) : system_(system), values_(sy
   }
 }
 
-std::vector<int> CrossingWatch::begin(const State& state, const Environment& environment,
-                                      const std::vector<int>& passed, bool one_alone) {
+std::vector<int> EventLocator::begin(const State& state, const Environment& environment, const std::vector<int>& passed,
+                                     bool one_alone) {
   values_.calc(state, environment, at_start_);
   const auto met = [&](int k) { return std::find(passed.begin(), passed.end(), k) != passed.end(); };
   std::vector<int> jumped;
@@ -53,21 +53,23 @@ std::vector<int> CrossingWatch::begin(const State& state, const Environment& env
   return jumped;
 }
 
-void CrossingWatch::let_one_go(std::vector<int>& crossed, const VectorX& values) const {
-  const auto one_by_one = [&](int k) { return system_.crossings()[static_cast<std::size_t>(k)].crossing.one_by_one; };
+void EventLocator::let_one_go(std::vector<int>& crossed, const VectorX& values) const {
+  const auto one_by_one = [&](int k) {
+    return system_.event_functions()[static_cast<std::size_t>(k)].crossing.one_by_one;
+  };
   int first = -1;
   for (const int k : crossed)
     if (one_by_one(k) && (first < 0 || values[k] < values[first])) first = k;
   std::erase_if(crossed, [&](int k) { return one_by_one(k) && k != first; });
 }
 
-bool CrossingWatch::counts(int k) const {
-  using Direction = Crossing::Direction;
-  const Direction direction = system_.crossings()[static_cast<std::size_t>(k)].crossing.direction;
+bool EventLocator::counts(int k) const {
+  using Direction = EventFunction::Direction;
+  const Direction direction = system_.event_functions()[static_cast<std::size_t>(k)].crossing.direction;
   return direction == Direction::both || (direction == Direction::rising) == (sides_[k] < 0);
 }
 
-bool CrossingWatch::has_crossed(int k, double value) const {
+bool EventLocator::has_crossed(int k, double value) const {
   const double side = sides_[k];
   if (side == 0 || side * value > 0) return false;
   // If the value is zero at the start and at the end, no event has occurred: the sign defines the side later.
@@ -75,13 +77,13 @@ bool CrossingWatch::has_crossed(int k, double value) const {
   return counts(k);
 }
 
-void CrossingWatch::collect(const VectorX& values, std::vector<int>& crossed) const {
+void EventLocator::collect(const VectorX& values, std::vector<int>& crossed) const {
   crossed.clear();
   for (int k = 0; k < static_cast<int>(values.size()); ++k)
     if (ends_step_[static_cast<std::size_t>(k)] && has_crossed(k, values[k])) crossed.push_back(k);
 }
 
-bool CrossingWatch::found(const State& end, const Environment& environment, double h, double tolerance) {
+bool EventLocator::found(const State& end, const Environment& environment, double h, double tolerance) {
   values_.calc(end, environment, at_high_);
   collect(at_high_, crossed_);
   low_ = 0;
@@ -94,14 +96,14 @@ bool CrossingWatch::found(const State& end, const Environment& environment, doub
   return !crossed_.empty();
 }
 
-double CrossingWatch::shortest() const {
+double EventLocator::shortest() const {
   double share = 0;
   for (const int k : crossed_)
-    share = std::max(share, system_.crossings()[static_cast<std::size_t>(k)].crossing.nearest);
+    share = std::max(share, system_.event_functions()[static_cast<std::size_t>(k)].crossing.nearest);
   return share * step_;
 }
 
-bool CrossingWatch::located() const {
+bool EventLocator::located() const {
   const double width = high_ - low_;
   if (width <= tolerance_ || high_ <= shortest()) return true;
   double farthest = 0;  // error estimate of the secant
@@ -111,7 +113,7 @@ bool CrossingWatch::located() const {
   return farthest <= tolerance_;
 }
 
-double CrossingWatch::proposal() const {
+double EventLocator::proposal() const {
   const double width = high_ - low_;
   double earliest = high_;
   for (const int k : crossed_) {
@@ -124,7 +126,7 @@ double CrossingWatch::proposal() const {
   return std::max(shortest(), std::clamp(earliest + 0.5 * tolerance_, low_ + least, high_ - least));
 }
 
-void CrossingWatch::narrow(const State& end, const Environment& environment, double h) {
+void EventLocator::narrow(const State& end, const Environment& environment, double h) {
   VectorX values(at_high_.size());
   values_.calc(end, environment, values);
   std::vector<int> crossed;
@@ -143,14 +145,14 @@ void CrossingWatch::narrow(const State& end, const Environment& environment, dou
   if (behind) crossed_ = crossed;
 }
 
-std::vector<int> CrossingWatch::pass() {
+std::vector<int> EventLocator::pass() {
   let_one_go(crossed_, at_high_);
   for (const int k : crossed_) sides_[k] = -sides_[k];
   return crossed_;
 }
 
-double CrossingWatch::locate_noted(int k, double begin, double end, const std::function<State(double)>& between,
-                                   const Environment& environment, double tolerance) {
+double EventLocator::locate_noted(int k, double begin, double end, const std::function<State(double)>& between,
+                                  const Environment& environment, double tolerance) {
   constexpr int most = 100;
   double low = begin, high = end, at_low = at_start_[k], at_high = at_high_[k];
   int moved = 0;  // the end that moved last
@@ -172,9 +174,9 @@ double CrossingWatch::locate_noted(int k, double begin, double end, const std::f
   return high;
 }
 
-std::vector<CrossingWatch::Noted> CrossingWatch::pass_noted(double begin, double end,
-                                                            const std::function<State(double)>& between,
-                                                            const Environment& environment, double tolerance) {
+std::vector<EventLocator::Noted> EventLocator::pass_noted(double begin, double end,
+                                                          const std::function<State(double)>& between,
+                                                          const Environment& environment, double tolerance) {
   std::vector<Noted> noted;
   for (int k = 0; k < static_cast<int>(sides_.size()); ++k) {
     if (ends_step_[static_cast<std::size_t>(k)] || !has_crossed(k, at_high_[k])) continue;
@@ -184,7 +186,7 @@ std::vector<CrossingWatch::Noted> CrossingWatch::pass_noted(double begin, double
   return noted;
 }
 
-void CrossingWatch::exchange(Archive& archive) {
+void EventLocator::exchange(Archive& archive) {
   for (double& side : sides_) archive.within(side, -1, 1);
 }
 

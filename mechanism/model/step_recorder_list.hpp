@@ -1,4 +1,4 @@
-// Combines several gatherers of one component into one.
+// Combines several step recorders of one component into one.
 #pragma once
 
 #include <memory>
@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "mechanism/model/gatherer.hpp"
+#include "mechanism/model/step_recorder.hpp"
 
 namespace bielle::mechanism {
 
-class GathererList final : public Gatherer {
+class StepRecorderList final : public StepRecorder {
  public:
-  explicit GathererList(std::vector<std::unique_ptr<Gatherer>> all) : all_(std::move(all)) {}
+  explicit StepRecorderList(std::vector<std::unique_ptr<StepRecorder>> all) : all_(std::move(all)) {}
 
   void begin() override {
     for (const auto& each : all_) each->begin();
@@ -47,7 +47,7 @@ class GathererList final : public Gatherer {
   }
 
  private:
-  std::vector<std::unique_ptr<Gatherer>> all_;
+  std::vector<std::unique_ptr<StepRecorder>> all_;
 };
 
 }  // namespace bielle::mechanism

@@ -16,9 +16,9 @@ namespace bielle::mechanism {
 ///
 /// Columns of algebraic unknowns contain K for any weights: while other unknowns are represented by their rates (a
 /// consistent start), algebraic ones are unknown themselves.
-class LinearStep {
+class NewtonMatrix {
  public:
-  explicit LinearStep(const System& system);
+  explicit NewtonMatrix(const System& system);
 
   /// Assembles and factorises the tangent. @throws ComputationError naming the unknown without stiffness, mass or
   /// constraint

@@ -1,7 +1,7 @@
-// A gatherer collects data of a component over all accepted steps of an analysis, whether they are recorded or not:
+// A recorder collects data of a component over all accepted steps of an analysis, whether they are recorded or not:
 // largest values.
 //
-// Unlike components, a gatherer is not const: a session creates its own, and passes each step to it once.
+// Unlike components, a recorder is not const: a session creates its own, and passes each step to it once.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@
 
 namespace bielle::mechanism {
 
-class Gatherer {
+class StepRecorder {
  public:
-  Gatherer() = default;
-  virtual ~Gatherer() = default;
-  Gatherer(const Gatherer&) = delete;
-  Gatherer& operator=(const Gatherer&) = delete;
+  StepRecorder() = default;
+  virtual ~StepRecorder() = default;
+  StepRecorder(const StepRecorder&) = delete;
+  StepRecorder& operator=(const StepRecorder&) = delete;
 
   virtual void begin() = 0;  ///< begins an analysis: clears the data of the one before
   /// Adds an accepted step of a motion, a point of statics, or the start of a motion.
@@ -34,8 +34,8 @@ class Gatherer {
     return names;
   }
   virtual std::string summary() = 0;  ///< the results as lines for the user; each ends with a line break
-  /// Only the loudest of several gatherers with the same voice (the elements of a beam) writes a summary. A gatherer
-  /// with an empty voice always writes its own.
+  /// Only the loudest of several step recorders with the same voice (the elements of a beam) writes a summary. A
+  /// recorder with an empty voice always writes its own.
   virtual std::string voice() const { return {}; }
   virtual double loudness() const { return 0; }
   /// The gathered quantity and its component: "peaks of 'rod': von_mises". A run can only be continued if it is the

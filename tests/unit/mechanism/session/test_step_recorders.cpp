@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "mechanism/session/gatherers.hpp"
+#include "mechanism/session/step_recorders.hpp"
 #include "reduce/common/error.hpp"
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/messages.hpp"
@@ -23,7 +23,7 @@ TEST_CASE("components whose results would have one name are refused before anyth
         "nodes: {{r: {{fixed: true}}}}\nelements:\n  arm: {{type: superelement, file: {0}/arm.h5, nodes: {{a: r}}}}\n"
         "  {1}: {{type: superelement, file: {0}/arm.h5, nodes: {{a: r}}}}\n",
         folder.path(), second));
-    Gatherers(model.file.model).begin();
+    StepRecorders(model.file.model).begin();
   };
   CHECK_THAT(message_of<InputError>([&] { begin("arm/error"); }),
              Contains("'arm' and 'arm/error' cannot both have results") && Contains("rename"));
@@ -40,20 +40,20 @@ TEST_CASE("of a beam's elements the one that is strained most speaks") {
       "7800}}\n"
       "  two: {type: beam, nodes: [a, c], elements: 4, section: {circle: 0.1, young: 2e11, poisson: 0.3, density: "
       "7800}}\n");
-  Gatherers gatherers(model.file.model);
-  gatherers.begin();
+  StepRecorders recorders(model.file.model);
+  recorders.begin();
   State state = model.system.start(0);
   Environment environment = model.environment();
-  gatherers.add(state, model.system.slots(), environment);
-  CHECK(gatherers.summary().empty());
+  recorders.add(state, model.system.slots(), environment);
+  CHECK(recorders.summary().empty());
   // The last element of `one` is stretched by 3 %, the third by 2.5 %.
   const auto moved = [&](const std::string& name, double x) {
     state.nodes[static_cast<std::size_t>(*model.file.model.find_node(name))].x.x() += x;
   };
   moved("one.3", 0.25 * 0.025);
   moved("b", 0.25 * 0.055);
-  gatherers.add(state, model.system.slots(), environment);
-  const std::string text = gatherers.summary();
+  recorders.add(state, model.system.slots(), environment);
+  const std::string text = recorders.summary();
   CHECK_THAT(text, Contains("DOUBTFUL: beam 'one' is strained by 3 %, most in element 4 of 4, at t = 0 s"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
 }
@@ -66,12 +66,12 @@ TEST_CASE("a beam whose elements are too long for its tension says so") {
         "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}}\nelements: {one: {type: beam, nodes: [a, b], elements: 2, "
         "section: {circle: 0.01, young: 2e11, poisson: 0.3, density: 7800}" +
         more + "}}\n");
-    Gatherers gatherers(model.file.model);
-    gatherers.begin();
+    StepRecorders recorders(model.file.model);
+    recorders.begin();
     State state = model.system.start(0);
     state.nodes[static_cast<std::size_t>(*model.file.model.find_node("b"))].x.x() += 0.5 * strain;
-    gatherers.add(state, model.system.slots(), model.environment());
-    return gatherers.summary();
+    recorders.add(state, model.system.slots(), model.environment());
+    return recorders.summary();
   };
   CHECK_THAT(says(0.006, ""),
              Contains("DOUBTFUL: under its tension beam 'one' bends within 0.065 m of clamps and side loads") &&

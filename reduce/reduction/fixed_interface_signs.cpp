@@ -2,11 +2,11 @@
 #include <cmath>
 #include <vector>
 
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 
 namespace bielle::reduce {
 
-std::optional<PivotSigns> HeldBody::count_below(const BodyMatrices& matrices, double eigenvalue) const {
+std::optional<PivotSigns> FixedInterfaceBody::count_below(const BodyMatrices& matrices, double eigenvalue) const {
   if (!factor_) return PivotSigns{};
   const auto points_unknowns = static_cast<Eigen::Index>(freedoms_.free.size());
   const Eigen::Index released = freedoms_.carry_released.cols(), supports = freedoms_.rigid.cols(),

@@ -1,4 +1,4 @@
-#include "reduce/reduction/held_body.hpp"
+#include "reduce/reduction/fixed_interface_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,30 +15,32 @@
 
 namespace bielle::reduce {
 
-HeldBody::~HeldBody() = default;
+FixedInterfaceBody::~FixedInterfaceBody() = default;
 
-const FactorStatistics& HeldBody::statistics() const { return factor_ ? factor_->statistics() : no_statistics_; }
+const FactorStatistics& FixedInterfaceBody::statistics() const {
+  return factor_ ? factor_->statistics() : no_statistics_;
+}
 
-HeldBody::HeldBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices, const Ties& ties,
-                   int threads)
+FixedInterfaceBody::FixedInterfaceBody(HeldFreedoms freedoms, const Solid& solid, const BodyMatrices& matrices,
+                                       const Ties& ties, int threads)
     : threads_(threads), freedoms_(std::move(freedoms)) {
   factorise(matrices, solid);
   close_conditions(ties);
 }
 
-RowMatrix HeldBody::expand(const Eigen::MatrixXd& z) const {
+RowMatrix FixedInterfaceBody::expand(const Eigen::MatrixXd& z) const {
   RowMatrix u(freedoms_.carry_released.rows(), z.cols());
   freedoms_.expand_into(z, u, threads_);
   return u;
 }
 
-Eigen::MatrixXd HeldBody::restrict(const RowMatrix& forces) const {
+Eigen::MatrixXd FixedInterfaceBody::restrict(const RowMatrix& forces) const {
   Eigen::MatrixXd f(freedoms_.size, forces.cols());
   freedoms_.restrict_into(forces, f, threads_);
   return f;
 }
 
-Eigen::MatrixXd HeldBody::inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z) const {
+Eigen::MatrixXd FixedInterfaceBody::inertia(const BodyMatrices& matrices, const Eigen::MatrixXd& z) const {
   constexpr Eigen::Index few = 16;  // columns at a time: fields on all points are large
   Eigen::MatrixXd forces(freedoms_.size, z.cols());
   for (Eigen::Index first = 0; first < z.cols(); first += few) {
@@ -50,7 +52,7 @@ Eigen::MatrixXd HeldBody::inertia(const BodyMatrices& matrices, const Eigen::Mat
   return forces;
 }
 
-void HeldBody::factorise(const BodyMatrices& matrices, const Solid& solid) {
+void FixedInterfaceBody::factorise(const BodyMatrices& matrices, const Solid& solid) {
   const InsideUnknowns inside = freedoms_.inside();
   try {
     factor_ = matrices.factorise(inside);
@@ -66,7 +68,7 @@ void HeldBody::factorise(const BodyMatrices& matrices, const Solid& solid) {
   }
 }
 
-Eigen::MatrixXd HeldBody::pseudo_solve(const Eigen::MatrixXd& f) const {
+Eigen::MatrixXd FixedInterfaceBody::pseudo_solve(const Eigen::MatrixXd& f) const {
   if (!factor_) return Eigen::MatrixXd::Zero(freedoms_.size, f.cols());
   if (freedoms_.supports.empty()) return factor_->solve(f);
   Eigen::MatrixXd inside(static_cast<Eigen::Index>(freedoms_.not_supports.size()), f.cols()),
@@ -76,7 +78,7 @@ Eigen::MatrixXd HeldBody::pseudo_solve(const Eigen::MatrixXd& f) const {
   return z;
 }
 
-void HeldBody::close_conditions(const Ties& ties) {
+void FixedInterfaceBody::close_conditions(const Ties& ties) {
   const Eigen::Index a = freedoms_.conditions.cols(), r = freedoms_.rigid.cols();
   if (a == 0) {
     return;
@@ -104,7 +106,7 @@ void HeldBody::close_conditions(const Ties& ties) {
   small_ = scale.asDiagonal() * *inverse * scale.asDiagonal();
 }
 
-Eigen::MatrixXd HeldBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages) const {
+Eigen::MatrixXd FixedInterfaceBody::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& averages) const {
   Eigen::MatrixXd z = pseudo_solve(f);
   const Eigen::Index a = freedoms_.conditions.cols(), r = freedoms_.rigid.cols();
   if (a == 0) {

@@ -18,10 +18,10 @@
 
 namespace bielle::mechanism {
 
-class CrossingWatch {
+class EventLocator {
  public:
-  explicit CrossingWatch(const System& system);
-  bool idle() const { return system_.crossings().empty(); }
+  explicit EventLocator(const System& system);
+  bool idle() const { return system_.event_functions().empty(); }
 
   /// Evaluates the event functions at the start of a step.
   /// @param passed     events that occurred there: their sides would be determined by rounding
@@ -71,7 +71,7 @@ class CrossingWatch {
   bool counts(int k) const;  ///< whether a sign change from the present side is in the direction of the event
 
   const System& system_;
-  CrossingValues values_;
+  EventFunctionValues values_;
   std::vector<bool> ends_step_;  ///< for each event function
   VectorX sides_;                ///< side of the motion, +1 or -1; 0: not known yet
   VectorX at_start_;             ///< values at the start of the step

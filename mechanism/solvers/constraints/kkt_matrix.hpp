@@ -1,13 +1,13 @@
 // The matrix [M B^T; B 0] of consistent starts, impulses and velocity corrections; its factors are reused.
 #pragma once
 
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 
 namespace bielle::mechanism {
 
-class MassSaddle {
+class KktMatrix {
  public:
-  explicit MassSaddle(const System& system) : system_(system), linear_(system) {}
+  explicit KktMatrix(const System& system) : system_(system), linear_(system) {}
 
   /// Factorises the matrix at a state, with the rows and columns of first-order rates and algebraic unknowns. If dofs
   /// without mass make it singular, they get a mass of 1e-12 of their kind's mean.
@@ -34,14 +34,14 @@ class MassSaddle {
 
  private:
   const System& system_;
-  LinearStep linear_;
+  NewtonMatrix linear_;
   VectorX floor_;
   bool serves_ = false;
 };
 
 /// Returns a fraction of the mean diagonal of the last tangent for each kind of dof. A kind without diagonal entries
 /// takes it from the other kind by the model's length: inertia = mass * length^2.
-VectorX small_diagonal(const System& system, const LinearStep& linear, const State& state, double fraction);
+VectorX small_diagonal(const System& system, const NewtonMatrix& linear, const State& state, double fraction);
 
 [[noreturn]] void throw_massless(const std::string& what, const char* lack);
 

@@ -1,4 +1,4 @@
-#include "mechanism/solvers/constraints/mass_saddle.hpp"
+#include "mechanism/solvers/constraints/kkt_matrix.hpp"
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace bielle::mechanism {
 
-VectorX small_diagonal(const System& system, const LinearStep& linear, const State& state, double fraction) {
+VectorX small_diagonal(const System& system, const NewtonMatrix& linear, const State& state, double fraction) {
   std::array<double, kind_count> mean{}, count{};
   for (int i = 0; i < system.dofs(); ++i) {
     const auto kind = static_cast<std::size_t>(system.kind(i));
@@ -36,7 +36,7 @@ void throw_massless(const std::string& what, const char* lack) {
       "{}: it has no mass, and nothing holds it; hold it (`fixed`), join it, or give it a body with {}", what, lack));
 }
 
-void MassSaddle::factor(const Environment& environment, const State& state) {
+void KktMatrix::factor(const Environment& environment, const State& state) {
   serves_ = false;
   const TangentWeights weights{0, 0, 1, 1, 1, true};
   const auto regular = [&](const VectorX* extra) {
@@ -66,7 +66,7 @@ void MassSaddle::factor(const Environment& environment, const State& state) {
   serves_ = true;
 }
 
-bool MassSaddle::factor_with_reactions(const Environment& environment, const State& state) {
+bool KktMatrix::factor_with_reactions(const Environment& environment, const State& state) {
   serves_ = false;
   TangentWeights weights{0, 0, 1, 1, 1, true};
   weights.reactions = true;

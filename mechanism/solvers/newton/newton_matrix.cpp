@@ -1,4 +1,4 @@
-#include "mechanism/solvers/newton/linear_step.hpp"
+#include "mechanism/solvers/newton/newton_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace bielle::mechanism {
 
-LinearStep::LinearStep(const System& system) : system_(system), factors_(system.condensed_pattern()) {
+NewtonMatrix::NewtonMatrix(const System& system) : system_(system), factors_(system.condensed_pattern()) {
   const SparsePattern& pattern = system.pattern();
   for (int column = 0; column < pattern.size(); ++column) diagonal_.push_back(pattern.find(column, column));
   for (std::size_t k = 0; k < diagonal_by_kind_.size(); ++k)
@@ -17,8 +17,8 @@ LinearStep::LinearStep(const System& system) : system_(system), factors_(system.
   scales_.setOnes(pattern.size());
 }
 
-void LinearStep::assemble(const State& state, const Environment& environment, const TangentWeights& weights,
-                          const VectorX* dq, const VectorX* extra) {
+void NewtonMatrix::assemble(const State& state, const Environment& environment, const TangentWeights& weights,
+                            const VectorX* dq, const VectorX* extra) {
   system_.tangent(state, environment, weights, dq, values_);
   weights_ = weights;
   if (weights.stiffness != 1 && !system_.algebraic().empty()) take_algebraic_columns(state, environment);
@@ -37,7 +37,7 @@ void LinearStep::assemble(const State& state, const Environment& environment, co
   scales_.tail(system_.multipliers()).setConstant(scale_);
 }
 
-void LinearStep::take_algebraic_columns(const State& state, const Environment& environment) {
+void NewtonMatrix::take_algebraic_columns(const State& state, const Environment& environment) {
   system_.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, stiffness_);
   for (const int k : system_.algebraic()) {
     const auto column = system_.pattern().column_start().begin() + system_.dofs() + k;
@@ -45,20 +45,20 @@ void LinearStep::take_algebraic_columns(const State& state, const Environment& e
   }
 }
 
-bool LinearStep::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
-                            const VectorX* dq, const VectorX* extra) {
+bool NewtonMatrix::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
+                              const VectorX* dq, const VectorX* extra) {
   assemble(state, environment, weights, dq, extra);
   return factors_.factor(values_, scales_, system_.workers()) == FactorStatus::good;
 }
 
-void LinearStep::factor(const State& state, const Environment& environment, const TangentWeights& weights,
-                        const VectorX* dq) {
+void NewtonMatrix::factor(const State& state, const Environment& environment, const TangentWeights& weights,
+                          const VectorX* dq) {
   if (!try_factor(state, environment, weights, dq)) throw_singular(state.time);
 }
 
-bool LinearStep::nearly_singular() const { return factors_.reciprocal_condition() < 1e-13; }
+bool NewtonMatrix::nearly_singular() const { return factors_.reciprocal_condition() < 1e-13; }
 
-void LinearStep::throw_singular(double time) const {
+void NewtonMatrix::throw_singular(double time) const {
   const int column = factors_.singular_column();
   const std::string what = column >= 0 ? system_.unknown_name(column) : "an unknown";
   const char* why = "it has no mass, or nothing holds it, or constraints next to it are redundant";
@@ -69,12 +69,12 @@ void LinearStep::throw_singular(double time) const {
   throw ComputationError(fmt::format("t = {:.6g} s: the equations are singular at {}: {}", time, what, why));
 }
 
-void LinearStep::solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const {
+void NewtonMatrix::solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const {
   delta = -r;
   factors_.solve(delta);
 }
 
-void LinearStep::row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const {
+void NewtonMatrix::row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const {
   const SparsePattern& pattern = system_.pattern();
   sums.setZero();
   for (int column = 0; column < pattern.size(); ++column)
@@ -84,7 +84,7 @@ void LinearStep::row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen:
           std::abs(values_[static_cast<std::size_t>(k)]) * unknown_scale[column];
 }
 
-double LinearStep::diagonal(int unknown) const {
+double NewtonMatrix::diagonal(int unknown) const {
   const int place = diagonal_[static_cast<std::size_t>(unknown)];
   return place < 0 ? 0 : values_[static_cast<std::size_t>(place)];
 }

@@ -1,4 +1,4 @@
-#include "mechanism/system/placement.hpp"
+#include "mechanism/system/local_to_global.hpp"
 
 #include <algorithm>
 
@@ -54,13 +54,13 @@ void Targets::scatter_collected(const double* waiting, std::vector<double>& valu
   for (const auto [entry, place] : singles) values[static_cast<std::size_t>(place)] += *waiting++;
 }
 
-Placement::Placement(const Declaration& declaration)
+LocalToGlobal::LocalToGlobal(const Declaration& declaration)
     : stiffness(!declaration.passive && (declaration.stiffness || !declaration.multipliers.empty())),
       damping(!declaration.passive && declaration.damping),
       mass(!declaration.passive && declaration.mass),
       blocks_only(declaration.in_blocks) {}
 
-void Placement::find_rows(const NodeKinematics& kinematics, const Unknowns& unknowns, const Slots& slots) {
+void LocalToGlobal::find_rows(const NodeKinematics& kinematics, const Unknowns& unknowns, const Slots& slots) {
   for (int k = 0; k < slots.multipliers; ++k)
     if (unknowns.constraint_kind(slots.multiplier_begin + k) == ConstraintKind::nonholonomic)
       nonholonomic.push_back(slots.multiplier_row() + k);
@@ -75,8 +75,8 @@ void Placement::find_rows(const NodeKinematics& kinematics, const Unknowns& unkn
                                   [](const ScalarPart& part) { return part.kind == Kind::multiplier && !part.own; });
 }
 
-void Placement::add_parts(const NodeKinematics& kinematics, const Unknowns& unknowns, const Slots& slots, int local,
-                          bool own) {
+void LocalToGlobal::add_parts(const NodeKinematics& kinematics, const Unknowns& unknowns, const Slots& slots, int local,
+                              bool own) {
   for (std::size_t k = 0; k < slots.nodes.size(); ++k) {
     const int node = slots.nodes[k];
     const Carry* carry = kinematics.carry(node);
@@ -99,13 +99,13 @@ void Placement::add_parts(const NodeKinematics& kinematics, const Unknowns& unkn
     add_parts(kinematics, unknowns, *slots.references[k], local + slots.reference_rows[k], false);
 }
 
-const ScalarPart* Placement::own_amplitudes() const {
+const ScalarPart* LocalToGlobal::own_amplitudes() const {
   for (const ScalarPart& part : scalars)
     if (part.own && part.kind == Kind::amplitude) return &part;
   return nullptr;
 }
 
-LocalPattern Placement::pattern(const Component& component, const Slots& slots) const {
+LocalPattern LocalToGlobal::pattern(const Component& component, const Slots& slots) const {
   if (!plain) return related_pattern(component, slots);
   LocalPattern pattern(reduced_size());
   component.add_pattern(slots, pattern);
@@ -127,7 +127,7 @@ LocalPattern Placement::pattern(const Component& component, const Slots& slots) 
 
 /// Pattern for nodes that are held in some directions or carried by others. A carrier mixes the directions of the
 /// forces that it takes over: all entries of a node are therefore kept, and the entries between two nodes as declared.
-LocalPattern Placement::related_pattern(const Component& component, const Slots& slots) const {
+LocalPattern LocalToGlobal::related_pattern(const Component& component, const Slots& slots) const {
   LocalPattern reduced(reduced_size());
   LocalPattern local(slots.size());
   component.add_pattern(slots, local);
@@ -154,8 +154,8 @@ LocalPattern Placement::related_pattern(const Component& component, const Slots&
   return reduced;
 }
 
-void Placement::set_places(const NodeKinematics& kinematics, const Slots& slots,
-                           const std::vector<Targets::Target>& kept) {
+void LocalToGlobal::set_places(const NodeKinematics& kinematics, const Slots& slots,
+                               const std::vector<Targets::Target>& kept) {
   if (!in_place) {
     const ScalarPart* amplitudes = lone_amplitudes ? own_amplitudes() : nullptr;
     const auto is_lone = [&](const Targets::Target& target) {
@@ -179,7 +179,7 @@ void Placement::set_places(const NodeKinematics& kinematics, const Slots& slots,
     if (kinematics.freedom(slots.nodes[k]).all_free) places.turned_node[6 * k + 3] = slots.nodes[k];
 }
 
-void Placement::scatter(const double* entries, std::vector<double>& values) const {
+void LocalToGlobal::scatter(const double* entries, std::vector<double>& values) const {
   if (!in_place) {
     lone.scatter(entries, values);
     targets.scatter(entries, values);
