@@ -15,8 +15,8 @@
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/process/library_settings.hpp"
 #include "reduce/common/process/run_program.hpp"
-#include "reduce/common/process/sleeping_threads.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/distributed/distributed_matrices.hpp"
@@ -228,6 +228,6 @@ int body(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bielle::let_waiting_threads_sleep(argv);
+  bielle::apply_library_settings(argv);
   return bielle::run_program("bielle-reduce", body, argc, argv);
 }

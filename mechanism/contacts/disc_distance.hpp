@@ -47,7 +47,7 @@ struct DiscEquation {
 
 template <class T, class Target>
 DiscEquation disc_equation(const PlacedDisc<T>& disc, const Vector3& w, const Target& target) {
-  using Three = GradientNumber<3>;
+  using Three = AutoDiff<3, 1>;
   Triple<Three> x(value_of(disc.at(Triple<T>(w))));
   Matrix3 M;
   for (int k = 0; k < 3; ++k) M.col(k) = value_of(disc.half_axes[static_cast<std::size_t>(k)]);

@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 namespace {
 
-using Twelve = GradientNumber<12>;
+using Twelve = AutoDiff<12, 1>;
 
 Triple<double> number_of(const Vector3& v, const Eigen::Matrix<double, 3, 12>* /*gradient*/, double) {
   return Triple<double>(v);
@@ -26,7 +26,7 @@ Triple<Twelve> number_of(const Vector3& v, const Eigen::Matrix<double, 3, 12>* g
 template <class T>
 T friction_slope(const FrictionLaw& law, const T& squared) {
   const FrictionLaw::Sliding sliding = law.sliding(std::sqrt(std::max(0.0, value_of(squared))));
-  return composed(squared, sliding.h, 0.5 * sliding.slope_over_speed);
+  return compose(squared, sliding.h, 0.5 * sliding.slope_over_speed);
 }
 
 /// Positions and rates of the second shape as the first node sees them, along the increments
@@ -114,7 +114,7 @@ class StepOfPair {
   /// Turns a vector across n by half of what the second body has turned about n.
   Triple<T> turned_by_half(const Triple<T>& across, const Triple<T>& n) const {
     const T tangent = dot(n, turn_);  // of the half
-    return (T(1) / root_of(T(1) + tangent * tangent)) * (across + tangent * cross(n, across));
+    return (T(1) / sqrt(T(1) + tangent * tangent)) * (across + tangent * cross(n, across));
   }
 
  private:
@@ -128,7 +128,7 @@ class StepOfPair {
 template <class T>
 T size_of(const Triple<T>& v) {
   const T squared = dot(v, v);
-  return value_of(squared) > 0 ? root_of(squared) : T(0);
+  return value_of(squared) > 0 ? sqrt(squared) : T(0);
 }
 
 /// A bristle z at the end of the step and its rate u.
@@ -142,7 +142,7 @@ struct MovedBristle {
       : speed(size_of(v)) {
     const Triple<T>& n = touch.normal;
     const auto [mu, slope] = law.level(value_of(speed));
-    const T stiffness = T(law.bristle_stiffness) * composed(speed, 1 / mu, -slope * value_of(speed) / (mu * mu));
+    const T stiffness = T(law.bristle_stiffness) * compose(speed, 1 / mu, -slope * value_of(speed) / (mu * mu));
     const Triple<T> way = step.way_to(touch.place), across = way - dot(n, way) * n, was(before);
     z = (T(1) / (T(1) + stiffness * size_of(across))) * step.turned_by_half(was - dot(n, was) * n + across, n);
     u = v - stiffness * speed * z;
@@ -162,7 +162,7 @@ void add_touch(const Touch<T>& touch, const SeenFromFirst<T>& seen, const Surfac
     const Triple<T> across = v - along * touch.normal;
     const MovedBristle<T> bristle(touch, step, friction, bristle_before, across);
     const auto [sigma, slope] = friction.bristle_damping_at(value_of(bristle.speed));
-    const T damping_now = composed(bristle.speed, sigma, slope * value_of(bristle.speed));
+    const T damping_now = compose(bristle.speed, sigma, slope * value_of(bristle.speed));
     const T load = touch.load * push, stiffness(friction.bristle_stiffness);
     const Triple<T> pull = stiffness * bristle.z + damping_now * bristle.u + T(friction.viscous) * across;
     const double stored = friction.bristle_stiffness * value_of(dot(bristle.z, bristle.u));

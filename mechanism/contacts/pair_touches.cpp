@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 namespace {
 
 using Kind = ContactShape::Kind;
-using Twelve = GradientNumber<12>;
+using Twelve = AutoDiff<12, 1>;
 
 // Numbers of touches: corners from 0, crossings and tips of surfaces from these on.
 constexpr int crossings = 100000, tips = 1 << 29;
@@ -21,7 +21,7 @@ struct Spring {
   T potential{}, force{};
   Spring(const NormalLaw& law, const T& depth) {
     if (value_of(depth) <= 0) return;
-    force = T(law.stiffness) * power_of(depth, law.exponent);
+    force = T(law.stiffness) * pow(depth, law.exponent);
     potential = T(1 / (law.exponent + 1)) * (depth * force);
   }
 };

@@ -15,8 +15,8 @@
 
 #include <vector>
 
-#include "mechanism/contacts/gradient_number.hpp"
 #include "mechanism/contacts/shape.hpp"
+#include "mechanism/contacts/triple.hpp"
 #include "mechanism/laws/normal_law.hpp"
 
 namespace bielle::mechanism {

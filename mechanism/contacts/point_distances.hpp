@@ -34,7 +34,7 @@ PointDistance<T> distance_to_point(const Triple<T>& p, const Triple<T>& foot) {
   const T squared = dot(way, way);
   if (value_of(squared) < 1e-24)
     throw ComputationError("they have gone so deep into each other that nothing tells where they came from");
-  const T distance = root_of(squared);
+  const T distance = sqrt(squared);
   return {distance, (T(1) / distance) * way, foot};
 }
 
@@ -91,13 +91,13 @@ PointDistance<T> distance_to_cylinder(const Triple<T>& p, const Triple<T>& q, co
       const T distance = T(side) * q.z - T(half_length);
       return {distance, normal, p - distance * normal};
     }
-    const T out = root_of(squared);
+    const T out = sqrt(squared);
     const Triple<T> normal = (q.x / out) * cylinder.axes[0] + (q.y / out) * cylinder.axes[1];
     const T distance = out - T(radius);
     return {distance, normal, p - distance * normal};
   }
   T share(1);
-  if (around > radius) share = T(radius) / root_of(squared);
+  if (around > radius) share = T(radius) / sqrt(squared);
   return distance_to_point(p, cylinder.origin + (share * q.x) * cylinder.axes[0] + (share * q.y) * cylinder.axes[1] +
                                   clamped(q.z, -half_length, half_length) * cylinder.axes[2]);
 }

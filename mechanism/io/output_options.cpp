@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/model/mesh_fields.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -33,8 +35,8 @@ void read_only(const YamlValue& only, Model& model) {
   }
 }
 
-/// Calls act(component, name of the element, entry) for `key: {rod: entry}` and each component of the element (the pieces of
-/// a body); the elements record.
+/// Calls act(component, name of the element, entry) for `key: {rod: entry}` and each component of the element (the
+/// pieces of a body); the elements record.
 template <class Act>
 void for_each_element(const YamlValue& entries, const std::string& key, Model& model, Act&& act) {
   entries.check_keys(model.names_in(Section::elements), fmt::format("`{}`, which names elements", key));
@@ -58,15 +60,15 @@ void at_place_of(const YamlValue& value, Act&& act) {
 void read_fields(const YamlValue& fields, Model& model) {
   for_each_element(
       fields, "fields", model, [](Component& component, const std::string& element, const YamlValue& names) {
-        const std::vector<std::string> available = component.optional_fields();
-        if (available.empty())
+        MeshFields* mesh = component.mesh_fields();
+        if (!mesh)
           names.fail(
               fmt::format("a {} has no further fields: all that it knows is recorded already", component.type()));
         for (const YamlValue& name : names.items()) {
-          const std::string field = name.word(available, "a field of '" + element + "'");
+          const std::string field = name.word(mesh->field_names(), "a field of '" + element + "'");
           for (const OutputField& recorded : component.output_fields())
             if (recorded.name == field) name.fail("is asked for twice");
-          at_place_of(name, [&] { component.record_field(field); });
+          at_place_of(name, [&] { mesh->record_field(field); });
         }
       });
 }
@@ -87,13 +89,13 @@ void read_points(const YamlValue& points, const std::string& field, Model& model
   for_each_element(points, key, model, [&](Component& component, const std::string& element, const YamlValue& named) {
     if (model.components_of({Section::elements, element}).size() > 1)
       named.fail(fmt::format("'{}' is in pieces; ask for `fields` of its stress, or for `peaks`", element));
-    const std::vector<std::string> available = component.point_fields();
-    if (std::find(available.begin(), available.end(), field) == available.end())
+    MeshFields* mesh = component.mesh_fields();
+    if (!mesh)
       named.fail(fmt::format("a {} has no mesh with points; `{}` is for superelements", component.type(), key));
     for (const auto& [name, place] : named.entries()) {
       if (name.empty() || name.find('/') != std::string::npos) place.fail("expected a name without '/'");
       const MeshPlace where = read_mesh_place(place);
-      at_place_of(place, [&] { component.record_at(field, name, where); });
+      at_place_of(place, [&] { mesh->record_at(field, name, where); });
     }
   });
 }
@@ -101,16 +103,17 @@ void read_points(const YamlValue& points, const std::string& field, Model& model
 /// `peaks: {rod: [von_mises, principal_stress]}`: largest values over all steps.
 void read_peaks(const YamlValue& peaks, Model& model) {
   for_each_element(peaks, "peaks", model, [](Component& component, const std::string& element, const YamlValue& names) {
-    const std::vector<std::string> available = component.peaks();
-    if (available.empty())
+    MeshFields* mesh = component.mesh_fields();
+    if (!mesh)
       names.fail(fmt::format("a {} has no stresses of a mesh; `peaks` is for superelements", component.type()));
+    const std::vector<std::string> available = mesh->peak_names();
     std::vector<std::string> wanted;
     for (const YamlValue& name : names.items()) {
       wanted.push_back(name.word(available, "a peak of '" + element + "'"));
       if (std::count(wanted.begin(), wanted.end(), wanted.back()) > 1) name.fail("is asked for twice");
     }
     if (wanted.empty()) names.fail(fmt::format("expected one or more of {}", fmt::join(available, ", ")));
-    at_place_of(names, [&] { component.gather_peaks(wanted); });
+    at_place_of(names, [&] { mesh->record_peaks(wanted); });
   });
 }
 
@@ -143,9 +146,9 @@ std::vector<double> read_load_factors(const YamlValue& entry, bool statics) {
 }  // namespace
 
 OutputOptions read_output(const YamlValue& entry, double end, bool statics, Model& model) {
-  entry.check_keys(
-      {"every", "times", "load_factors", "only", "fields", "stress_at", "strain_at", "peaks", "layout", "checkpoint", "log"},
-      "`output`");
+  entry.check_keys({"every", "times", "load_factors", "only", "fields", "stress_at", "strain_at", "peaks", "layout",
+                    "checkpoint", "log"},
+                   "`output`");
   OutputOptions output;
   if (entry.has("times")) {
     if (entry.has("every")) entry.at("every").fail("either `every` or `times`, not both");

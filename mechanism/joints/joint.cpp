@@ -71,7 +71,7 @@ CoordinateRate Joint::coordinate(std::size_t index, const LocalState& state) con
   return {counted(index, state, principal), principal.rate};
 }
 
-void Joint::calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const {
+void Joint::calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const {
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames_.on_first, &B = frames_.on_second;
   const JointCoordinate& coordinate = coordinates_[index];
@@ -91,7 +91,7 @@ void Joint::calc_coordinate(std::size_t index, const LocalState& state, Coordina
   jet.value = counted(index, state, {jet.principal, jet.rate});
 }
 
-std::pair<double, double> Joint::calc_coordinate_rates(const LocalState& state, CoordinateJet& jet) {
+std::pair<double, double> Joint::calc_coordinate_rates(const LocalState& state, CoordinateDerivatives& jet) {
   thread_local VectorX v, a;
   v.resize(jet.g().size());
   a.resize(jet.g().size());

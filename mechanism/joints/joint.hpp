@@ -38,9 +38,9 @@ class Joint : public Component {
   /// The value, counted over turns, and the rate. @param state  of this joint
   CoordinateRate coordinate(std::size_t index, const LocalState& state) const;
   /// The same with all derivatives over the joint's local layout.
-  virtual void calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const;
+  virtual void calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const;
   /// First and second time derivative of the coordinate. @param jet  of calc_coordinate at the state
-  static std::pair<double, double> calc_coordinate_rates(const LocalState& state, CoordinateJet& jet);
+  static std::pair<double, double> calc_coordinate_rates(const LocalState& state, CoordinateDerivatives& jet);
 
   /// Force and moment that the joint exerts on its second node, about the attachment point there, along the axes of its
   /// frame: those of the multipliers as reported, in whatever axes the rows are written.

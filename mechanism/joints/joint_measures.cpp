@@ -3,7 +3,7 @@
 namespace bielle::mechanism {
 namespace {
 
-thread_local CoordinateJet jet;
+thread_local CoordinateDerivatives jet;
 
 }  // namespace
 

@@ -15,7 +15,7 @@ std::vector<StartCoordinate> Joint::start_coordinates() const {
 
 StartCoordinateValue Joint::calc_start_coordinate(std::size_t index, const LocalState& state,
                                                   MeasureGradient& gradient) const {
-  thread_local CoordinateJet jet;
+  thread_local CoordinateDerivatives jet;
   calc_coordinate(index, state, jet);
   gradient.prepare(state.slots().size());
   gradient.position() = jet.g();

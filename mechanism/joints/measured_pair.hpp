@@ -1,8 +1,8 @@
 // Joints whose constraints are scalar measures of their two nodes.
 //
-// A type computes its rows as jets (measures/measure_jet.hpp); residual, tangent and rates of the rows follow from
-// them. Rows are holonomic, m = 0, or non-holonomic, w . v = 0: of those the gradient is w and the second derivatives
-// are dw, and the value does not count.
+// A type computes its rows as numbers with derivatives (reduce/common/autodiff.hpp); residual, tangent and rates of the
+// rows follow from them. Rows are holonomic, m = 0, or non-holonomic, w . v = 0: of those the gradient is w and the
+// second derivatives are dw, and the value does not count.
 #pragma once
 
 #include <array>

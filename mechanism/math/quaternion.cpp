@@ -35,6 +35,8 @@ Quaternion UnitQuaternion::principal(const Quaternion& p) {
   return p / (p[0] < 0 ? -length : length);
 }
 
+Quaternion UnitQuaternion::complement(const Quaternion& p) { return -p; }
+
 Quaternion UnitQuaternion::compose(const Quaternion& p, const Quaternion& second) {
   const Vector3 e = p.tail<3>(), f = second.tail<3>();
   Quaternion product;

@@ -32,6 +32,9 @@ struct SineCosine {
       angles, a[0], a[1], a[2], where));
 }
 
+/// Half a turn more or less, towards zero.
+double half_turn_from(double angle) { return angle > 0 ? angle - std::numbers::pi : angle + std::numbers::pi; }
+
 /// D(T^-1)[u] = -T^-1 DT[u] T^-1
 Matrix3 inverse_derivative(const Matrix3& inverse, const Matrix3& derivative) {
   return -(inverse * derivative * inverse);
@@ -60,6 +63,10 @@ Vector3 EulerAngles::parameters(const Matrix3& R) {
 }
 
 Vector3 EulerAngles::principal(const Vector3& angles) { return parameters(rotation(angles)); }
+
+Vector3 EulerAngles::complement(const Vector3& angles) {
+  return {half_turn_from(angles[0]), -angles[1], half_turn_from(angles[2])};
+}
 
 Vector3 EulerAngles::compose(const Vector3& angles, const Vector3& second) {
   return parameters(rotation(angles) * rotation(second));
@@ -114,6 +121,10 @@ Vector3 BryantAngles::parameters(const Matrix3& R) {
 }
 
 Vector3 BryantAngles::principal(const Vector3& angles) { return parameters(rotation(angles)); }
+
+Vector3 BryantAngles::complement(const Vector3& angles) {
+  return {half_turn_from(angles[0]), std::numbers::pi - angles[1], half_turn_from(angles[2])};
+}
 
 Vector3 BryantAngles::compose(const Vector3& angles, const Vector3& second) {
   return parameters(rotation(angles) * rotation(second));

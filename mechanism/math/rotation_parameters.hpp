@@ -13,6 +13,8 @@
 //   rotation(p)                            R
 //   parameters(R)                          p of R, the principal ones
 //   principal(p)                           other parameters of the same rotation in the principal domain (below)
+//   complement(p)                          the other parameters of the same rotation, those that stay regular where p
+//                                          comes close to full turns; of three angles those beyond the singularity
 //   compose(p, q)                          principal parameters of R(p) R(q)
 //   tangent(p)                             T: body angular velocity Omega = T pdot
 //   tangent_inverse(p)                     T^-1: pdot = T^-1 Omega
@@ -29,6 +31,7 @@
 namespace bielle::mechanism {
 
 /// psi = phi e [rad]; principal: |psi| <= pi, where at pi the sign of the axis is arbitrary.
+/// Complement: (phi - 2 pi) e, the same rotation the other way round; of psi = 0, without an axis, it throws.
 struct RotationVector {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -36,6 +39,7 @@ struct RotationVector {
   static Matrix3 rotation(const Vector3& psi);
   static Vector3 parameters(const Matrix3& R);
   static Vector3 principal(const Vector3& psi);
+  static Vector3 complement(const Vector3& psi);
   static Vector3 compose(const Vector3& psi, const Vector3& second);
   static Matrix3 tangent(const Vector3& psi);
   static Matrix3 tangent_inverse(const Vector3& psi);
@@ -45,6 +49,7 @@ struct RotationVector {
 
 /// Euler parameters (w, x, y, z) = (cos(phi/2), sin(phi/2) e); principal: length 1, w >= 0.
 /// Any other length stands for the same rotation: T is that of p/|p|, and T^-1 gives rates that keep the length.
+/// Complement: -p.
 struct UnitQuaternion {
   using Parameters = Eigen::Vector4d;
   using Tangent = Eigen::Matrix<double, 3, 4>;
@@ -52,6 +57,7 @@ struct UnitQuaternion {
   static Matrix3 rotation(const Parameters& p);
   static Parameters parameters(const Matrix3& R);
   static Parameters principal(const Parameters& p);
+  static Parameters complement(const Parameters& p);
   static Parameters compose(const Parameters& p, const Parameters& second);
   static Tangent tangent(const Parameters& p);
   static Inverse tangent_inverse(const Parameters& p);
@@ -60,7 +66,7 @@ struct UnitQuaternion {
 };
 
 /// g = tan(phi/2) e: no trigonometry anywhere, but half turns lie at infinity (and 1/(pi - phi) digits are lost
-/// before); principal: all.
+/// before); principal: all. A rotation has one such vector alone, and `complement` throws.
 struct RodriguesVector {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -68,6 +74,7 @@ struct RodriguesVector {
   static Matrix3 rotation(const Vector3& g);
   static Vector3 parameters(const Matrix3& R);
   static Vector3 principal(const Vector3& g);
+  static Vector3 complement(const Vector3& g);
   static Vector3 compose(const Vector3& g, const Vector3& second);
   static Matrix3 tangent(const Vector3& g);
   static Matrix3 tangent_inverse(const Vector3& g);
@@ -76,7 +83,8 @@ struct RodriguesVector {
 };
 
 /// Wiener-Milenkovic: c = 4 tan(phi/4) e; principal: |c| <= 4 (phi <= pi). A motion that leaves this ball enters it
-/// again at the shadow -16 c/|c|^2 of the same rotation: with that rescaling it is free of singularities.
+/// again at the shadow -16 c/|c|^2 of the same rotation, its complement: with that rescaling it is free of
+/// singularities. The shadow of c = 0 is infinite, and `complement` throws.
 struct ConformalVector {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -84,6 +92,7 @@ struct ConformalVector {
   static Matrix3 rotation(const Vector3& c);
   static Vector3 parameters(const Matrix3& R);
   static Vector3 principal(const Vector3& c);
+  static Vector3 complement(const Vector3& c);
   static Vector3 compose(const Vector3& c, const Vector3& second);
   static Matrix3 tangent(const Vector3& c);
   static Matrix3 tangent_inverse(const Vector3& c);
@@ -93,6 +102,7 @@ struct ConformalVector {
 
 /// (a, b, c) [rad] with R = Rz(a) Rx(b) Rz(c); principal: a, c in (-pi, pi], b in [0, pi].
 /// At b = 0 and pi only a + c or a - c is determined: `parameters` gives it to a. T is singular there.
+/// Complement: (a +- pi, -b, c +- pi), each half turn towards zero.
 struct EulerAngles {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -100,6 +110,7 @@ struct EulerAngles {
   static Matrix3 rotation(const Vector3& angles);
   static Vector3 parameters(const Matrix3& R);
   static Vector3 principal(const Vector3& angles);
+  static Vector3 complement(const Vector3& angles);
   static Vector3 compose(const Vector3& angles, const Vector3& second);
   static Matrix3 tangent(const Vector3& angles);
   static Matrix3 tangent_inverse(const Vector3& angles);
@@ -109,6 +120,7 @@ struct EulerAngles {
 
 /// Cardan angles (a, b, c) [rad] with R = Rx(a) Ry(b) Rz(c); principal: a, c in (-pi, pi], b in [-pi/2, pi/2].
 /// At b = +-pi/2 only a +- c is determined: `parameters` gives it to a. T is singular there.
+/// Complement: (a +- pi, pi - b, c +- pi), each half turn towards zero.
 struct BryantAngles {
   using Parameters = Vector3;
   using Tangent = Matrix3;
@@ -116,6 +128,7 @@ struct BryantAngles {
   static Matrix3 rotation(const Vector3& angles);
   static Vector3 parameters(const Matrix3& R);
   static Vector3 principal(const Vector3& angles);
+  static Vector3 complement(const Vector3& angles);
   static Vector3 compose(const Vector3& angles, const Vector3& second);
   static Matrix3 tangent(const Vector3& angles);
   static Matrix3 tangent_inverse(const Vector3& angles);

@@ -76,6 +76,13 @@ Vector3 RotationVector::principal(const Vector3& psi) {
   return (std::remainder(angle, full) / angle) * psi;
 }
 
+Vector3 RotationVector::complement(const Vector3& psi) {
+  const double angle = psi.norm();
+  if (!(angle > 0 && std::isfinite(angle)))
+    throw ComputationError("the rotation vector 0 has no complement: every vector of length 2 pi is one");
+  return ((angle - 2 * std::numbers::pi) / angle) * psi;
+}
+
 Vector3 RotationVector::compose(const Vector3& psi, const Vector3& second) {
   return log_quaternion(
       UnitQuaternion::compose(quaternion_of_rotation_vector(psi), quaternion_of_rotation_vector(second)));
@@ -104,6 +111,10 @@ Matrix3 RodriguesVector::rotation(const Vector3& g) { return rotation_of_quatern
 Vector3 RodriguesVector::parameters(const Matrix3& R) { return rodrigues_of(quaternion_of(R)); }
 
 Vector3 RodriguesVector::principal(const Vector3& g) { return g; }
+
+Vector3 RodriguesVector::complement(const Vector3& /*g*/) {
+  throw ComputationError("a Rodrigues vector has no complement: it is the only one of its rotation");
+}
 
 Vector3 RodriguesVector::compose(const Vector3& g, const Vector3& second) {
   return rodrigues_of(UnitQuaternion::compose(quaternion_of_rodrigues(g), quaternion_of_rodrigues(second)));
@@ -135,7 +146,15 @@ Vector3 ConformalVector::parameters(const Matrix3& R) { return conformal_of(quat
 Vector3 ConformalVector::principal(const Vector3& c) {
   const double size = c.stableNorm();
   if (!std::isfinite(size)) throw ComputationError("a conformal rotation vector must be finite");
-  return size <= 4 ? c : Vector3((-16 / size) * (c / size));
+  return size <= 4 ? c : complement(c);
+}
+
+Vector3 ConformalVector::complement(const Vector3& c) {
+  const double size = c.stableNorm();
+  const Vector3 shadow = (-16 / size) * (c / size);
+  if (!shadow.allFinite())
+    throw ComputationError("the conformal rotation vector 0 has no complement: its shadow is infinite");
+  return shadow;
 }
 
 Vector3 ConformalVector::compose(const Vector3& c, const Vector3& second) {

@@ -36,7 +36,7 @@ struct CoordinateRate {
 
 /// A coordinate with all its derivatives, see the head of this file. Reused from call to call: takes memory only when
 /// it grows.
-class CoordinateJet {
+class CoordinateDerivatives {
  public:
   double value = 0;      ///< angles are counted over turns
   double principal = 0;  ///< an angle in (-pi, pi], to full accuracy after any number of turns; otherwise the value

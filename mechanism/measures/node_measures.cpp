@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/orientation_measures.hpp"
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/measures/pair_rotation.hpp"
 #include "mechanism/model/description.hpp"
@@ -72,7 +73,7 @@ class RotationMeasure final : public NodePairMeasure {
     return rate_ ? rotation.omega(state.node(0), state.node(1)).x() : rotation.psi().x();
   }
   double calc(const LocalState& state, MeasureGradient& gradient) const override {
-    thread_local CoordinateJet jet;
+    thread_local CoordinateDerivatives jet;
     gradient.prepare(state.slots().size());
     jet.prepare(12);
     PairRotation(state.node(0), state.node(1), A_, B_).calc(0, state.node(0), state.node(1), jet);
@@ -185,6 +186,7 @@ const std::vector<std::string>& node_measure_names() {
     std::vector<std::string> all;
     for (const std::string& quantity : quantities)
       for (const char* axis : {"x", "y", "z"}) all.push_back(fmt::format("{}.{}", quantity, axis));
+    all.insert(all.end(), orientation_measure_names().begin(), orientation_measure_names().end());
     return all;
   }();
   return names;
@@ -192,6 +194,9 @@ const std::vector<std::string>& node_measure_names() {
 
 std::unique_ptr<Measure> make_node_measure(const std::string& name, const Model& model, int node,
                                            const std::string& measure) {
+  const std::vector<std::string>& of_orientation = orientation_measure_names();
+  if (std::find(of_orientation.begin(), of_orientation.end(), measure) != of_orientation.end())
+    return make_orientation_measure(name, node, measure);
   const auto quantity = std::find(quantities.begin(), quantities.end(), measure.substr(0, measure.size() - 2));
   const Vector3 axis = Vector3::Unit(measure.back() - 'x');
   return make_node_measure(name, model, {0, node, Vector3::Zero(), Vector3::Zero()},

@@ -6,6 +6,7 @@
 //   rotation.x       component of the rotation vector (principal value) by which the node has turned from where it
 //                    was drawn, relative to the other [rad]
 //   angular_velocity.x   component of the angular velocity relative to the other along the same axis [rad/s]
+//   bryant.a, ...    its orientation, see orientation_measures.hpp
 //   distance(a, b)   [m];   angle(a, b)   of the rotation from a to b, 0 to pi [rad]
 #pragma once
 
@@ -33,7 +34,7 @@ std::unique_ptr<Measure> make_node_measure(const std::string& name, const Model&
 std::unique_ptr<Measure> make_distance(const std::string& name, const NodePair& pair);
 std::unique_ptr<Measure> make_angle(const std::string& name, const NodePair& pair);
 
-/// "position.x", ...: what formulas may use of every node, along inertial axes.
+/// "position.x", "bryant.a", ...: what formulas may use of every node, along inertial axes.
 const std::vector<std::string>& node_measure_names();
 /// One of them, of a node.
 std::unique_ptr<Measure> make_node_measure(const std::string& name, const Model& model, int node,

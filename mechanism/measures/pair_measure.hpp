@@ -6,9 +6,9 @@
 #pragma once
 
 #include "mechanism/math/se3.hpp"
-#include "mechanism/measures/measure_jet.hpp"
 #include "mechanism/model/local_tangent.hpp"
 #include "mechanism/model/state.hpp"
+#include "reduce/common/autodiff.hpp"
 
 namespace bielle::mechanism {
 
@@ -39,7 +39,7 @@ struct PairHessian {
   Matrix12 dense() const;
 };
 
-using PairMeasure = MeasureJet<12>;
+using PairMeasure = AutoDiff<12, 2>;
 
 /// Positions of a point p_2 = x_2 + R_2 c_2 of node 2 relative to node 1: measures e . (p_2 - p_1), p_1 = x_1 + R_1
 /// c_1, along axes e = R_1 e^ carried by node 1. Gradient and second derivative are linear in e^: several axes, each

@@ -47,7 +47,7 @@ void PairRotation::add_second(const Vector3& c, Matrix12& S) const {
   S.block<3, 3>(turn_2, turn_2) += J_2.transpose() * bend_2;
 }
 
-void PairRotation::calc(int axis, const NodeState& first, const NodeState& second, CoordinateJet& jet) const {
+void PairRotation::calc(int axis, const NodeState& first, const NodeState& second, CoordinateDerivatives& jet) const {
   jet.value = jet.principal = psi_[axis];
   jet.rate = omega(first, second)[axis];
   const Vector3 e = Vector3::Unit(axis);

@@ -27,7 +27,7 @@ class PairRotation {
   void add_rate_second(const Vector3& c, Matrix12& W) const;  ///< sum_k c_k W_k
   /// The coordinate psi[axis] with omega[axis] as its rate, on a local layout whose first twelve rows are those of the
   /// two nodes. @param jet  prepared
-  void calc(int axis, const NodeState& first, const NodeState& second, CoordinateJet& jet) const;
+  void calc(int axis, const NodeState& first, const NodeState& second, CoordinateDerivatives& jet) const;
 
  private:
   Matrix3 A_, R_12_;

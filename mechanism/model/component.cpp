@@ -27,10 +27,6 @@ double Component::turning_rate(const LocalState& state) const {
   return std::sqrt(squared);
 }
 
-void Component::write_outputs(std::span<const LocalState> states, std::span<double* const> values) const {
-  for (std::size_t k = 0; k < states.size(); ++k) write_output(states[k], values[k]);
-}
-
 std::unique_ptr<Gatherer> Component::make_gatherer() const { return nullptr; }
 
 std::unique_ptr<Measure> Component::make_measure(const std::string& /*name*/, const std::string& measure) const {

@@ -34,6 +34,7 @@ class Description;
 class Gatherer;
 class Measure;
 class MeasureGradient;
+class MeshFields;
 
 enum class ConstraintKind { holonomic, nonholonomic };  ///< Phi(q,t) = 0, or B(q) v + c(q,t) = 0
 
@@ -132,12 +133,6 @@ struct OutputField {
   }
 };
 
-/// A place in a component that has a mesh: one of its nodes, or a point in the axes of the mesh [m].
-struct MeshPlace {
-  std::optional<int> node;
-  Vector3 point = Vector3::Zero();
-};
-
 /// See the head of this file. Const after construction: state lives in State, what must be remembered from step to step
 /// in its `memory`.
 class Component {
@@ -195,23 +190,9 @@ class Component {
   /// The quantities that the component can record, and their values one after the other in the same order.
   virtual std::vector<OutputField> output_fields() const { return {}; }
   virtual void write_output(const LocalState& /*state*/, double* /*values*/) const {}
-  /// Whether outputs are large, and cheaper to compute for several states at once (write_outputs).
-  virtual bool outputs_together() const { return false; }
-  /// The same as write_output for each of the states. @param values  of each state
-  virtual void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const;
-  /// Further quantities that are recorded only when the user asks for them, because they are large.
-  virtual std::vector<std::string> optional_fields() const { return {}; }
-  /// Adds one of the optional fields to the outputs. Called while the model is read. @throws InputError
-  virtual void record_field(const std::string& /*field*/) {}
-  /// Optional fields that can be recorded at a single point of the component as well: "stress".
-  virtual std::vector<std::string> point_fields() const { return {}; }
-  /// Records one of them at the place of the component's mesh under a name. Called while the model is read.
-  /// @throws InputError
-  virtual void record_at(const std::string& /*field*/, const std::string& /*name*/, const MeshPlace& /*place*/) {}
-  /// Quantities whose largest values over all steps can be asked for.
-  virtual std::vector<std::string> peaks() const { return {}; }
-  /// Asks for them. Called once, while the model is read. @throws InputError
-  virtual void gather_peaks(const std::vector<std::string>& /*quantities*/) {}
+  /// Quantities of the component's mesh. @returns nullptr if it has none
+  virtual MeshFields* mesh_fields() { return nullptr; }
+  const MeshFields* mesh_fields() const { return const_cast<Component*>(this)->mesh_fields(); }
   /// What keeps account of something over all steps of an analysis, if anything has to. @returns nullptr when not.
   /// The component must outlive it
   virtual std::unique_ptr<Gatherer> make_gatherer() const;

@@ -1,8 +1,8 @@
 // What the input file says of where a motion starts, besides positions and velocities of nodes: values and rates of
 // coordinates of components (of joints).
 //
-// They hold where the first analysis starts, and are no constraints after that. Solvers know a coordinate by its component
-// and number alone (Component::start_coordinates, Component::calc_start_coordinate).
+// They hold where the first analysis starts, and are no constraints after that. Solvers know a coordinate by its
+// component and number alone (Component::start_coordinates, Component::calc_start_coordinate).
 #pragma once
 
 #include <cstddef>

@@ -13,5 +13,6 @@ void bind_recorder(pybind11::module_& module);
 void bind_session(pybind11::module_& module);
 void bind_motion(pybind11::module_& module);
 void bind_run(pybind11::module_& module);
+void bind_rotations(pybind11::module_& module);
 
 }  // namespace bielle::python

@@ -13,5 +13,6 @@ PYBIND11_MODULE(_core, module) {
   bind_session(module);
   bind_motion(module);
   bind_run(module);
+  bind_rotations(module);
   bind_end(module);
 }

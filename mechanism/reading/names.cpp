@@ -12,9 +12,10 @@ void check_name(const std::string& name, const YamlValue& entry) {
     const std::size_t end = std::min(name.find('/', begin), name.size());
     const std::string part = name.substr(begin, end - begin);
     if (part.empty() || part == ".")
-      entry.fail(fmt::format("'{}' is no name: results stand under it, and neither nothing nor '.' may stand between "
-                             "its '/'",
-                             name));
+      entry.fail(
+          fmt::format("'{}' is no name: results stand under it, and neither nothing nor '.' may stand between "
+                      "its '/'",
+                      name));
     begin = end + 1;
   }
 }

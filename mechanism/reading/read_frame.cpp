@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "mechanism/math/nearest_rotation.hpp"
 #include "mechanism/math/rotation_parameters.hpp"
 
 namespace bielle::mechanism {
@@ -41,17 +40,13 @@ Matrix3 read_axes(const YamlValue& value) {
 
 /// Files give a few digits: the rotation nearest to the matrix is taken, unless it is farther than rounding explains.
 Matrix3 read_matrix(const YamlValue& value) {
-  constexpr double margin = 1e-3;
   const Matrix3 given = value.matrix(3, 3);
-  const std::string expected =
-      "expected a rotation matrix, whose columns are the node's axes in inertial components: of length one, orthogonal "
-      "and right-handed";
-  const double fault = (given.transpose() * given - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  if (!(fault <= margin))
-    value.fail(fmt::format("{}; lengths and angles of these are off by up to {:.2g}", expected, fault));
-  if (given.determinant() < 0) value.fail(expected + "; these are left-handed");
-  const Eigen::JacobiSVD<Matrix3> svd(given, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  if (const auto fault = rotation_fault(given))
+    value.fail(
+        fmt::format("expected a rotation matrix, whose columns are the node's axes in inertial components: of "
+                    "length one, orthogonal and right-handed; {}",
+                    *fault));
+  return nearest_rotation(given);
 }
 
 }  // namespace

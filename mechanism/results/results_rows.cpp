@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "mechanism/math/so3.hpp"
+#include "mechanism/model/mesh_fields.hpp"
 
 namespace bielle::mechanism {
 
@@ -13,6 +15,11 @@ void copy(const double* values, std::size_t count, double* to) { std::copy(value
 
 std::vector<double> rates(const Vector3& translation, const Vector3& rotation) {
   return {translation.x(), translation.y(), translation.z(), rotation.x(), rotation.y(), rotation.z()};
+}
+
+bool outputs_together(const Member& member) {
+  const MeshFields* mesh = std::as_const(*member.component).mesh_fields();
+  return mesh && mesh->outputs_together();
 }
 
 }  // namespace
@@ -54,7 +61,7 @@ void ResultsRows::add_together() {
     for (std::size_t p = 0; p < kind.parts.size(); ++p) {
       const ResultsPart& part = kind.parts[p];
       const std::size_t member = entry.members[p];
-      if (!model_.members()[member].component->outputs_together()) continue;
+      if (!outputs_together(model_.members()[member])) continue;
       Together outputs{member, &part, {}, true, 0};
       for (const ResultsTarget& target : part) {
         const ResultsField& field = kind.fields[target.field];
@@ -141,7 +148,7 @@ void ResultsRows::fill_together(const Together& outputs, std::span<const Results
     targets_.push_back(outputs.adjoining ? values + k * size_ + outputs.places.front()
                                          : outputs_.data() + k * outputs.size);
   }
-  model_.members()[outputs.member].component->write_outputs(locals_, targets_);
+  std::as_const(*model_.members()[outputs.member].component).mesh_fields()->write_outputs(locals_, targets_);
   if (outputs.adjoining) return;
   for (std::size_t k = 0; k < instants.size(); ++k) {
     const double* from = targets_[k];
@@ -180,7 +187,7 @@ void ResultsRows::fill_apart(const ResultsInstant& instant, double* values) {
         return values + field.begin + entry.number * field.size + target.offset;
       };
       for (std::size_t p = 0; p < kind.parts.size(); ++p)
-        if (!model_.members()[entry.members[p]].component->outputs_together())
+        if (!outputs_together(model_.members()[entry.members[p]]))
           write_member(entry.members[p], kind.parts[p], state, *instant.slots, *instant.environment, output_.data(),
                        to);
     }

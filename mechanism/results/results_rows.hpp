@@ -53,7 +53,7 @@ class ResultsRows {
   /// @param values (size())
   void fill(const State& state, const std::vector<Slots>& slots, const Environment& environment, const StepRecord& step,
             double* values);
-  /// The rows of several states, which is faster for components with large outputs (Component::outputs_together).
+  /// The rows of several states, which is faster for components with large outputs (MeshFields::outputs_together).
   /// @param values  (instants, size())
   void fill(std::span<const ResultsInstant> instants, double* values);
   /// One column of the layout by names of a state alone, as a row that follows no other has it.

@@ -1,13 +1,13 @@
-// Contributions of ties to the geometric stiffness: the second-order displacement of tied surfaces and of the arms to
-// their nodes.
+// Contribution of ties to the geometric stiffness: the second-order displacement of tied surfaces and of the arms to their
+// nodes.
 //
-// For each interface, with theta (3,n) the rotation of its surface in terms of q, body axes:
+// Per interface, with theta (3,n) the rotation of its surface in terms of q, body axes:
 //     rigid     theta^T [sym(N) - tr(N) I] theta,  N = sum over nodes f_s (X_s - X)^T,  f_s the force of the tie on
 //     node s average   theta^T [tr(F a^T) I - sym(F a^T) + sym(w~ S)] theta,  a = X - X_c,  w = J_A^-1 (M + a x F),
 //               S = int r r^T dA, and of the surface's deformation, D = int u r^T dA - theta~ S with u its displacement
 //               from the centroid's: twice the symmetric part of -w.(D^T theta - theta tr D)
-// with F, M the load on that interface. Theta is treated as the rotation vector, while an interface that releases the
-// rotation about one axis d has the coordinates t = d x (E d) of the mechanism (the node may spin): for these
+// with F, M the load on that interface. The rotation is taken for the rotation vector, while an interface that releases
+// the turn about one axis d has the coordinates t = d x (E d) of the mechanism (the node may spin): of these
 //     m.t = m.theta + (d.theta) (m.(d x theta)) / 2 + ..  for a kept moment direction m,
 // and the load m also contributes -(psi^T b + b^T psi) / 2, psi = d^T theta, b = m^T d~ theta. A single kept rotation
 // needs no correction: its coordinate is the rotation vector's component to second order.

@@ -7,10 +7,10 @@ namespace bielle {
 
 struct Superelement;
 
-/// Checks properties of every free body, within the rounding of files of other programs: M~ is positive definite; K~,
-/// C~, S_11, S_22, S_33 and the inertia are semidefinite; K~ gives fixed-boundary mode k the stiffness (2 pi f_k)^2
-/// M~_kk. Shapes and symmetry must have been checked before.
-/// @returns the first fault as a sentence that names the dataset of the file, or nothing
+/// Checks what holds for every free body, to rounding of files of other programs: M~ is positive definite; K~, C~,
+/// S_11, S_22, S_33 and the inertia are semidefinite; K~ gives fixed-boundary mode k the stiffness (2 pi f_k)^2 M~_kk.
+/// Shapes and symmetry are checked before.
+/// @returns the first fault in a sentence that names the dataset of the file, or nothing
 std::string physical_fault_of(const Superelement& body);
 
 }  // namespace bielle

@@ -110,6 +110,14 @@ std::vector<Sample> drive_samples() {
   Sample of_state = drive("hinge", "torque", everything, {{"torque", "'axle.angel'", "did you mean 'angle'"}});
   of_state.inertial = true;
   list.push_back(of_state);
+  // Orientations are relative to the inertial axes: turned as a whole, the model has other ones.
+  Sample of_orientation =
+      drive("hinge", "torque",
+            "2 + a.rotation_vector.x*b.rotation_vector.y.rate + b.bryant.a + a.bryant.b.rate - "
+            "b.bryant.c.rate*a.euler.a + b.euler.b.rate*a.euler.c",
+            {{"torque", "'a.bryant.d'", "did you mean"}, {"torque", "'a.eulr.b'", "did you mean 'euler.b'"}});
+  of_orientation.inertial = true;
+  list.push_back(of_orientation);
   list.push_back(drive("spherical", "torque", "2 + axle.rx*axle.ry.rate", {{"coordinate", "angle", "rx"}}));
   list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: ry, joint: axle");
   list.push_back(drive("spherical", "rate", "0.3*t", {{"coordinate", "angle", "rx"}}));

@@ -1,8 +1,9 @@
 // Order of the index-3 generalised-alpha scheme on the heavy top. Reference at t = 1 s: Euler-Poinsot equations in
-// quaternions, DOP853 with rtol 1e-13 (energy drift below 2e-10 J of 5436 J).
+// quaternions (tests/references/heavy_top.py).
 #include <catch2/catch.hpp>
 
 #include "tests/order/heavy_top.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
@@ -11,10 +12,6 @@ using bielle::test::integrate;
 using bielle::test::ReadyModel;
 
 namespace {
-
-const Vector3 x_reference(0.17334396410, 0.64008859207, -0.74849079113);
-const Vector3 Omega_reference(-0.822078102, 150, -5.923291348);
-const Vector3 force_reference(-517.6007395, -396.8431015, 404.5749252);  // force of the pivot on the body
 
 struct Errors {
   double x, Omega, lambda;
@@ -32,7 +29,9 @@ Errors errors_at_one_second(const Scheme& scheme, double h, bool corrected = tru
   // The joint's frame stays parallel to the inertial axes: its multipliers are B^T lambda of the body, the negative of
   // the force on it.
   const Vector3 force = -state.multiplier;
-  return {(node.x - x_reference).norm(), (node.Omega - Omega_reference).norm(), (force - force_reference).norm()};
+  const bielle::test::ReferenceTable exact("heavy_top");
+  return {(node.x - exact.vector("1.centre")).norm(), (node.Omega - exact.vector("1.Omega")).norm(),
+          (force - exact.vector("1.force")).norm()};
 }
 
 double order(double coarse, double fine) { return std::log2(coarse / fine); }
@@ -55,26 +54,25 @@ TEST_CASE("the heavy top converges with order 2 in positions, velocities and mul
 }
 
 TEST_CASE("the heavy top's errors at one second are those of an independent implementation, scheme by scheme") {
-  // Lie-group integrators, index 3, A_0 = a_0, in Python with dense algebra; references good to three to four digits.
+  // Lie-group integrators, index 3, A_0 = a_0 (tests/references/index_three.py).
   struct Row {
     const char* name;
     Scheme scheme;
     double h;
-    Errors expected;
   };
-  const Row rows[] = {
-      {"rho = 0.9", Scheme::generalized_alpha(0.9), 1e-3, {7.2742e-3, 1.0170e-1, 8.7231}},
-      {"rho = 0.9", Scheme::generalized_alpha(0.9), 5e-4, {1.8144e-3, 2.5333e-2, 2.1733}},
-      {"rho = 0.9", Scheme::generalized_alpha(0.9), 2.5e-4, {4.5335e-4, 6.3274e-3, 5.4286e-1}},
-      {"rho = 0.8", Scheme::generalized_alpha(0.8), 1e-3, {7.4243e-3, 1.0399e-1, 8.9008}},
-      {"HHT, rho = 0.9", Scheme::hht(0.1 / 1.9), 1e-3, {7.5659e-3, 1.0676e-1, 9.0509}},
-  };
+  const Row rows[] = {{"rho_0.9.0.001", Scheme::generalized_alpha(0.9), 1e-3},
+                      {"rho_0.9.0.0005", Scheme::generalized_alpha(0.9), 5e-4},
+                      {"rho_0.9.0.00025", Scheme::generalized_alpha(0.9), 2.5e-4},
+                      {"rho_0.8.0.001", Scheme::generalized_alpha(0.8), 1e-3},
+                      {"hht.0.001", Scheme::hht(0.1 / 1.9), 1e-3}};
+  const bielle::test::ReferenceTable table("index_three");
   for (const Row& row : rows) {
     const Errors found = errors_at_one_second(row.scheme, row.h, false, ConstraintForm::position);
-    INFO(row.name << ", h = " << row.h);
-    CHECK(found.x == Approx(row.expected.x).epsilon(5e-4));
-    CHECK(found.Omega == Approx(row.expected.Omega).epsilon(5e-4));
-    CHECK(found.lambda == Approx(row.expected.lambda).epsilon(5e-4));
+    const std::string name = std::string("top.") + row.name;
+    INFO(name);
+    CHECK(found.x == Approx(table(name + ".x")).epsilon(5e-4));
+    CHECK(found.Omega == Approx(table(name + ".Omega")).epsilon(5e-4));
+    CHECK(found.lambda == Approx(table(name + ".lambda")).epsilon(5e-4));
   }
 }
 
@@ -106,14 +104,16 @@ LargestErrors largest_errors(double rho, double h, double end, bool corrected) {
 }  // namespace
 
 TEST_CASE("without corrected start values the multipliers' error in the transient is that of the literature: order 1") {
-  // Independent implementation, rho = 0.9, largest error in [0, 0.1 s]: 122.4, 60.1, 29.9.
-  for (const auto& [h, expected] : {std::pair(1e-3, 122.4), std::pair(5e-4, 60.1), std::pair(2.5e-4, 29.9)})
-    CHECK(largest_errors(0.9, h, 0.1, false).lambda == Approx(expected).epsilon(2e-3));
+  // Largest error in [0, 0.1 s] of the other implementation, rho = 0.9.
+  const bielle::test::ReferenceTable table("index_three");
+  for (const auto& [h, step] : {std::pair(1e-3, "0.001"), std::pair(5e-4, "0.0005"), std::pair(2.5e-4, "0.00025")})
+    CHECK(largest_errors(0.9, h, 0.1, false).lambda ==
+          Approx(table(std::string("top.transient.") + step)).epsilon(2e-3));
   // rho = 0.8, h = 1e-3, over one second, without the corrections and with them: x, v, lambda.
   const LargestErrors plain = largest_errors(0.8, 1e-3, 1, false), corrected = largest_errors(0.8, 1e-3, 1, true);
-  CHECK(plain.x == Approx(7.42e-3).epsilon(1e-3));
-  CHECK(plain.v == Approx(1.25e-1).epsilon(5e-3));
-  CHECK(plain.lambda == Approx(58.2).epsilon(2e-3));
+  CHECK(plain.x == Approx(table("top.rho_0.8.0.001.largest_x")).epsilon(1e-3));
+  CHECK(plain.v == Approx(table("top.rho_0.8.0.001.largest_v")).epsilon(5e-3));
+  CHECK(plain.lambda == Approx(table("top.rho_0.8.0.001.largest_lambda")).epsilon(2e-3));
   CHECK(corrected.x == Approx(7.43e-3).epsilon(1e-3));
   CHECK(corrected.v == Approx(1.25e-1).epsilon(5e-3));
   CHECK(corrected.lambda == Approx(8.91).epsilon(2e-3));

@@ -3,8 +3,8 @@
 //
 // Translational inertia is that of mass points, four Gauss points per element (exact for the cubic field): the reduced
 // displacement of every one of them is known, so that energies and forces can be computed from positions in space
-// alone. Rotary inertia about the axis is in M~ only. Prestress by the forces and moments of the free body's sections,
-// from the second variation of the strains of a geometrically exact beam (rotations are rotation vectors),
+// alone. Rotary inertia about the axis is in M~ only. Prestress: of the forces and moments of the free body's sections,
+// by the second variation of the strains of a geometrically exact beam (rotations are rotation vectors),
 //     Gamma_2 = -theta x u' + theta x (theta x e_1) / 2,   kappa_2 = -theta x theta' / 2.
 #pragma once
 
@@ -57,8 +57,8 @@ struct BeamChain {
   BeamSuperelement reduced() const;
 };
 
-/// Gives the body a mesh for the recovery of displacements: four nodes around each node of the chain, at this distance,
-/// moving with its section.
+/// Gives the body a mesh to recover displacements at: four nodes around each node of the chain, that far away, moving
+/// with its section.
 void add_mesh(const BeamChain& chain, double distance, BeamSuperelement& reduced);
 
 /// The straight free-free beam of length 1 along x from the origin, 20 elements, its end nodes as interfaces "a" and

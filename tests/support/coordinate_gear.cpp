@@ -10,7 +10,7 @@ void CoordinateGear::declare(Declaration& declaration) const {
 }
 
 void CoordinateGear::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateJet jet;
+  CoordinateDerivatives jet;
   for (const int k : {0, 1}) {
     const auto j = static_cast<std::size_t>(k);
     joints_[j]->calc_coordinate(0, state.of(k), jet);
@@ -22,7 +22,7 @@ void CoordinateGear::add_residual(const LocalState& state, Eigen::Ref<VectorX> r
 void CoordinateGear::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
   auto K = tangent.K.dense();
-  CoordinateJet jet;
+  CoordinateDerivatives jet;
   for (const int k : {0, 1}) {
     const auto j = static_cast<std::size_t>(k);
     joints_[j]->calc_coordinate(0, state.of(k), jet);
@@ -36,7 +36,7 @@ void CoordinateGear::add_tangent(const LocalState& state, LocalTangent& tangent)
 
 void CoordinateGear::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                           Eigen::Ref<VectorX> acceleration) const {
-  CoordinateJet jet;
+  CoordinateDerivatives jet;
   for (const int k : {0, 1}) {
     const auto j = static_cast<std::size_t>(k);
     const LocalState of_joint = state.of(k);

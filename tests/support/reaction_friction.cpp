@@ -12,7 +12,7 @@ void ReactionFriction::declare(Declaration& declaration) const {
 }
 
 void ReactionFriction::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateJet jet;
+  CoordinateDerivatives jet;
   joint_.calc_coordinate(0, state.of(0), jet);
   const double F = joint_.calc_reaction(state.of(0)).head<3>().norm();
   r.segment(state.slots().reference_row(0), jet.w().size()) += mu_ * F * std::copysign(1.0, jet.rate) * jet.w();
@@ -21,7 +21,7 @@ void ReactionFriction::add_residual(const LocalState& state, Eigen::Ref<VectorX>
 void ReactionFriction::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
   auto K = tangent.K.dense();
-  CoordinateJet jet;
+  CoordinateDerivatives jet;
   MatrixX derivatives;
   joint_.calc_coordinate(0, state.of(0), jet);
   const Vector3 force = joint_.calc_reaction(state.of(0), derivatives).head<3>();

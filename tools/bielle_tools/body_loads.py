@@ -22,7 +22,7 @@ import numpy as np
 from . import tetrahedra
 from .body_materials import densities
 from .messages import InputError
-from .results_file import rotation_matrices
+from .rotations import rotation_matrices
 from .superelement_body import find_superelement, interfaces_of, superelement_of
 from .tied_surfaces import tied_surfaces
 

@@ -16,7 +16,8 @@ import numpy as np
 import yaml
 
 from .messages import InputError, note
-from .results_file import Results, reading, rotation_matrices
+from .results_file import Results, reading
+from .rotations import rotation_matrices
 from .superelement_body import find_superelement, interfaces_of, superelement_of
 
 SHARE = 0.1  # largest drawn displacement as a share of the model's size

@@ -15,7 +15,8 @@ import re
 import numpy as np
 
 from .messages import InputError
-from .results_file import modes_to_show, rotation_matrices
+from .results_file import modes_to_show
+from .rotations import rotation_matrices
 from .rigid_bodies import rigid_bodies
 from .superelement_body import superelement_of
 

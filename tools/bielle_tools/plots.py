@@ -18,8 +18,9 @@ ENERGY_COLOURS = dict(zip(("kinetic", "elastic", "gravity", "dissipated", "input
 MOST_CURVES = 14  # per panel; more cannot be told apart
 
 
-def draw_all(results, folder, extension="png", nodes=None, joints=None, superelements=None):
-    """Draws every figure that the results allow. nodes, joints: names to show instead of all. @returns paths"""
+def draw_all(results, folder, extension="png", nodes=None, joints=None, superelements=None, rotation="rotation_vector"):
+    """Draws every figure that the results allow. nodes, joints: names to show instead of all; rotation: the quantity of
+    ROTATION_QUANTITIES in which rotations of nodes are shown. @returns paths"""
     os.makedirs(folder, exist_ok=True)
 
     def at(name):
@@ -33,6 +34,7 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
             written += joint_reactions(results, at, joints)
             written += drives(results, at, joints)
             written += node_paths(results, at, nodes)
+            written += node_rotations(results, at, nodes, rotation)
             written += bodies(results, at, superelements or {})
             written += beams(results, at)
             written += circuit(results, at)
@@ -170,6 +172,30 @@ def node_paths(results, at, nodes=None):
     panel.set_title("a dot marks the start")
     style.legend(panel)
     return [style.save(fig, at("paths"))]
+
+
+def node_rotations(results, at, nodes=None, quantity="rotation_vector"):
+    """Orientations of nodes over time, continuous over turns: a panel per component. Unless nodes are named, those that turn by
+    less than a millionth of the largest turn, or than rounding, are left out."""
+    places = {name: f"nodes/{name}/{quantity}" for name in nodes or results.names("nodes")}
+    places = {name: place for name, place in places.items() if results.has(place)}
+    turned = {name: max(_reach(column) for column in columns_of(results, place)) for name, place in places.items()}
+    least = -1 if nodes else max(1e-6 * max(turned.values(), default=0), 1e-12)
+    shown = [name for name in places if turned[name] > least][:MOST_CURVES]
+    if not shown:
+        return []
+    curves = {name: results.rows(places[name]) for name in shown}
+    words = "rotation vectors" if quantity == "rotation_vector" else f"{quantity.capitalize()} angles"
+    place = places[shown[0]]
+    fig, axes = style.figure(3, f"{results.title}: {words} of nodes")
+    axes[0, 0].set_title(results.text(place, "description").partition(",")[0])
+    for k, (panel, component) in enumerate(zip(axes[:, 0], column_names(results, place))):
+        for name, values in curves.items():
+            panel.plot(results.time, values[:, k], label=name)
+        panel.set_ylabel(style.label(component, "rad"))
+    style.legend(axes[0, 0])
+    axes[-1, 0].set_xlabel(results.axis)
+    return [style.save(fig, at("rotations"))]
 
 
 def bodies(results, at, superelements):

@@ -1,7 +1,8 @@
 """Reads results of bielle-mechanism: times, nodes, joints, elements, energies, as numpy arrays with their units.
 
-Only the rows of `/time` count: after an interruption other datasets may have more. In both layouts of the file a
-quantity of an entry has the same name, `joints/main/coordinate`.
+Only the rows of `/time` count: after an interruption other datasets may be longer. In both layouts of the file a quantity of
+an entry is known by the same name, `joints/main/coordinate`. Beside what is recorded, nodes have `rotation_vector`, `bryant` and
+`euler`, made of their `rotation` and continuous over turns: `nodes/pin/bryant`.
 """
 
 import contextlib
@@ -12,6 +13,7 @@ import h5py
 import numpy as np
 
 from .messages import InputError, counted, limited_reading, note
+from .rotations import ROTATION_QUANTITIES, made_of, rotation_quantity
 from .stacked_layout import StackedLayout
 
 # Dimensions after the rows of the datasets that the tools use; None: any number.
@@ -127,6 +129,7 @@ class Results:
 
     @_told
     def has(self, place):
+        _, place = made_of(place)
         found = self._found(place)
         return place in self.root if found is None else self._stacked.has(found)
 
@@ -139,17 +142,22 @@ class Results:
     @_told
     def shape(self, place):
         """Shape of a dataset over time, (nt,...)."""
+        quantity, place = made_of(place)
         found = self._found(place)
-        return self.root[place].shape if found is None else self._stacked.shape(found)
+        shape = self.root[place].shape if found is None else self._stacked.shape(found)
+        return (*shape[:-1], 3) if quantity else shape
 
     @_told
     def datasets(self, place):
-        """Names of the datasets in a group; empty if it is not a group."""
+        """Names of the datasets in a group, and of what is made of them; empty where it is none."""
         found = self._found(place)
         if found is not None:
-            return self._stacked.datasets(found) if self._stacked.has(found) else []
-        group = self.root[place]
-        return [name for name in group if group.get(name, getclass=True) is h5py.Dataset] if hasattr(group, "keys") else []
+            names = self._stacked.datasets(found) if self._stacked.has(found) else []
+        else:
+            group = self.root[place]
+            names = [name for name in group if group.get(name, getclass=True) is h5py.Dataset] if hasattr(group, "keys") else []
+        made = place.strip("/").startswith("nodes/") and "rotation" in names
+        return names + [name for name in ROTATION_QUANTITIES if made and name not in names]
 
     def _found(self, place):
         """Place in the stacked layout of the dataset that the layout by names calls `place`; None if it exists under
@@ -158,7 +166,10 @@ class Results:
 
     @_told
     def text(self, place, attribute):
-        """A text attribute of a group or dataset; empty if there is none."""
+        """A text attribute of a group or dataset; empty when there is none."""
+        quantity, source = made_of(place)
+        if quantity:
+            return ROTATION_QUANTITIES[quantity].get(attribute, "") if self.has(source) else ""
         found = self._found(place)
         if found is not None:
             return _text(self._stacked.text(found, attribute)) if found else ""
@@ -181,8 +192,11 @@ class Results:
 
     @_told
     def rows(self, place, index=None):
-        """A dataset over time, clipped to the valid rows; `index` selects rows. Values that are not finite or beyond
-        all bounds become nan."""
+        """A dataset over time, clipped to the rows that count; `index` picks rows. A value that is no number, or is beyond all bounds, is nan."""
+        quantity, source = made_of(place)
+        if quantity:
+            values = rotation_quantity(quantity, self.rows(source))
+            return values if index is None else values[index]
         found = self._found(place)
         if found == ():
             raise KeyError(place)
@@ -293,11 +307,3 @@ def _what_it_is(path):
 
 def _text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
-
-
-def rotation_matrices(quaternions):
-    """(...,4) unit quaternions w x y z -> (...,3,3) matrices R: body -> inertial."""
-    w, x, y, z = np.moveaxis(np.asarray(quaternions, float), -1, 0)
-    return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-                     2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-                     2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=-1).reshape(*w.shape, 3, 3)

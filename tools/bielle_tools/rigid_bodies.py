@@ -6,7 +6,8 @@ The results contain no shapes. An ellipsoid with semi-axes a, b, c has J_x = m (
 
 import numpy as np
 
-from .results_file import LARGEST, reading, rotation_matrices
+from .results_file import LARGEST, reading
+from .rotations import rotation_matrices
 
 
 class RigidBody:

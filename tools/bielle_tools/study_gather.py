@@ -15,6 +15,7 @@ import numpy as np
 from .messages import InputError, check_names, did_you_mean
 from .results_columns import column_names
 from .results_file import Results
+from .rotations import made_of
 
 TAKES = ["last", "first", "min", "max", "absmax", "mean", "rms", "peak_to_peak", "time_of_min", "time_of_max", "time_of_absmax"]
 WITHOUT_ROWS = ("eigen", "peaks", "validity", "frequency_response", "events")
@@ -83,7 +84,8 @@ class Gathered:
         """The dataset that a run must keep; none for texts, which are always kept."""
         if self.place is None:
             return None
-        return f"analysis_{self.analysis}/{self.place}" if self.analysis else self.place
+        _, place = made_of(self.place)
+        return f"analysis_{self.analysis}/{place}" if self.analysis else place
 
     def value(self, results):
         """The number. @raises Missing, with the reason; InputError if the results have no such dataset. results: an

@@ -10,7 +10,8 @@ import os
 import numpy as np
 
 from .messages import InputError, counted
-from .results_file import LARGEST, open_hdf5, reading, rotation_matrices
+from .results_file import LARGEST, open_hdf5, reading
+from .rotations import rotation_matrices
 from .solid_mesh import boundary_faces, tetrahedron_faces
 
 GMSH_TYPES = {2: "triangle", 4: "tetra", 9: "triangle6", 11: "tetra10"}

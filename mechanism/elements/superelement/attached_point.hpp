@@ -32,8 +32,8 @@ class AttachedPoint {
   Vector6 gap() const;  ///< Phi
   Vector6 gap_rate() const;
   Vector6 gap_acceleration() const;
-  const Vector6& node_force() const { return m_; }  ///< m: on the node's triads, body axes
-  Vector6 wrench() const;                           ///< U_c^T m
+  const Vector6& node_force() const { return m_; }                           ///< m: on the node's triads, body axes
+  Vector6 wrench() const;                                                    ///< U_c^T m
   VectorX body_force() const { return place_.T.transpose() * multiplier_; }  ///< T_P^T lambda
 
   const MatrixX& shapes() const { return place_.T; }

@@ -5,9 +5,9 @@
 // are vectors in body axes, whatever directions the interface keeps: the matrices of the body are zero where it keeps
 // none.
 //
-// Conditions:  A^T q = 0,   A = W U,   U: rows u_i [I, -X_i~], t_i [0, I], eta 0 (rigid motions), W any weights for which
-// A^T U is regular, see frame_conditions.hpp. The frame is a function of the present positions alone (no memory, any
-// number of turns).
+// Conditions:  A^T q = 0,   A = W U,   U: rows u_i [I, -X_i~], t_i [0, I], eta 0 (rigid motions), W any weights for
+// which A^T U is regular, see frame_conditions.hpp. The frame is a function of the present positions alone (no memory,
+// any number of turns).
 //
 // Node motions in body axes ("triads", same layout as q): dz^ = [R_0^T dx_i; R_0^T R_i dTheta_i; deta]. With
 // U_c: rows [I, -y_i~], [0, I], 0;  D = diag(I, D_i, I);  V = D U_c;  Sigma = (A^T V)^-1 A^T:
@@ -78,7 +78,7 @@ class CorotatedFrame {
  private:
   void update(const LocalState& state, CorotatedGeometry& geometry) const;
   std::vector<BodyPoint> points_;
-  Matrix6X At_;  ///< A^T
+  Matrix6X At_;      ///< A^T
   double size_ = 1;  ///< [m]: scale of translations and lever of rotations
 };
 

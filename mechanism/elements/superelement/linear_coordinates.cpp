@@ -39,8 +39,9 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
     factors_.set_inverse(J_);
     return;
   }
-  throw ComputationError("it is deformed beyond what the theory of second order describes (bodies that bend or twist by more "
-                         "than some 0.3 rad want several superelements: `pieces` in the body file)");
+  throw ComputationError(
+      "it is deformed beyond what the theory of second order describes (bodies that bend or twist by more "
+      "than some 0.3 rad want several superelements: `pieces` in the body file)");
 }
 
 void LinearCoordinates::set_excess() {

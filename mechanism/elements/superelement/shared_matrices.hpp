@@ -7,8 +7,8 @@
 
 namespace bielle::mechanism {
 
-/// The matrices of a superelement that was read from a file, in memory once for as long as a body uses them. A file that was
-/// written again since has matrices of its own.
+/// The matrices of a superelement that was read from a file, in memory once for as long as a body uses them. A file
+/// that was written again since has matrices of its own.
 /// @throws InputError as the matrices do
 std::shared_ptr<const SuperelementMatrices> shared_matrices(const SuperelementPlace& place, const Superelement& body);
 

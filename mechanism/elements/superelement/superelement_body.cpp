@@ -269,19 +269,19 @@ void SuperelementBody::write_outputs(std::span<const LocalState> states, std::sp
   recovered_.write(work->frames, values, small);
 }
 
-std::vector<std::string> SuperelementBody::optional_fields() const { return RecoveredField::names(); }
+std::vector<std::string> SuperelementBody::field_names() const { return RecoveredField::names(); }
 
 void SuperelementBody::record_field(const std::string& field) { recovered_.add_field(field, read_superelement(file_)); }
 
-std::vector<std::string> SuperelementBody::point_fields() const { return {"stress", "strain"}; }
+std::vector<std::string> SuperelementBody::point_field_names() const { return {"stress", "strain"}; }
 
 void SuperelementBody::record_at(const std::string& field, const std::string& name, const MeshPlace& place) {
   recovered_.add_point(field, name, place, read_superelement(file_));
 }
 
-std::vector<std::string> SuperelementBody::peaks() const { return StressPeaks::names(); }
+std::vector<std::string> SuperelementBody::peak_names() const { return StressPeaks::names(); }
 
-void SuperelementBody::gather_peaks(const std::vector<std::string>& quantities) {
+void SuperelementBody::record_peaks(const std::vector<std::string>& quantities) {
   recovered_.load_stress(read_superelement(file_));
   peaks_ = quantities;
 }

@@ -31,6 +31,7 @@
 #include "mechanism/elements/superelement/body_deformation.hpp"
 #include "mechanism/elements/superelement/recovery/recovered_outputs.hpp"
 #include "mechanism/elements/superelement/superelement_body_motion.hpp"
+#include "mechanism/model/mesh_fields.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/formula/expression.hpp"
@@ -62,7 +63,7 @@ struct SuperelementPlacement {
   std::optional<double> largest_error;  ///< of its deformation, relative: a run fails beyond (validity.hpp)
 };
 
-class SuperelementBody : public Component, public TimeDependent {
+class SuperelementBody : public Component, public TimeDependent, public MeshFields {
  public:
   /// A point inside that carries a node of its own.
   struct Point {
@@ -87,18 +88,19 @@ class SuperelementBody : public Component, public TimeDependent {
   void add_energy(const LocalState& state, Energy& energy) const override;
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
-  bool outputs_together() const override { return recovered_.large(); }
-  void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const override;
   std::vector<std::pair<std::string, std::string>> attributes() const override;
   void add_break_points(std::vector<double>& times) const override;
   std::vector<Formula> time_formulas() const override;
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
-  std::vector<std::string> optional_fields() const override;
+  MeshFields* mesh_fields() override { return this; }
+  std::vector<std::string> field_names() const override;
   void record_field(const std::string& field) override;
-  std::vector<std::string> point_fields() const override;
+  std::vector<std::string> point_field_names() const override;
   void record_at(const std::string& field, const std::string& name, const MeshPlace& place) override;
-  std::vector<std::string> peaks() const override;
-  void gather_peaks(const std::vector<std::string>& quantities) override;
+  std::vector<std::string> peak_names() const override;
+  void record_peaks(const std::vector<std::string>& quantities) override;
+  bool outputs_together() const override { return recovered_.large(); }
+  void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const override;
   std::unique_ptr<Gatherer> make_gatherer() const override;
   /// File, mass, modes with the range of their frequencies, interfaces with their nodes, loads.
   void describe(const LocalState& state, Description& description) const override;

@@ -12,7 +12,8 @@
 //     pi = U^T p + [0; pi_0],   pi_0,k = s.G_k eps + Om_l eps.H_kl eps,
 //     r = p' + G(Om_0) s - H(Om_0) eps + K_sigma(Om_m) eps + K~ eps + C~ epsdot - f,
 //     e = pi' + [Om_0 x pi_v; Om_0 x pi_O + v_0 x pi_v] - [U^T f + [0; m]],
-// f, m: load patterns. With phi = J^T r, the force on q that both make together, and its image on the nodes' triads, are
+// f, m: load patterns. With phi = J^T r, the force on q that both make together, and its image on the nodes' triads,
+// are
 //     force = phi + Sigma^T (e - V^T phi),     node_force = D^T force,     F = Q^T node_force.
 #pragma once
 
@@ -39,9 +40,9 @@ struct SuperelementMotion {
   Vector6 nu, nu_rate;         ///< nu_0 and nu_0'
   LinearCoordinates coordinates;
   VectorX eps_rate, eps_acceleration, s, s_rate;
-  MatrixX rate_gradient;        ///< G(epsdot)^T (n, prestress rows)
-  MatrixX3 Geps, Gs, Geps_rate; ///< columns k: G_k eps, ...
-  MatrixX6 Heps;                ///< columns: H_kl eps
+  MatrixX rate_gradient;          ///< G(epsdot)^T (n, prestress rows)
+  MatrixX3 Geps, Gs, Geps_rate;   ///< columns k: G_k eps, ...
+  MatrixX6 Heps;                  ///< columns: H_kl eps
   Vector3 Om_mean, Om_mean_rate;  ///< Om_m and its rate
   Matrix3 kappa, kappa_rate;
   MatrixX6 spin_eps;    ///< columns: K_sigma,kl eps
@@ -65,10 +66,10 @@ struct SuperelementMotion {
  private:
   void set_node_motion(const CorotatedFrame& frame, const LocalState& state);  ///< w .. nu_rate; qdot, qddot
   void set_coordinates(const SuperelementMatrices& body);                      ///< eps and its derivatives
-  void set_products(const SuperelementMatrices& body);    ///< s and its rate; those of G and H with eps, s, eps_rate
+  void set_products(const SuperelementMatrices& body);       ///< s and its rate; those of G and H with eps, s, eps_rate
   void add_spin_momentum(const SuperelementMatrices& body);  ///< what K_sigma adds to p and its rate
-  void set_loads(const SuperelementMatrices& body);       ///< load, rigid_load
-  void set_node_force(const SuperelementMatrices& body);  ///< phi, force, node_force from r and e
+  void set_loads(const SuperelementMatrices& body);          ///< load, rigid_load
+  void set_node_force(const SuperelementMatrices& body);     ///< phi, force, node_force from r and e
 };
 
 /// Direction of component k of a load in body axes.

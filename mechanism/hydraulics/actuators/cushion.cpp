@@ -14,7 +14,7 @@ Cushion::Cushion(std::string name, const Cylinder& cylinder, const PressureNode&
   reference_ = references().add(cylinder);
 }
 
-void Cushion::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
+void Cushion::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDerivatives& flow) const {
   constexpr double check_range = 0.5e5;  // [Pa]
   const PairMeasure l = cylinder_.length(state.of(reference_));
   const double D = ports().pressure(state, 0) - ports().pressure(state, 1), rest = data_.port_area - data_.area;

@@ -21,7 +21,7 @@ class Cushion final : public Line {
   /// @param chamber,port  the flow is counted out of the chamber
   Cushion(std::string name, const Cylinder& cylinder, const PressureNode& chamber, const PressureNode& port,
           const OrificeLaw& law, const Data& data);
-  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
 
  private:
   std::string describe_law() const override;

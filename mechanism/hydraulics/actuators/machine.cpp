@@ -20,7 +20,7 @@ class MachineMeasure final : public OwnMeasure {
 
  private:
   double calc_own(const LocalState& own, MeasureGradient& gradient) const override {
-    Nested<FlowJet> jet;
+    Nested<FlowDerivatives> jet;
     Nested<FormulaGradient> of_setting;
     const Machine::Turn turn = machine_.turn(own, *of_setting);
     jet->prepare(own.slots().size());
@@ -69,7 +69,7 @@ double Machine::torque(const LocalState& state, double x, double rate) const {
 }
 
 void Machine::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   const double x = setting(state);
   r.segment(row(state), jet.w().size()) -= torque(state, x, jet.rate) * jet.w();
   ports_.add_flow(state, 0, 1, flow(state, x, jet.rate), r);
@@ -78,11 +78,11 @@ void Machine::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const
 Machine::Turn Machine::turn(const LocalState& state, FormulaGradient& setting) const {
   const double t = state.time();
   setting_.calc(state, {&t, 1}, setting);
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   return {jet, rate_slope(state, jet), setting};
 }
 
-void Machine::calc_flow(const LocalState& state, const Turn& turn, FlowJet& flow) const {
+void Machine::calc_flow(const LocalState& state, const Turn& turn, FlowDerivatives& flow) const {
   const double x = turn.setting.value, D = data_.displacement;
   const int at = row(state);
   const auto n = turn.slope.size();
@@ -96,7 +96,7 @@ void Machine::calc_flow(const LocalState& state, const Turn& turn, FlowJet& flow
   flow.by.rate() += D * turn.jet.rate * turn.setting.by_state.rate();
 }
 
-void Machine::calc_torque(const LocalState& state, const Turn& turn, FlowJet& torque) const {
+void Machine::calc_torque(const LocalState& state, const Turn& turn, FlowDerivatives& torque) const {
   const double x = turn.setting.value, D = data_.displacement;
   const int at = row(state);
   const auto n = turn.slope.size();
@@ -114,7 +114,7 @@ void Machine::calc_torque(const LocalState& state, const Turn& turn, FlowJet& to
 }
 
 void Machine::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  Nested<FlowJet> jet;
+  Nested<FlowDerivatives> jet;
   Nested<FormulaGradient> of_setting;
   const Turn turn = this->turn(state, *of_setting);
   jet->prepare(state.slots().size());

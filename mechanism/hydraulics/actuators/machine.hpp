@@ -50,13 +50,13 @@ class Machine final : public CoordinateAction, public TimeDependent {
   friend class MachineMeasure;
   /// What the derivatives of flow and torque are made of.
   struct Turn {
-    CoordinateJet& jet;    ///< of the shaft
-    const VectorX& slope;  ///< derivatives of its rate by positions
+    CoordinateDerivatives& jet;  ///< of the shaft
+    const VectorX& slope;        ///< derivatives of its rate by positions
     FormulaGradient& setting;
   };
   Turn turn(const LocalState& state, FormulaGradient& setting) const;
-  void calc_flow(const LocalState& state, const Turn& turn, FlowJet& flow) const;
-  void calc_torque(const LocalState& state, const Turn& turn, FlowJet& torque) const;
+  void calc_flow(const LocalState& state, const Turn& turn, FlowDerivatives& flow) const;
+  void calc_torque(const LocalState& state, const Turn& turn, FlowDerivatives& torque) const;
   double setting(const LocalState& state) const;
   double flow(const LocalState& state, double x, double rate) const;
   double torque(const LocalState& state, double x, double rate) const;

@@ -29,7 +29,7 @@ void Ports::add_flow(const LocalState& state, int from, int to, double Q, Eigen:
   add_one(state, to, Q, r);
 }
 
-void Ports::add_one_tangent(const LocalState& state, int port, double sign, FlowJet& flow,
+void Ports::add_one_tangent(const LocalState& state, int port, double sign, FlowDerivatives& flow,
                             LocalTangent& tangent) const {
   if (port == outside) return;
   const LocalState own = state.of(at(port).reference);
@@ -43,7 +43,7 @@ void Ports::add_one_tangent(const LocalState& state, int port, double sign, Flow
   for (int k = 0; k < own.slots().first_orders; ++k) K(row, begin + k) -= sign * flow.Q * exchange.by[k];
 }
 
-void Ports::add_tangent(const LocalState& state, int from, int to, FlowJet& flow, LocalTangent& tangent) const {
+void Ports::add_tangent(const LocalState& state, int from, int to, FlowDerivatives& flow, LocalTangent& tangent) const {
   add_one_tangent(state, from, -1, flow, tangent);
   add_one_tangent(state, to, 1, flow, tangent);
 }

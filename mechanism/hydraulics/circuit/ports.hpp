@@ -15,7 +15,7 @@
 namespace bielle::mechanism {
 
 /// A flow with its derivatives over the local layout of who has it. Reused from call to call.
-struct FlowJet {
+struct FlowDerivatives {
   double Q = 0;  ///< [m^3/s]
   MeasureGradient by;
   void prepare(int size) {
@@ -37,7 +37,7 @@ class Ports {
   int pressure_row(const LocalState& state, int port) const;
   /// Adds a flow to the balances of two ports.
   void add_flow(const LocalState& state, int from, int to, double Q, Eigen::Ref<VectorX> r) const;
-  void add_tangent(const LocalState& state, int from, int to, FlowJet& flow, LocalTangent& tangent) const;
+  void add_tangent(const LocalState& state, int from, int to, FlowDerivatives& flow, LocalTangent& tangent) const;
   /// The rows of all balances, over all columns.
   void add_pattern(const Slots& slots, LocalPattern& pattern) const;
   /// Power that a flow brings from one port to the other [W]: Q (e_from - e_to), where `outside` has no head.
@@ -53,7 +53,8 @@ class Ports {
   };
   const Port& at(int port) const { return ports_[static_cast<std::size_t>(port)]; }
   void add_one(const LocalState& state, int port, double Q, Eigen::Ref<VectorX> r) const;
-  void add_one_tangent(const LocalState& state, int port, double sign, FlowJet& flow, LocalTangent& tangent) const;
+  void add_one_tangent(const LocalState& state, int port, double sign, FlowDerivatives& flow,
+                       LocalTangent& tangent) const;
   std::vector<Port> ports_;
 };
 

@@ -22,7 +22,7 @@ class LineMeasure final : public OwnMeasure {
  private:
   double calc_own(const LocalState& own, MeasureGradient& gradient) const override {
     if (quantity_ != "flow") return line_.calc_own_measure(own, quantity_, gradient);
-    Nested<FlowJet> jet;
+    Nested<FlowDerivatives> jet;
     jet->prepare(own.slots().size());
     line_.calc_flow(own, 0, *jet);
     gradient = jet->by;
@@ -40,7 +40,7 @@ void Line::declare(Declaration& declaration) const {
 }
 
 double Line::flow(const LocalState& state, std::size_t path) const {
-  Nested<FlowJet> jet;
+  Nested<FlowDerivatives> jet;
   jet->prepare(state.slots().size());
   calc_flow(state, path, *jet);
   return jet->Q;
@@ -52,7 +52,7 @@ void Line::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
 }
 
 void Line::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  Nested<FlowJet> jet;
+  Nested<FlowDerivatives> jet;
   for (std::size_t k = 0; k < paths_.size(); ++k) {
     jet->prepare(state.slots().size());
     calc_flow(state, k, *jet);
@@ -67,7 +67,7 @@ void Line::add_energy(const LocalState& state, Energy& energy) const {
     energy.dissipation += ports_.power(state, paths_[k].from, paths_[k].to, flow(state, k));
 }
 
-void Line::add_by_pressure(const LocalState& state, int port, double factor, FlowJet& flow) const {
+void Line::add_by_pressure(const LocalState& state, int port, double factor, FlowDerivatives& flow) const {
   flow.by.position()[ports_.pressure_row(state, port)] += factor;
 }
 

@@ -36,7 +36,7 @@ class Line : public Component {
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
   /// The flow of a path with its derivatives. @param flow  prepared, zero
-  virtual void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const = 0;
+  virtual void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const = 0;
   double flow(const LocalState& state, std::size_t path) const;
 
  protected:
@@ -47,7 +47,7 @@ class Line : public Component {
   References& references() { return references_; }
   const References& references() const { return references_; }
   /// Adds `factor` to the derivative of a flow by the pressure of a port.
-  void add_by_pressure(const LocalState& state, int port, double factor, FlowJet& flow) const;
+  void add_by_pressure(const LocalState& state, int port, double factor, FlowDerivatives& flow) const;
   /// Whether a path's flow depends on rates.
   virtual bool has_damping() const { return false; }
   virtual bool reads_reactions() const { return false; }

@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 namespace {
 
 /// Adds the derivatives of a formula by the state, times a factor.
-void add_by_formula(double factor, FormulaGradient& gradient, FlowJet& flow) {
+void add_by_formula(double factor, FormulaGradient& gradient, FlowDerivatives& flow) {
   flow.by.position() += factor * gradient.by_state.position();
   flow.by.rate() += factor * gradient.by_state.rate();
 }
@@ -29,7 +29,7 @@ void Orifice::read_area_formula(const YamlValue& formula, Model& model) {
   area_ = read_state_formula(formula, {"t"}, model, references());
 }
 
-void Orifice::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
+void Orifice::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDerivatives& flow) const {
   const double t = state.time();
   Nested<FormulaGradient> gradient;
   area_.calc(state, {&t, 1}, *gradient);
@@ -54,7 +54,7 @@ Leakage::Leakage(std::string name, const PressureNode& from, const PressureNode*
   add_path(a, b);
 }
 
-void Leakage::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
+void Leakage::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDerivatives& flow) const {
   const bool inside = ports().count() == 2;
   const double back = inside ? ports().pressure(state, 1) : ports().node(0).fluid().ambient;
   flow.Q = conductance_ * (ports().pressure(state, 0) - back);
@@ -76,7 +76,7 @@ void FlowSource::read(const YamlValue& formula, Model& model) {
   formula_ = read_state_formula(formula, {"t"}, model, references());
 }
 
-void FlowSource::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
+void FlowSource::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDerivatives& flow) const {
   const double t = state.time();
   Nested<FormulaGradient> gradient;
   formula_.calc(state, {&t, 1}, *gradient);

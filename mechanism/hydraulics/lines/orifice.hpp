@@ -13,7 +13,7 @@ class Orifice final : public Line, public TimeDependent {
   Orifice(std::string name, const PressureNode& from, const PressureNode& to, const OrificeLaw& law, double area);
   /// A formula in place of the area, once the model is read.
   void read_area_formula(const YamlValue& formula, Model& model);
-  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
   void add_break_points(std::vector<double>& times) const override { area_.add_break_points(0, times); }
   std::vector<Formula> time_formulas() const override { return time_formulas_of(area_, "area", "m^2"); }
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
@@ -34,7 +34,7 @@ class Leakage final : public Line {
   /// @param to           nullptr: outside, at the ambient pressure
   /// @param conductance  G [m^3/(s Pa)]
   Leakage(std::string name, const PressureNode& from, const PressureNode* to, double conductance);
-  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
 
  private:
   std::string describe_law() const override;
@@ -47,7 +47,7 @@ class FlowSource final : public Line, public TimeDependent {
   /// @param from  nullptr: from outside, where the fluid has the ambient pressure
   FlowSource(std::string name, const PressureNode* from, const PressureNode& to);
   void read(const YamlValue& formula, Model& model);
-  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
   std::vector<Formula> time_formulas() const override { return time_formulas_of(formula_, "flow", "m^3/s"); }

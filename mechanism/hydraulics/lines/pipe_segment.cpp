@@ -65,7 +65,7 @@ void PipeSegment::declare(Declaration& declaration) const {
   declaration.first_order = {flow};
 }
 
-void PipeSegment::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
+void PipeSegment::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDerivatives& flow) const {
   flow.Q = state.first_order()[0];
   flow.by.position()[state.slots().first_order_row()] = 1;
 }

@@ -40,7 +40,7 @@ class PipeSegment final : public Line {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
 
  private:
   double inertia() const;

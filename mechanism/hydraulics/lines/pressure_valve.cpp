@@ -55,7 +55,7 @@ double PoppetValve::opening(const LocalState& state, MeasureGradient& gradient) 
   return state.first_order()[0];
 }
 
-void PoppetValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
+void PoppetValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDerivatives& flow) const {
   thread_local MeasureGradient of_opening;
   of_opening.prepare(state.slots().size());
   double open = opening(state, of_opening);
@@ -147,7 +147,7 @@ void FlowValve::read(const YamlValue& formula, Model& model) {
   formula_ = read_state_formula(formula, {"t"}, model, references());
 }
 
-void FlowValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowJet& flow) const {
+void FlowValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDerivatives& flow) const {
   const double t = state.time();
   Nested<FormulaGradient> set;
   formula_.calc(state, {&t, 1}, *set);

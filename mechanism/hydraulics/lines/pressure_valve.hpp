@@ -39,7 +39,7 @@ class PoppetValve final : public Line {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
-  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
@@ -63,7 +63,7 @@ class FlowValve final : public Line, public TimeDependent {
   /// @param pressure  D_min [Pa]
   FlowValve(std::string name, const PressureNode& from, const PressureNode& to, double pressure);
   void read(const YamlValue& formula, Model& model);  ///< Q_set(t, measures) [m^3/s]
-  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
   void add_break_points(std::vector<double>& times) const override { formula_.add_break_points(0, times); }
   std::vector<Formula> time_formulas() const override { return time_formulas_of(formula_, "flow", "m^3/s"); }
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override {

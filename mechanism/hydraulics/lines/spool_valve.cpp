@@ -53,7 +53,7 @@ void SpoolValve::add_pattern(const Slots& slots, LocalPattern& pattern) const {
   spool_.add_pattern(slots, pattern);
 }
 
-void SpoolValve::calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const {
+void SpoolValve::calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const {
   const Edge& edge = edges_[path];
   Nested<MeasureGradient> of_opening;
   of_opening->prepare(state.slots().size());

@@ -38,7 +38,7 @@ class SpoolValve final : public Line, public TimeDependent {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
-  void calc_flow(const LocalState& state, std::size_t path, FlowJet& flow) const override;
+  void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_break_points(std::vector<double>& times) const override { spool_.add_break_points(times); }

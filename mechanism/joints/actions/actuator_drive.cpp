@@ -23,7 +23,7 @@ void ActuatorDrive::add_tangent(const LocalState& state, LocalTangent& tangent) 
   thread_local Effort effort;
   calc_effort(state, effort);
   const double factor = state.environment().load_factor, side = this->side(effort.value);
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   const int at = row(state);
   const auto n = jet.w().size();
   if (tangent.wants_K) tangent.K.dense().block(at, at, n, n) -= factor * limited(side, effort.value) * jet.W();

@@ -16,13 +16,13 @@ void CoordinateAction::add_reaction_norm(const LocalState& /*state*/, double arm
   H.diagonal().array() += coordinate().kind == JointCoordinate::Kind::displacement ? 1 : 1 / (arm * arm);
 }
 
-CoordinateJet& CoordinateAction::calc(const LocalState& state) const {
-  thread_local CoordinateJet jet;
+CoordinateDerivatives& CoordinateAction::calc(const LocalState& state) const {
+  thread_local CoordinateDerivatives jet;
   joint_.calc_coordinate(coordinate_, state.of(0), jet);
   return jet;
 }
 
-const VectorX& CoordinateAction::rate_slope(const LocalState& state, CoordinateJet& jet) {
+const VectorX& CoordinateAction::rate_slope(const LocalState& state, CoordinateDerivatives& jet) {
   thread_local VectorX v, slope;
   const LocalState of_joint = state.of(0);
   v.resize(of_joint.slots().size());
@@ -32,12 +32,13 @@ const VectorX& CoordinateAction::rate_slope(const LocalState& state, CoordinateJ
   return slope;
 }
 
-void CoordinateAction::add_kept(const LocalState& state, CoordinateJet& jet, double distance, Eigen::Ref<VectorX> r) {
+void CoordinateAction::add_kept(const LocalState& state, CoordinateDerivatives& jet, double distance,
+                                Eigen::Ref<VectorX> r) {
   r.segment(row(state), jet.g().size()) += state.multiplier()[0] * jet.g();
   r[0] += distance;
 }
 
-void CoordinateAction::add_kept_tangent(const LocalState& state, CoordinateJet& jet, LocalTangent& tangent) {
+void CoordinateAction::add_kept_tangent(const LocalState& state, CoordinateDerivatives& jet, LocalTangent& tangent) {
   const int at = row(state);
   const auto n = jet.g().size();
   auto K = tangent.K.dense();

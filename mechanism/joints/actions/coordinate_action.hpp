@@ -27,14 +27,14 @@ class CoordinateAction : public Component {
   /// The coordinate, without derivatives.
   CoordinateRate value(const LocalState& state) const { return joint_.coordinate(coordinate_, state.of(0)); }
   /// With derivatives: valid until the next call in this thread.
-  CoordinateJet& calc(const LocalState& state) const;
+  CoordinateDerivatives& calc(const LocalState& state) const;
   /// First local row of the joint.
   static int row(const LocalState& state) { return state.slots().reference_row(0); }
   /// v^T W of a jet: derivatives of the rate by positions.
-  static const VectorX& rate_slope(const LocalState& state, CoordinateJet& jet);
+  static const VectorX& rate_slope(const LocalState& state, CoordinateDerivatives& jet);
   // A constraint on the coordinate, `distance` = 0, as the component's only row.
-  static void add_kept(const LocalState& state, CoordinateJet& jet, double distance, Eigen::Ref<VectorX> r);
-  static void add_kept_tangent(const LocalState& state, CoordinateJet& jet, LocalTangent& tangent);
+  static void add_kept(const LocalState& state, CoordinateDerivatives& jet, double distance, Eigen::Ref<VectorX> r);
+  static void add_kept_tangent(const LocalState& state, CoordinateDerivatives& jet, LocalTangent& tangent);
   /// First and second time derivative of the coordinate.
   std::pair<double, double> calc_kept_rates(const LocalState& state) const;
 

@@ -11,7 +11,7 @@ namespace bielle::mechanism {
 void Drive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const double Q = force(state);
   if (Q == 0) return;
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   r.segment(row(state), jet.w().size()) -= Q * jet.w();
 }
 

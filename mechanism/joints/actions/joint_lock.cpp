@@ -27,7 +27,7 @@ double JointLock::distance(const LocalState& state, double value) const {
 }
 
 void JointLock::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   add_kept(state, jet, distance(state, jet.principal), r);
 }
 

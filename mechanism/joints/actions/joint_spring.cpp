@@ -18,7 +18,7 @@ void JointSpring::declare(Declaration& declaration) const {
 }
 
 void JointSpring::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   const LawForce law = law_.calc(state, jet.value - rest_, jet.rate, splits());
   auto of_joint = r.segment(row(state), jet.g().size());
   if (splits())
@@ -30,7 +30,7 @@ void JointSpring::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) c
 // dN = N_x g + N_v (v^T W dz + w dv) + measures;   d(N g) = N S + g dN, and likewise along w
 void JointSpring::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   const double x = jet.value - rest_, v = jet.rate;
   const LawForce law = law_.calc(state, x, v, splits());
   const int at = row(state);

@@ -33,13 +33,13 @@ JointStop::Contact JointStop::contact(const LocalState& state, double q, double 
 }
 
 void JointStop::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   if (const Contact c = contact(state, jet.value, jet.rate); c.pushes)
     r.segment(row(state), jet.w().size()) += c.N * jet.w();
 }
 
 void JointStop::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   const Contact c = contact(state, jet.value, jet.rate);
   if (!c.pushes) return;
   const int at = row(state);

@@ -43,7 +43,7 @@ void PositionDrive::declare(Declaration& declaration) const {
 }
 
 void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   add_kept(state, jet, distance(state, jet.principal), r);
 }
 
@@ -70,13 +70,13 @@ void RateDrive::declare(Declaration& declaration) const {
 }
 
 void RateDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   r.segment(row(state), jet.w().size()) += state.multiplier()[0] * jet.w();
   r[0] += jet.rate - law()(state.time());
 }
 
 void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   const int at = row(state);
   const auto n = jet.w().size();
   if (tangent.wants_K) {
@@ -90,7 +90,7 @@ void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) cons
 
 void RateDrive::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                      Eigen::Ref<VectorX> acceleration) const {
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   const LocalState of_joint = state.of(0);
   VectorX v(of_joint.slots().size()), a(v.size());
   get_local_velocities(of_joint, v);

@@ -91,7 +91,7 @@ void PidDrive::calc_error(const LocalState& state, Effort& error) const {
     error.by_position.segment(at, size) -= controlled.position();
     error.by_rate.segment(at, size) -= controlled.rate();
   } else {
-    CoordinateJet& jet = calc(state);
+    CoordinateDerivatives& jet = calc(state);
     error.value -= jet.value;
     error.by_position.segment(row(state), jet.g().size()) -= jet.g();
   }
@@ -111,7 +111,7 @@ void PidDrive::calc_effort(const LocalState& state, Effort& effort) const {
     effort.by_position *= kp;
     effort.by_rate *= kp;
     if (kd != 0) {
-      CoordinateJet& jet = calc(state);
+      CoordinateDerivatives& jet = calc(state);
       const int at = row(state);
       const auto n = jet.w().size();
       effort.value += kd * (target_rate(state) - jet.rate);

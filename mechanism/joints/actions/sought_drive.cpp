@@ -51,7 +51,7 @@ void SoughtDrive::declare(Declaration& declaration) const {
 void SoughtDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const double u = force(state);
   if (!tangent.wants_K || u == 0) return;
-  CoordinateJet& jet = calc(state);
+  CoordinateDerivatives& jet = calc(state);
   const int at = row(state);
   const auto n = jet.w().size();
   tangent.K.dense().block(at, at, n, n) -= u * jet.W();

@@ -70,8 +70,8 @@ LiftedCoordinate::LiftedCoordinate(std::string name, const NamedCoordinate& angl
       of_lifted_(references_.add(*lifted.joint)) {}
 
 /// Both coordinates at a state; valid until the next call in this thread.
-struct LiftedCoordinate::Jets {
-  CoordinateJet angle, lifted;
+struct LiftedCoordinate::Derivatives {
+  CoordinateDerivatives angle, lifted;
 };
 
 void LiftedCoordinate::declare(Declaration& declaration) const {
@@ -83,43 +83,45 @@ void LiftedCoordinate::declare(Declaration& declaration) const {
 
 // Phi = c_2 - f(c_1)
 void LiftedCoordinate::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  thread_local Jets jets;
-  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), jets.angle);
-  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), jets.lifted);
-  const Interpolation::Values f = lift_(jets.angle.value);
+  thread_local Derivatives derivatives;
+  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), derivatives.angle);
+  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), derivatives.lifted);
+  const Interpolation::Values f = lift_(derivatives.angle.value);
   const double lambda = state.multiplier()[0];
-  r.segment(state.slots().reference_row(of_angle_), jets.angle.g().size()) -= lambda * f.slope * jets.angle.g();
-  r.segment(state.slots().reference_row(of_lifted_), jets.lifted.g().size()) += lambda * jets.lifted.g();
-  r[0] += jets.lifted.value - f.value;
+  r.segment(state.slots().reference_row(of_angle_), derivatives.angle.g().size()) -=
+      lambda * f.slope * derivatives.angle.g();
+  r.segment(state.slots().reference_row(of_lifted_), derivatives.lifted.g().size()) += lambda * derivatives.lifted.g();
+  r[0] += derivatives.lifted.value - f.value;
 }
 
 void LiftedCoordinate::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
-  thread_local Jets jets;
-  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), jets.angle);
-  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), jets.lifted);
-  const Interpolation::Values f = lift_(jets.angle.value);
+  thread_local Derivatives derivatives;
+  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), derivatives.angle);
+  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), derivatives.lifted);
+  const Interpolation::Values f = lift_(derivatives.angle.value);
   const double lambda = state.multiplier()[0];
   auto K = tangent.K.dense();
   const int of_angle = state.slots().reference_row(of_angle_), of_lifted = state.slots().reference_row(of_lifted_);
-  const auto n = jets.angle.g().size(), m = jets.lifted.g().size();
+  const auto n = derivatives.angle.g().size(), m = derivatives.lifted.g().size();
   K.block(of_angle, of_angle, n, n) -=
-      lambda * (f.slope * jets.angle.S() + f.curvature * jets.angle.g() * jets.angle.g().transpose());
-  K.block(of_angle, 0, n, 1) -= f.slope * jets.angle.g();
-  K.block(0, of_angle, 1, n) -= f.slope * jets.angle.g().transpose();
-  K.block(of_lifted, of_lifted, m, m) += lambda * jets.lifted.S();
-  K.block(of_lifted, 0, m, 1) += jets.lifted.g();
-  K.block(0, of_lifted, 1, m) += jets.lifted.g().transpose();
+      lambda *
+      (f.slope * derivatives.angle.S() + f.curvature * derivatives.angle.g() * derivatives.angle.g().transpose());
+  K.block(of_angle, 0, n, 1) -= f.slope * derivatives.angle.g();
+  K.block(0, of_angle, 1, n) -= f.slope * derivatives.angle.g().transpose();
+  K.block(of_lifted, of_lifted, m, m) += lambda * derivatives.lifted.S();
+  K.block(of_lifted, 0, m, 1) += derivatives.lifted.g();
+  K.block(0, of_lifted, 1, m) += derivatives.lifted.g().transpose();
 }
 
 void LiftedCoordinate::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                             Eigen::Ref<VectorX> acceleration) const {
-  thread_local Jets jets;
-  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), jets.angle);
-  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), jets.lifted);
-  const Interpolation::Values f = lift_(jets.angle.value);
-  const auto [turning, turning_rate] = Joint::calc_coordinate_rates(state.of(of_angle_), jets.angle);
-  const auto [lifting, lifting_rate] = Joint::calc_coordinate_rates(state.of(of_lifted_), jets.lifted);
+  thread_local Derivatives derivatives;
+  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), derivatives.angle);
+  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), derivatives.lifted);
+  const Interpolation::Values f = lift_(derivatives.angle.value);
+  const auto [turning, turning_rate] = Joint::calc_coordinate_rates(state.of(of_angle_), derivatives.angle);
+  const auto [lifting, lifting_rate] = Joint::calc_coordinate_rates(state.of(of_lifted_), derivatives.lifted);
   velocity[0] += lifting - f.slope * turning;
   acceleration[0] += lifting_rate - f.slope * turning_rate - f.curvature * turning * turning;
 }

@@ -55,7 +55,7 @@ class LiftedCoordinate final : public Component {
   void describe(const LocalState& state, Description& description) const override;
 
  private:
-  struct Jets;
+  struct Derivatives;
   NamedCoordinate angle_, lifted_;
   Interpolation lift_;
   References references_;

@@ -23,7 +23,7 @@ void LinearCoupling::declare(Declaration& declaration) const {
 }
 
 void LinearCoupling::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  thread_local CoordinateJet jet;
+  thread_local CoordinateDerivatives jet;
   const double lambda = state.multiplier()[0];
   long double sum = 0;  // of angles of many turns, which cancel
   for (const Term& term : terms_) {
@@ -36,7 +36,7 @@ void LinearCoupling::add_residual(const LocalState& state, Eigen::Ref<VectorX> r
 
 void LinearCoupling::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
-  thread_local CoordinateJet jet;
+  thread_local CoordinateDerivatives jet;
   const double lambda = state.multiplier()[0];
   auto K = tangent.K.dense();
   for (const Term& term : terms_) {
@@ -51,7 +51,7 @@ void LinearCoupling::add_tangent(const LocalState& state, LocalTangent& tangent)
 
 void LinearCoupling::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                           Eigen::Ref<VectorX> acceleration) const {
-  thread_local CoordinateJet jet;
+  thread_local CoordinateDerivatives jet;
   for (const Term& term : terms_) {
     const LocalState of_joint = state.of(term.reference);
     term.joint->calc_coordinate(term.coordinate, of_joint, jet);

@@ -1,7 +1,7 @@
 // Joints that constrain nothing: an elastic law (measures/elastic_law.hpp) holds their two nodes together.
 //
-// A type computes its measures, up to six, as jets. What the law resists with acts along their gradients: forces with a
-// potential, and their exact tangent.
+// A type computes its measures, up to six, as numbers with derivatives. What the law resists with acts along their
+// gradients: forces with a potential, and their exact tangent.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"

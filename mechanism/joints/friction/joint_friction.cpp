@@ -58,7 +58,7 @@ JointFriction::Slip& JointFriction::slip(const LocalState& state, bool with_posi
   }
   for (std::size_t k = 0; k < surface_.parts.size(); ++k) {
     const auto& [coordinate, component, arm] = surface_.parts[k];
-    CoordinateJet& jet = slip.jets[k];
+    CoordinateDerivatives& jet = slip.jets[k];
     joint_.calc_coordinate(coordinate, of_joint, jet);
     slip.v[component] += arm * jet.rate;
     slip.w.col(component) += arm * jet.w();

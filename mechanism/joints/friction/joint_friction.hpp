@@ -83,9 +83,9 @@ class JointFriction : public Component {
   /// v with its derivatives over the joint's layout: valid until the next call in this thread.
   struct Slip {
     Vector v;
-    MatrixX w;                          ///< (n, components): v = w^T velocities
-    MatrixX by_position;                ///< (n, components): dv = by_position^T increments; where asked for
-    std::array<CoordinateJet, 3> jets;  ///< of the parts
+    MatrixX w;                                  ///< (n, components): v = w^T velocities
+    MatrixX by_position;                        ///< (n, components): dv = by_position^T increments; where asked for
+    std::array<CoordinateDerivatives, 3> jets;  ///< of the parts
   };
   Slip& slip(const LocalState& state, bool with_positions) const;
   /// First local row of the joint.

@@ -67,7 +67,7 @@ void RigidGearMesh::add_tangent(const LocalState& state, LocalTangent& tangent) 
 void RigidGearMesh::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                          Eigen::Ref<VectorX> acceleration) const {
   const MeshMeasure m = contact().approach(contact().geometry().t, state);
-  const MeshMeasure::Vector v = ToothContact::rates(state);
+  const MeshMeasure::Gradient v = ToothContact::rates(state);
   velocity[0] += m.rate(v);
   acceleration[0] += m.acceleration(v, ToothContact::accelerations(state));
 }
@@ -153,13 +153,13 @@ void ElasticGearMesh::add_residual(const LocalState& state, Eigen::Ref<VectorX> 
 }
 
 void ElasticGearMesh::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  const MeshMeasure::Vector v = ToothContact::rates(state);
+  const MeshMeasure::Gradient v = ToothContact::rates(state);
   for (const int side : {0, 1}) {
     const Flank f = flank(side, state);
     if (!f.pushes) continue;
-    const MeshMeasure::Vector& g = f.p.gradient;
+    const MeshMeasure::Gradient& g = f.p.gradient;
     if (tangent.wants_K) {
-      const MeshMeasure::Vector slope = spring_.stiffness * g + spring_.damping * (f.p.second.transpose() * v);
+      const MeshMeasure::Gradient slope = spring_.stiffness * g + spring_.damping * (f.p.second.transpose() * v);
       tangent.K.dense() += f.force * f.p.second + g * slope.transpose();
     }
     if (tangent.wants_C && spring_.damping > 0) tangent.C.dense() += spring_.damping * g * g.transpose();

@@ -73,14 +73,14 @@ void ToothContact::accept(const LocalState& state, Eigen::Ref<VectorX> memory) c
   memory[4] = state.time();
 }
 
-MeshMeasure::Vector ToothContact::rates(const LocalState& state) {
-  MeshMeasure::Vector v;
+MeshMeasure::Gradient ToothContact::rates(const LocalState& state) {
+  MeshMeasure::Gradient v;
   for (const int k : {0, 1, 2}) v.segment<6>(6 * k) << state.node(k).v, state.node(k).Omega;
   return v;
 }
 
-MeshMeasure::Vector ToothContact::accelerations(const LocalState& state) {
-  MeshMeasure::Vector a;
+MeshMeasure::Gradient ToothContact::accelerations(const LocalState& state) {
+  MeshMeasure::Gradient a;
   for (const int k : {0, 1, 2}) a.segment<6>(6 * k) << state.node(k).a, state.node(k).Omegadot;
   return a;
 }

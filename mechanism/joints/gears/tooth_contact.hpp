@@ -25,7 +25,7 @@
 namespace bielle::mechanism {
 
 /// Derivatives along the increments of carrier, wheel 1, wheel 2.
-using MeshMeasure = MeasureJet<18>;
+using MeshMeasure = AutoDiff<18, 2>;
 
 struct ToothGeometry {
   std::array<Vector3, 2> axis;    ///< z_i, unit, carrier's axes
@@ -51,8 +51,8 @@ class ToothContact {
   static void declare_memory(Declaration& declaration);
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const;
   /// Velocities and accelerations of the three nodes.
-  static MeshMeasure::Vector rates(const LocalState& state);
-  static MeshMeasure::Vector accelerations(const LocalState& state);
+  static MeshMeasure::Gradient rates(const LocalState& state);
+  static MeshMeasure::Gradient accelerations(const LocalState& state);
 
  private:
   PairMeasure displacement(int wheel, const Vector3& e, const LocalState& state) const;

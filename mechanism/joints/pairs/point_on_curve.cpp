@@ -125,7 +125,7 @@ CoordinateRate PointOnCurve::principal_coordinate(std::size_t index, const Local
   return {curve_.arc_length(u) - length_to_start_, curve_(u).first.norm() * state.amplitude_rate()[0]};
 }
 
-void PointOnCurve::calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const {
+void PointOnCurve::calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const {
   if (index > 0) return Joint::calc_coordinate(index, state, jet);
   const Curve::Place c = curve_(state.amplitude()[0]);
   const double speed = c.first.norm();

@@ -230,7 +230,7 @@ CoordinateRate SliderJoint::principal_coordinate(std::size_t /*index*/, const Lo
   return {state.amplitude()[0] - start_, state.amplitude_rate()[0]};
 }
 
-void SliderJoint::calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const {
+void SliderJoint::calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const {
   jet.prepare(state.slots().size());
   const auto [value, rate] = principal_coordinate(index, state);
   jet.value = jet.principal = value;

@@ -44,7 +44,7 @@ class SliderJoint final : public Joint {
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
   double turning_rate(const LocalState& state) const override;
-  void calc_coordinate(std::size_t index, const LocalState& state, CoordinateJet& jet) const override;
+  void calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void calc_crossings(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;

@@ -15,10 +15,12 @@ A model is the same as in a file of bielle-mechanism: a YAML file, a text, or a 
     run.time, run["nodes/pin/position"]                # arrays of NumPy, row by row
 
 `load` and `read` make a `Model`, `Model.session` a `Session`, `Session.dynamics` a `Motion`; `run` gives a `Run` of
-`Results`. Units are SI and radians. A request that cannot be satisfied raises `InputError` or `ComputationError`, with
-the messages of the programs. mechanism/README.md describes the model, mechanism/io/README.md the names of results.
+`Results`. Units are SI and radians. A request that cannot be satisfied raises `InputError` or
+`ComputationError`, with the messages of the programs. mechanism/README.md describes the model, mechanism/io/README.md the names of results.
+`bielle.rotations` has the parametrisations of rotations, with their rates.
 """
 
+from . import rotations
 from ._core import ComputationError, Error, InputError, Node, State
 from ._core import version as __version__
 from .models import Model, load, read
@@ -28,7 +30,7 @@ from .runs import Run, run
 from .sessions import Inputs, Recording, Session
 
 __all__ = ["ComputationError", "Dataset", "Error", "Event", "InputError", "Inputs", "Model", "Motion", "Node", "Recording",
-           "Results", "Run", "Session", "State", "load", "read", "run", "__version__"]
+           "Results", "Run", "Session", "State", "load", "read", "rotations", "run", "__version__"]
 
 for _each in (Node, State):
     _each.__module__ = "bielle"

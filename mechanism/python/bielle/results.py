@@ -7,7 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import _core
+from . import _core, rotations
+
+ROTATION_QUANTITIES = ("rotation_vector", "bryant", "euler")
 
 
 class Dataset(NamedTuple):
@@ -24,6 +26,14 @@ class Event(NamedTuple):
 
     time: float  # [s]
     name: str
+
+
+def made_of(name: str) -> tuple[str, str]:
+    """Which quantity is made of which dataset: ("bryant", "nodes/pin/rotation") of "nodes/pin/bryant"; ("", name) of others."""
+    node, _, quantity = name.rpartition("/")
+    if not node.startswith("nodes/") or quantity not in ROTATION_QUANTITIES:
+        return "", name
+    return quantity, f"{node}/rotation"
 
 
 class NothingKept:
@@ -51,10 +61,13 @@ class NothingKept:
 class Results(Mapping):
     """The records of one analysis, by the names of a results file: results["joints/main/coordinate"].
 
-    Datasets over time have one row per recorded instant: "time" (rows), "nodes/pin/position" (rows, 3). They are
-    read-only arrays of NumPy: views of the recorded numbers, without a copy. (While the analysis is still in progress,
-    they are copies of the rows so far.) Others are arrays or numbers, "peaks/rod/all/von_mises/value", or lists of
-    texts, "eigen/nodes".
+    Datasets over time have one row per recorded instant: "time" (rows), "nodes/pin/position" (rows, 3). They are arrays of
+    NumPy that are not to be written: views of the recorded numbers, without a copy. (While the analysis is still under way,
+    they are copies of what there is so far.) Others are arrays or numbers, "peaks/rod/all/von_mises/value", or lists of texts,
+    "eigen/nodes".
+
+    If "nodes/pin/rotation" is recorded, (rows, 3) "nodes/pin/rotation_vector", "nodes/pin/bryant" and "nodes/pin/euler"
+    [rad] can be read too, continuous over turns (`bielle.rotations.continuous`). They are computed on demand, and not listed.
     """
 
     def __init__(self, recorder: _core.Recorder | NothingKept, number: int, found: tuple[str, dict, int] | None = None):
@@ -95,10 +108,16 @@ class Results(Mapping):
 
     def __getitem__(self, name: str) -> np.ndarray | float | list[str]:
         """A dataset. Raises InputError with the nearest name."""
-        return self._recorder.read(self._number, name)
+        quantity, source = made_of(name) if isinstance(name, str) else ("", name)
+        if not quantity:
+            return self._recorder.read(self._number, name)
+        values = rotations.continuous(quantity, rotations.convert(self._recorder.read(self._number, source), "quaternion", quantity))
+        values.flags.writeable = False
+        return values
 
     def __contains__(self, name: object) -> bool:
-        return name == "time" or name in self._recorder.datasets(self._number)
+        source = made_of(name)[1] if isinstance(name, str) else name
+        return source == "time" or source in self._recorder.datasets(self._number)
 
     def __iter__(self) -> Iterator[str]:
         return iter(["time", *self._recorder.datasets(self._number)])

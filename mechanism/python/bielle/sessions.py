@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _core
+from . import _core, rotations
 from .motions import Motion
-from .results import Dataset, NothingKept, Results
+from .results import Dataset, NothingKept, Results, made_of
 from .yaml_text import yaml_text
 
 if TYPE_CHECKING:
@@ -148,9 +148,13 @@ class Session:
     # -- reading
 
     def __getitem__(self, dataset: str) -> np.ndarray | float:
-        """A dataset of the results file for the current state: an array, or a number. Raises InputError with the
-        nearest name."""
-        return self._core.read(dataset)
+        """A dataset of the results file as it is now: an array, or a number. Raises InputError with the nearest name.
+
+        "nodes/pin/rotation_vector", "nodes/pin/bryant" and "nodes/pin/euler" are principal values here, without turns.
+        """
+        quantity, source = made_of(dataset) if isinstance(dataset, str) else ("", dataset)
+        value = self._core.read(source)
+        return rotations.convert(value, "quaternion", quantity) if quantity else value
 
     def measure(self, name: str) -> float:
         """The value of a name in formulas: "arm.angle", "arm.angle.rate", "arm.reaction.x", "pin.position.x", or a

@@ -60,8 +60,8 @@ class VelocityCorrection {
   ConstraintForm form_;
   MassSaddle saddle_;
   std::optional<MassSaddle> watching_saddle_;  ///< apart, so that a look changes no digit of the motion
-  double turn_ = 0;       ///< of constraints in the last accepted step [rad]
-  bool turning_ = false;  ///< fast enough for velocities to be corrected, now or before
+  double turn_ = 0;                            ///< of constraints in the last accepted step [rad]
+  bool turning_ = false;                       ///< fast enough for velocities to be corrected, now or before
 };
 
 }  // namespace bielle::mechanism

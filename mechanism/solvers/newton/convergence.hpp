@@ -6,9 +6,9 @@
 // tangent's size. Where all that acts comes from one component (a body in free flight, whose inertia and weight are one
 // contribution), nothing is left to compare with in the end: there rounding decides.
 //
-// An amplitude's force is comparable with the forces on nodes by the energy that a residual r is worth, r^2 / (2 J_ii): modes
-// that nothing excites carry rounding of those forces, and are not judged by it. The softest amplitude and the stiffest
-// node give the least force that counts.
+// An amplitude's force is comparable with the forces on nodes by the energy that a residual r is worth, r^2 / (2 J_ii):
+// modes that nothing excites carry rounding of those forces, and are not judged by it. The softest amplitude and the
+// stiffest node give the least force that counts.
 //
 // The equation of an amplitude or first-order unknown u that has a scale s is judged by nothing but itself, however
 // large other unknowns of its kind are. Its residual is compared with the largest of its own terms,

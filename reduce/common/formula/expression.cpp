@@ -90,7 +90,7 @@ double Expression::operator()(std::span<const double> values) const {
 double Expression::derivative(std::span<const double> values, std::size_t argument, int order) const {
   const Jet jet =
       implementation_->evaluated(values, [&](const FormulaTree& tree) { return tree.jet(values, argument); });
-  const double result = order == 1 ? jet.first : jet.second;
+  const double result = order == 1 ? jet.gradient[0] : jet.second(0, 0);
   if (!std::isfinite(result)) implementation_->fail_without_derivative(order, values);
   return result;
 }

@@ -5,11 +5,9 @@
 #include <numbers>
 #include <type_traits>
 
-#include "reduce/common/formula/dual.hpp"
-
 namespace bielle {
 
-using namespace jets;
+using namespace formula_number;
 
 namespace {
 
@@ -137,17 +135,16 @@ int FormulaTree::add(Operation operation, int first, int second, int third) {
   return static_cast<int>(terms_.size()) - 1;
 }
 
-/// One evaluation of the tree; `Number` is double, Jet or Dual.
+/// One evaluation of the tree; `Number` is double, Jet or Slopes.
 ///
-/// With Duals, a comparison exactly at a border is decided by the value, and `at_kink` records that the slopes may
-/// belong to the wrong piece.
+/// With Slopes, the value decides at a border, and `at_kink` remembers that the slopes may belong to the wrong piece.
 template <class Number>
 struct FormulaTree::Evaluation {
   const FormulaTree& tree;
   std::span<const double> arguments;
-  std::size_t along = 0;         ///< the argument that a Jet follows, or the first one that Duals do
-  std::size_t count = 0;         ///< number of arguments that Duals follow
-  mutable bool at_kink = false;  ///< set if a comparison of Duals was at a border
+  std::size_t along = 0;         ///< the argument that a Jet follows, or the first one that Slopes do
+  std::size_t count = 0;         ///< how many arguments Slopes follow
+  mutable bool at_kink = false;  ///< of Slopes
 
   Number of(int index) const {
     const Number result = unchecked(tree.term(index));
@@ -156,7 +153,7 @@ struct FormulaTree::Evaluation {
   }
 
  private:
-  static constexpr bool is_dual = std::is_same_v<Number, Dual>;
+  static constexpr bool has_slopes = std::is_same_v<Number, Slopes>;
 
   static Number constant(double value) { return Number(value); }
   static Number truth(bool value) { return constant(value ? 1 : 0); }
@@ -165,41 +162,42 @@ struct FormulaTree::Evaluation {
     const double value = arguments[index];
     if constexpr (std::is_same_v<Number, double>)
       return value;
-    else if constexpr (is_dual)
-      return index >= along && index < along + count ? argument_of_dual(value, index - along, count) : Dual(value);
+    else if constexpr (has_slopes)
+      return index >= along && index < along + count ? argument_with_slopes(value, index - along, count)
+                                                     : Slopes(value);
     else
-      return {value, index == along ? 1.0 : 0.0, 0};
+      return formula_number::jet(value, index == along ? 1 : 0, 0);
   }
 
   /// Sign of x - border immediately to the right of the point of evaluation.
   double side(const Number& x, const Number& border) const {
-    if constexpr (is_dual) {
+    if constexpr (has_slopes) {
       at_kink |= x.value == border.value && (varies(x) || varies(border));
-      return jets::sign_of(x.value - border.value);
+      return formula_number::sign_of(x.value - border.value);
     } else {
-      return jets::sign_of(minus(x, border));
+      return formula_number::sign_of(x - border);
     }
   }
   double sign_of(const Number& x) const {
-    if constexpr (is_dual) {
+    if constexpr (has_slopes) {
       at_kink |= x.value == 0 && varies(x);
-      return jets::sign_of(x.value);
+      return formula_number::sign_of(x.value);
     } else {
-      return jets::sign_of(x);
+      return formula_number::sign_of(x);
     }
   }
   double floor_of(const Number& x) const {
-    if constexpr (is_dual) {
+    if constexpr (has_slopes) {
       const double whole = std::floor(x.value);
       at_kink |= whole == x.value && varies(x);
       return whole;
     } else {
-      return jets::floor_of(x);
+      return formula_number::floor_of(x);
     }
   }
   Number interpolated(const Interpolation& function, const Number& x) const {
     bool from_right = true;
-    if constexpr (is_dual) {
+    if constexpr (has_slopes) {
       const auto points = function.points();
       at_kink |= function.kind() == Interpolation::Kind::linear && varies(x) &&
                  std::binary_search(points.begin(), points.end(), x.value);
@@ -221,21 +219,21 @@ struct FormulaTree::Evaluation {
       case Operation::argument:
         return argument(static_cast<std::size_t>(term.index));
       case Operation::negate:
-        return scale(-1, operand(0));
+        return -operand(0);
       case Operation::logical_not:
         return truth(!truth_of(0));
       case Operation::abs: {
         const Number x = operand(0);
-        return scale(sign_of(x), x);
+        return sign_of(x) * x;
       }
       case Operation::sign:
         return constant(sign_of(operand(0)));
       case Operation::floor:
         return constant(floor_of(operand(0)));
       case Operation::ceil:
-        return constant(-floor_of(scale(-1, operand(0))));
+        return constant(-floor_of(-operand(0)));
       case Operation::round:
-        return constant(floor_of(plus(operand(0), constant(0.5))));
+        return constant(floor_of(operand(0) + 0.5));
       case Operation::interpolate:
         return interpolated(*tree.functions_[static_cast<std::size_t>(term.index)], operand(0));
       default:
@@ -250,11 +248,11 @@ struct FormulaTree::Evaluation {
     const auto difference = [&] { return side(operand(0), operand(1)); };
     switch (term.operation) {
       case Operation::add:
-        return plus(operand(0), operand(1));
+        return operand(0) + operand(1);
       case Operation::subtract:
-        return minus(operand(0), operand(1));
+        return operand(0) - operand(1);
       case Operation::multiply:
-        return times(operand(0), operand(1));
+        return operand(0) * operand(1);
       case Operation::divide:
         return over(operand(0), operand(1));
       case Operation::power:
@@ -263,7 +261,7 @@ struct FormulaTree::Evaluation {
         return atan2_of(operand(0), operand(1));
       case Operation::modulo: {
         const Number a = operand(0), b = operand(1);
-        return minus(a, scale(floor_of(over(a, b)), b));
+        return a - floor_of(over(a, b)) * b;
       }
       case Operation::minimum:
       case Operation::maximum: {
@@ -297,12 +295,12 @@ struct FormulaTree::Evaluation {
   Number power_of(const Number& x, const Number& n) const {
     if (value_of(x) == 0 && value_of(n) < 0) throw FormulaError("division by zero");
     if (!varies(n)) return power(x, value_of(n));
-    if constexpr (is_dual) {
+    if constexpr (has_slopes) {
       at_kink |= !(x.value > 0);  // the jets decide whether there is a logarithm
       const double f = std::pow(x.value, n.value);
-      return chain(f, x, n.value * std::pow(x.value, n.value - 1), n, f * std::log(x.value));
+      return compose(x, n, f, n.value * std::pow(x.value, n.value - 1), f * std::log(x.value));
     }
-    return elementary(Operation::exp, times(n, elementary(Operation::ln, x)));
+    return elementary(Operation::exp, Number(n * elementary(Operation::ln, x)));
   }
 
   static Number atan2_of(const Number& y, const Number& x) {
@@ -310,13 +308,13 @@ struct FormulaTree::Evaluation {
     const double angle = std::atan2(value_of(y), value_of(x));
     if constexpr (std::is_same_v<Number, double>) {
       return angle;
-    } else if constexpr (is_dual) {
-      return chain(angle, y, x.value / r2, x, -y.value / r2);
+    } else if constexpr (has_slopes) {
+      return compose(y, x, angle, x.value / r2, -y.value / r2);
     } else {
       // d angle = (x dy - y dx) / r2
-      const Jet s = plus(times(x, x), times(y, y));
-      const double g = x.value * y.first - y.value * x.first, g1 = x.value * y.second - y.value * x.second;
-      return {angle, g / r2, (g1 - g * s.first / r2) / r2};
+      const Jet s = x * x + y * y;
+      const double g = x.value * first(y) - y.value * first(x), g1 = x.value * second(y) - y.value * second(x);
+      return formula_number::jet(angle, g / r2, (g1 - g * first(s) / r2) / r2);
     }
   }
 
@@ -327,7 +325,7 @@ struct FormulaTree::Evaluation {
     if (operation == Operation::pulse) return truth(after_start >= 0 && after_end < 0);
     if (after_start <= 0) return constant(0);
     if (after_end >= 0) return constant(1);
-    const Number s = over(minus(t, t0), minus(t1, t0));
+    const Number s = over<Number>(t - t0, t1 - t0);
     if (operation == Operation::ramp) return s;
     const double v = value_of(s), w = 1 - v;
     return chain(s, v * v * v * (10 + v * (6 * v - 15)), 30 * v * v * w * w, 60 * v * w * (1 - 2 * v));
@@ -346,19 +344,20 @@ Jet FormulaTree::jet(std::span<const double> arguments, std::size_t along) const
 
 double FormulaTree::value_and_gradient(std::span<const double> arguments, std::span<double> gradient) const {
   if (gradient.empty()) return value(arguments);
+  constexpr std::size_t most_slopes = Slopes::Gradient::MaxRowsAtCompileTime;
   double result = 0;
-  for (std::size_t first = 0; first < gradient.size(); first += Dual::capacity) {
-    const std::span<double> part = gradient.subspan(first, std::min(Dual::capacity, gradient.size() - first));
-    const Evaluation<Dual> evaluation{*this, arguments, first, part.size()};
-    const Dual dual = evaluation.of(root_);
-    result = dual.value;
+  for (std::size_t first = 0; first < gradient.size(); first += most_slopes) {
+    const std::span<double> part = gradient.subspan(first, std::min(most_slopes, gradient.size() - first));
+    const Evaluation<Slopes> evaluation{*this, arguments, first, part.size()};
+    const Slopes found = evaluation.of(root_);
+    result = found.value;
     bool as_jets = evaluation.at_kink;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      part[i] = varies(dual) ? dual.slope[i] : 0;
+      part[i] = varies(found) ? found.gradient[static_cast<Eigen::Index>(i)] : 0;
       as_jets |= !std::isfinite(part[i]);  // a jet knows what does not vary, whatever it is multiplied by
     }
     if (as_jets)
-      for (std::size_t i = 0; i < part.size(); ++i) part[i] = jet(arguments, first + i).first;
+      for (std::size_t i = 0; i < part.size(); ++i) part[i] = formula_number::first(jet(arguments, first + i));
   }
   return result;
 }

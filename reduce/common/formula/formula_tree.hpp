@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "reduce/common/formula/formula_number.hpp"
 #include "reduce/common/formula/interpolation.hpp"
-#include "reduce/common/formula/jet.hpp"
 
 namespace bielle {
 

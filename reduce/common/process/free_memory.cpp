@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include "reduce/common/process/address_space.hpp"
@@ -32,8 +33,17 @@ double left_below_limit() {
   return std::max(0.0, 1e-6 * (static_cast<double>(limit.rlim_cur) - static_cast<double>(address_space())));
 }
 
+/// Memory that was freed, and that malloc keeps for the next request (library_settings.hpp).
+double kept_by_malloc() {
+#ifdef __GLIBC__
+  return 1e-6 * static_cast<double>(mallinfo2().fordblks);
+#else
+  return 0;
+#endif
+}
+
 }  // namespace
 
-double free_memory_MB() { return std::min(left_on_machine(), left_below_limit()); }
+double free_memory_MB() { return std::min(left_on_machine(), left_below_limit()) + kept_by_malloc(); }
 
 }  // namespace bielle

@@ -3,9 +3,9 @@
 
 namespace bielle {
 
-/// The smaller of the free memory of the machine (Linux: MemAvailable and free swap) and the rest of a limit of the
-/// address space (`ulimit -v`) [MB = 1e6 bytes]; infinite if neither is known. Limits of containers are not taken into
-/// account.
+/// The less of what the machine has left (Linux: MemAvailable and free swap) and what a limit of the address space
+/// (`ulimit -v`) leaves, and what the process has freed and kept [MB = 1e6 bytes]; infinite where neither is known.
+/// Limits of containers are not seen.
 double free_memory_MB();
 
 }  // namespace bielle

@@ -10,7 +10,7 @@
 #include <mpi.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/process/sleeping_threads.hpp"
+#include "reduce/common/process/library_settings.hpp"
 #include "reduce/distributed/greeting.hpp"
 #include "reduce/distributed/ranks/driver.hpp"
 #include "reduce/distributed/ranks/service.hpp"
@@ -52,7 +52,7 @@ void work(int argc, char** argv, int rank) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  let_waiting_threads_sleep(argv);
+  apply_library_settings(argv);
   std::signal(SIGPIPE, SIG_IGN);
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large blocks are returned to the system when they are freed
   MPI_Init(&argc, &argv);

@@ -2,7 +2,7 @@
 //
 // Arc of radius 100 in the plane x-y from the origin along y to (29.29, 70.71, 0), section 1 x 1, E = 1e7, nu = 0, tip
 // load along z. The literature's tips for P = 600 spread from (15.5, 46.8, 53.7) to (15.9, 47.2, 53.4), with the mesh
-// and the torsion constant. References here: the geometrically exact rod by shooting in long double, to 1e-9.
+// and the torsion constant. References here: the geometrically exact rod by shooting (tests/references/bend_45.py).
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -11,6 +11,7 @@
 #include "mechanism/analyses/static_analysis.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/static_model.hpp"
 
 using namespace bielle::mechanism;
@@ -39,43 +40,32 @@ struct Bend : StaticModel {
 
 const std::string polar = "{EA: 1e7, GAy: 5e6, GAz: 5e6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}";
 
+/// As the table names them: GA and the polar GJ, 5/6 GA, and the section's own constants.
+const std::pair<std::string, std::string> sections[] = {
+    {"polar", polar},
+    {"reduced_shear", "{EA: 1e7, GAy: 5e6*5/6, GAz: 5e6*5/6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}"},
+    {"own", "{rectangle: [1, 1], young: 1e7, poisson: 0}"}};
+
 }  // namespace
 
 TEST_CASE("the 45-degree bend converges with the square of the element length") {
-  struct Case {
-    std::string name, section;
-    Vector3 at_300, at_450, at_600;
-  };
-  const std::vector<Case> cases{{"GA, polar GJ",
-                                 polar,
-                                 {22.244781, 58.779122, 40.191892},
-                                 {18.508178925, 52.238558, 48.502927},
-                                 {15.684800534, 47.150438574, 53.474858792}},
-                                {"5/6 GA, polar GJ",
-                                 "{EA: 1e7, GAy: 5e6*5/6, GAz: 5e6*5/6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}",
-                                 {22.244679, 58.778897, 40.192392},
-                                 {18.508065, 52.238262, 48.503492},
-                                 {15.684689479, 47.150096240, 53.475477998}},
-                                {"the section's own constants",
-                                 "{rectangle: [1, 1], young: 1e7, poisson: 0}",
-                                 {22.112514, 58.535709, 40.480757},
-                                 {18.369163, 51.969425, 48.705349},
-                                 {15.557676, 46.891586, 53.607986}}};
-  for (const Case& c : cases)
+  const bielle::test::ReferenceTable table("bend_45");
+  for (const auto& [name, section] : sections)
     for (const char* bending : {"residual", "constant"}) {
-      CAPTURE(c.name, bending);
+      CAPTURE(name, bending);
+      const auto exact = [&table, row = name + "."](const char* load) { return table.vector(row + load); };
       std::vector<Vector3> errors_300, errors_450, errors_600;
       for (int elements : {8, 16, 32}) {
-        Bend bend(elements, c.section, bending);
-        errors_300.emplace_back(bend.tip(300, 25) - c.at_300);
-        errors_450.emplace_back(bend.tip(450, 25) - c.at_450);
-        errors_600.emplace_back(bend.tip(600, 25) - c.at_600);
+        Bend bend(elements, section, bending);
+        errors_300.emplace_back(bend.tip(300, 25) - exact("300"));
+        errors_450.emplace_back(bend.tip(450, 25) - exact("450"));
+        errors_600.emplace_back(bend.tip(600, 25) - exact("600"));
       }
       for (const auto& errors : {errors_300, errors_450, errors_600}) {
         CAPTURE(errors[0].transpose(), errors[1].transpose(), errors[2].transpose());
         // With the residual flexibility only the change of curvature by the load is left to the mesh; if bending and
         // torsion are equally stiff (the polar GJ is EI) even that is of fourth order.
-        const bool constant = bending[0] == 'c', isotropic = c.name != "the section's own constants";
+        const bool constant = bending[0] == 'c', isotropic = name != "own";
         if (!constant && isotropic)
           CHECK_THAT(std::log2(errors[0].norm() / errors[1].norm()), Catch::WithinAbs(4, 0.25));
         else
@@ -86,15 +76,12 @@ TEST_CASE("the 45-degree bend converges with the square of the element length") 
     }
 }
 
-TEST_CASE("the 45-degree bend of few elements of constant strain as an independent program has it") {
-  struct Case {
-    int elements;
-    Vector3 tip;
-  };
-  for (const Case& c : {Case{1, {17.8769, 53.3958, 44.4125}}, Case{2, {16.1198, 48.5237, 51.1607}},
-                        Case{4, {15.7906, 47.4790, 52.9053}}, Case{8, {15.7111, 47.2319, 53.3332}}}) {
-    CAPTURE(c.elements);
-    CHECK((Bend(c.elements, polar, "constant").tip(600, 50) - c.tip).cwiseAbs().maxCoeff() < 6e-5);  // four decimals
+TEST_CASE("the 45-degree bend of few elements of constant strain is where their energy is least") {
+  const bielle::test::ReferenceTable exact("bend_45_elements");
+  for (const int elements : {1, 2, 4, 8}) {
+    CAPTURE(elements);
+    const Vector3 tip = exact.vector(fmt::format("{}.tip", elements));
+    CHECK((Bend(elements, polar, "constant").tip(600, 50) - tip).cwiseAbs().maxCoeff() < 6e-5);
   }
 }
 
@@ -105,24 +92,18 @@ TEST_CASE("the load steps of a static analysis find the 45-degree bend, also fro
           polar + "}}\nloads: {p: {node: tip, force: [0, 0, 600]}}\n",
       "bend.yaml");
   const System system(file.model);
+  const Vector3 exact = bielle::test::ReferenceTable("bend_45").vector("polar.600");
   for (int steps : {1, 4, 12}) {
     State state = system.start(0);
     solve_statics(system, file.model.environment, steps, NewtonOptions{}, state);
-    CHECK((state.nodes[2].x - Vector3(15.684800534, 47.150438574, 53.474858792)).norm() < 1e-4);
+    CHECK((state.nodes[2].x - exact).norm() < 1e-4);
   }
 }
 
 TEST_CASE("the 45-degree bend at five times the usual load by the steps that the program chooses") {
   // P = 3000; the tip goes up by 68.5. References as above.
-  struct Case {
-    std::string section;
-    Vector3 exact;
-  };
-  for (const Case& c :
-       {Case{polar, {4.232875917, 23.024308225, 68.539089493}},
-        Case{"{EA: 1e7, GAy: 5e6*5/6, GAz: 5e6*5/6, GJ: 5e6/6, EIy: 1e7/12, EIz: 1e7/12}",
-             {4.232850791, 23.023589455, 68.540398996}},
-        Case{"{rectangle: [1, 1], young: 1e7, poisson: 0}", {4.213966855, 22.958001273, 68.524190791}}}) {
+  for (const auto& [name, section] : sections) {
+    const Vector3 exact = bielle::test::ReferenceTable("bend_45").vector(name + ".3000");
     std::vector<double> errors;
     for (const int elements : {8, 16, 32}) {
       const MechanismFile file = read_mechanism_text(
@@ -130,15 +111,15 @@ TEST_CASE("the 45-degree bend at five times the usual load by the steps that the
                       "'50*sqrt(2)', 0]}}}}\nelements: {{b: {{type: beam, nodes: [root, tip], arc_centre: [100, 0, 0], "
                       "elements: {}, section: {}}}}}\nloads: {{p: {{node: tip, force: [0, 0, 3000]}}}}\n"
                       "analysis: [{{type: static, steps: auto}}]\n",
-                      elements, c.section),
+                      elements, section),
           "bend.yaml");
       const System system(file.model);
       State state = system.start(0);
       const auto& analysis = dynamic_cast<const StaticAnalysis&>(*file.analyses.front());
       solve_statics(system, file.model.environment, analysis.options().steps, NewtonOptions{}, state);
-      errors.push_back((state.nodes[2].x - c.exact).norm());
+      errors.push_back((state.nodes[2].x - exact).norm());
     }
-    CAPTURE(c.section, errors);
+    CAPTURE(name, errors);
     CHECK(std::log2(errors[0] / errors[1]) > 1.9);
     CHECK(std::log2(errors[1] / errors[2]) > 1.9);
     CHECK(errors[2] < 1e-3);

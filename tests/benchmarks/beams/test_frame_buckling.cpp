@@ -2,11 +2,13 @@
 //
 // J. Argyris et al., Comput. Methods Appl. Mech. Eng. 17/18 (1979) 1: two legs of 240, section 30 x 0.6 in the plane, E
 // = 71240, nu = 0.31; published 1.088, 0.680 and 622.2 with GJ = G h b^3/3. References: critical loads of the
-// geometrically exact rod by shooting (1e-8), with the bending before buckling, for that constant and Saint-Venant's.
+// geometrically exact rod by shooting, with the bending before buckling, for that constant and Saint-Venant's
+// (tests/references/buckling.py).
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "tests/benchmarks/beams/critical_load.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/static_model.hpp"
 
 using bielle::test::check_load;
@@ -18,6 +20,9 @@ constexpr const char* saint_venant = "{rectangle: [0.6, 30], young: 71240, poiss
 constexpr const char* thin =
     "{EA: 71240*18, GAy: 71240*15/2.62, GAz: 71240*15/2.62, GJ: 71240*30*0.6^3/3/2.62, EIy: 71240*0.6*30^3/12, EIz: "
     "71240*30*0.6^3/12}";
+
+/// Name of a section in the table of references.
+std::string name_of(const char* section) { return section == thin ? "thin" : "saint_venant"; }
 
 std::string leg(const std::string& ends, int elements, const std::string& section) {
   return fmt::format("{{type: beam, nodes: {}, elements: {}, orientation: [0, 0, 1], section: {}}}\n", ends, elements,
@@ -51,23 +56,19 @@ double hinged_load(int elements, const std::string& section, int sign) {
 
 TEST_CASE("a cantilever right-angle frame buckles out of its plane") {
   // The load at the tip is parallel to the first leg: away from the clamp, and towards it.
-  const struct {
-    const char* section;
-    int direction;
-    double exact;
-  } cases[] = {{saint_venant, 1, 1.0840875933},
-               {saint_venant, -1, 0.6789283208},
-               {thin, 1, 1.0875178408},
-               {thin, -1, 0.6804273623}};
-  for (const auto& c : cases)
-    check_load(c.exact,
-               [&](int elements) { return cantilever_load(elements, c.section, 0, c.direction, 0.5, 0.05, 1e-8); });
+  const bielle::test::ReferenceTable exact("buckling");
+  for (const char* section : {saint_venant, thin})
+    for (const int direction : {1, -1})
+      check_load(exact(name_of(section) + (direction == 1 ? ".away" : ".towards")),
+                 [&](int elements) { return cantilever_load(elements, section, 0, direction, 0.5, 0.05, 1e-8); });
 }
 
 TEST_CASE("a cantilever right-angle frame under a load along its second leg") {
-  // References of four digits; the load acts towards the corner or away from it.
-  for (const auto& [direction, exact] : {std::pair{-1, 0.6508}, {1, 3.979}}) {
-    const auto load = [direction = direction](int elements) {
+  // The load acts towards the corner or away from it.
+  const bielle::test::ReferenceTable table("buckling");
+  for (const int direction : {-1, 1}) {
+    const double exact = table(direction == -1 ? "thin.second_towards" : "thin.second_away");
+    const auto load = [direction](int elements) {
       return cantilever_load(elements, thin, direction, 0, 0.3, 0.1, 1e-6);
     };
     CHECK_THAT((4 * load(16) - load(8)) / 3, Catch::WithinRel(exact, 2e-4));
@@ -75,7 +76,9 @@ TEST_CASE("a cantilever right-angle frame under a load along its second leg") {
 }
 
 TEST_CASE("a hinged right-angle frame buckles under end moments of either sign") {
-  for (const auto& [section, exact] : {std::pair{saint_venant, 618.2869}, {thin, 622.2217}})
+  const bielle::test::ReferenceTable exact("buckling");
+  for (const char* section : {saint_venant, thin})
     for (const int sign : {1, -1})
-      check_load(exact, [&, section = section](int elements) { return hinged_load(elements, section, sign); });
+      check_load(exact(name_of(section) + (sign == 1 ? ".opening" : ".closing")),
+                 [&](int elements) { return hinged_load(elements, section, sign); });
 }

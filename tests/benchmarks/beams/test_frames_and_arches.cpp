@@ -1,11 +1,12 @@
 // Lee's frame and a deep arch up to and past their limit points, and the bifurcation of a shallow arch.
 //
-// Paths and limit points by shooting in long double (1e-9), Reissner's rod with linear strains.
+// Paths and limit points by shooting, Reissner's rod with linear strains (tests/references/frames_and_arches.py).
 #include <cmath>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/support/reference_table.hpp"
 #include "tests/support/static_model.hpp"
 
 using namespace bielle::mechanism;
@@ -17,7 +18,20 @@ struct PathPoint {
   double P, u, v;  ///< load, displacements of its point: horizontal, down
 };
 
-/// Errors at the points of a path for three meshes: second order or better (fourth, if bending dominates).
+double path_value(const std::string& name) {
+  static const bielle::test::ReferenceTable table("frames_and_arches");
+  return table(name);
+}
+
+/// Three points of a path.
+std::vector<PathPoint> path_of(const std::string& model) {
+  std::vector<PathPoint> path;
+  for (const char* load : {".load_1", ".load_2", ".load_3"})
+    path.push_back({path_value(model + load + ".P"), path_value(model + load + ".u"), path_value(model + load + ".v")});
+  return path;
+}
+
+/// Errors at the points of a path for three meshes: second order or better (where bending rules, of fourth).
 template <class Model>
 void check_path(const Model& make, const std::vector<PathPoint>& path, const Vector3& start, double step,
                 double tolerance, double size) {
@@ -93,21 +107,13 @@ StaticModel deep_arch(int elements) {
 TEST_CASE("Lee's frame up to 94 percent of its limit load") {
   // S. Lee, F. Manuel, E. Rossow, J. Eng. Mech. Div. ASCE 94 (1968): column and beam of 120, A = 6, I = 2, E = 720, nu
   // = 0.3 (here GA = G A), both ends pinned, load 24 from the corner.
-  check_path(lees_frame,
-             {{0.604018511292, 0.487976747033, 4.861943800593},
-              {1.410408115941, 6.293514103106, 22.353842423787},
-              {1.738618841387, 15.415160093601, 37.419834807730}},
-             {24, 120, 0}, 0.1, 1e-9, 120);
+  check_path(lees_frame, path_of("lee"), {24, 120, 0}, 0.1, 1e-9, 120);
 }
 
 TEST_CASE("a deep arch of 215 degrees, clamped and hinged, up to 95 percent of its limit load") {
   // D. DaDeppo, R. Schmidt, J. Appl. Mech. 42 (1975) 923 (8.97 EI/R^2 when inextensible): R = 100, EI = 1e6, EA = 1e8,
   // GA = 5e7.
-  check_path(deep_arch,
-             {{129.2616799121, 3.7292321190, 4.9729923407},
-              {704.6534988680, 51.5213715637, 78.1250791701},
-              {855.9577692765, 58.5490094730, 103.8932073765}},
-             {0, 100, 0}, 50, 1e-4, 100);
+  check_path(deep_arch, path_of("deep"), {0, 100, 0}, 50, 1e-4, 100);
 }
 
 TEST_CASE("the limit loads of Lee's frame, before and after its snap") {
@@ -122,10 +128,10 @@ TEST_CASE("the limit loads of Lee's frame, before and after its snap") {
     frame.control("load", 0, 110, 60, 1e-9);
     second.push_back(extreme_load(frame, 0, 110, 116, 1e-9));
   }
-  check_order(first, 1.8546558740);
-  check_order(second, -0.9396142357);
-  CHECK_THAT(first.back(), Catch::WithinRel(1.8546558740, 1e-3));
-  CHECK_THAT(second.back(), Catch::WithinRel(-0.9396142357, 1e-2));
+  check_order(first, path_value("lee.first.P"));
+  check_order(second, path_value("lee.second.P"));
+  CHECK_THAT(first.back(), Catch::WithinRel(path_value("lee.first.P"), 1e-3));
+  CHECK_THAT(second.back(), Catch::WithinRel(path_value("lee.second.P"), 1e-2));
 }
 
 TEST_CASE("the limit load of the deep arch") {
@@ -137,8 +143,8 @@ TEST_CASE("the limit load of the deep arch") {
     arch.control("load", 0, 60, 120, 1e-4);
     loads.push_back(extreme_load(arch, 0, 60, 62, 1e-4));
   }
-  check_order(loads, 897.283320159);
-  CHECK_THAT(loads.back(), Catch::WithinRel(897.283320159, 1e-3));
+  check_order(loads, path_value("deep.first.P"));
+  CHECK_THAT(loads.back(), Catch::WithinRel(path_value("deep.first.P"), 1e-3));
 }
 
 TEST_CASE("von Mises' truss of two springs snaps through as its closed form") {
@@ -180,12 +186,13 @@ constexpr double without_shear = 1e9, with_shear = 5.0 / 6 * 1e6 / 2.6;
 }  // namespace
 
 TEST_CASE("a shallow arch bifurcates to its side before it snaps through") {
-  // 75.00 (to 0.02) at a deflection of 1.264 of the crown; with shear 74.90.
-  for (const auto& [GA, critical] : {std::pair(without_shear, 75.00), std::pair(with_shear, 74.90)}) {
+  for (const double GA : {without_shear, with_shear}) {
+    const std::string row = GA == without_shear ? "shallow.sideways." : "shallow_shear.sideways.";
+    const double critical = path_value(row + "P");
     StaticModel arch = shallow_arch(16, GA);
     CHECK(arch.load(10, 1e-6, 60) >= 0);
     CHECK_THAT(arch.critical_load(60, 2, 1e-6, 1e-4), Catch::WithinAbs(critical, 0.12));  // 16 elements a side: 1e-3
-    CHECK_THAT(5 - arch.node("load").x.y(), Catch::WithinAbs(1.264, 0.01));
+    CHECK_THAT(5 - arch.node("load").x.y(), Catch::WithinAbs(path_value(row + "v"), 0.01));
   }
 }
 
@@ -199,8 +206,8 @@ TEST_CASE("the limit load of a shallow arch that is kept symmetric") {
       (GA == without_shear ? upper : upper_with_shear).push_back(extreme_load(arch, 1, 5 - 2.5, 5 - 2.3, 1e-6));
     }
   }
-  check_order(upper, 85.507018218);
-  check_order(upper_with_shear, 85.327464798);
-  CHECK_THAT(upper.back(), Catch::WithinRel(85.507018218, 1e-5));
-  CHECK_THAT(upper_with_shear.back(), Catch::WithinRel(85.327464798, 1e-4));
+  check_order(upper, path_value("shallow.upper.P"));
+  check_order(upper_with_shear, path_value("shallow_shear.upper.P"));
+  CHECK_THAT(upper.back(), Catch::WithinRel(path_value("shallow.upper.P"), 1e-5));
+  CHECK_THAT(upper_with_shear.back(), Catch::WithinRel(path_value("shallow_shear.upper.P"), 1e-4));
 }

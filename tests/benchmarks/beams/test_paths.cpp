@@ -1,7 +1,7 @@
 // Snap-through of frames and arches along the whole path by the program's own arc length.
 //
-// References: Reissner's rod with linear strains by shooting in long double (extrapolated midpoint rule) with
-// pseudo-arclength continuation, to 1e-9. P is the load, u and v the displacements of its point along x and down.
+// References: Reissner's rod with linear strains by shooting along the path (tests/references/frames_and_arches.py). P
+// is the load, u and v the displacements of its point along x and down.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -11,6 +11,7 @@
 
 #include "mechanism/analyses/static_analysis.hpp"
 #include "mechanism/solvers/statics/arc_length.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
@@ -23,7 +24,14 @@ struct Point {
   double P, u, v;
 };
 
-/// Follows the path of a model whose first analysis defines the end. The node `load` carries a unit load.
+double number(const std::string& name) {
+  static const bielle::test::ReferenceTable table("frames_and_arches");
+  return table(name);
+}
+
+Point point_of(const std::string& name) { return {number(name + ".P"), number(name + ".u"), number(name + ".v")}; }
+
+/// Follows the path of a model whose first analysis says where it ends. The node `load` carries a unit load.
 struct Path {
   std::vector<Point> limits;
   Point end{};
@@ -100,12 +108,10 @@ TEST_CASE("Lee's frame: both limit points of the program's path, with full, redu
   const double GA = 4320 / 2.6, none = 1e7;
   struct Case {
     double GA;
-    Point first;
-    double second;
+    std::string name;
   };
-  for (const Case& c : {Case{GA, {1.8546558740, 26.8787013410, 48.7510586950}, -0.9396142357},
-                        Case{5.0 / 6 * GA, {1.8544527094, 26.8783276643, 48.7542403802}, -0.9392489640},
-                        Case{none, {1.8556727538, 26.8805737443, 48.7351372471}, -0.9414431556}}) {
+  for (const Case& c : {Case{GA, "lee"}, Case{5.0 / 6 * GA, "lee_reduced_shear"}, Case{none, "lee_without_shear"}}) {
+    const Point exact = point_of(c.name + ".first");
     std::vector<Point> first, second;
     for (const int elements : {5, 10, 20}) {
       const Path path(lees_frame(elements, c.GA, until("y", -65)));
@@ -114,31 +120,24 @@ TEST_CASE("Lee's frame: both limit points of the program's path, with full, redu
       second.push_back(path.limits[1]);
     }
     CAPTURE(c.GA);
-    check_order(each(first, &Point::P), c.first.P, 1e-4);
-    check_order(each(first, &Point::u), c.first.u, 1e-3);
-    check_order(each(first, &Point::v), c.first.v, 1e-3);
-    check_order(each(second, &Point::P), c.second, 1e-3);
+    check_order(each(first, &Point::P), exact.P, 1e-4);
+    check_order(each(first, &Point::u), exact.u, 1e-3);
+    check_order(each(first, &Point::v), exact.v, 1e-3);
+    check_order(each(second, &Point::P), number(c.name + ".second.P"), 1e-3);
   }
 }
 
 TEST_CASE("Lee's frame: points of the path before, between and past its limit points") {
-  struct Case {
-    std::string end;
-    Point exact;
-  };
   // u grows until 94.3 and turns back, v turns back twice before: each end is met where it is first reached.
-  const std::vector<Case> cases{{until("x", 6.293514103106), {1.410408115941, 6.293514103106, 22.353842423787}},
-                                {until("x", 73.653814113660), {0.616321200587, 73.653814113660, 58.319619361775}},
-                                {until("x", 82.508173957958), {-0.608095506325, 82.508173957958, 51.131444665269}},
-                                {until("y", -64.479705604899), {-0.863926834285, 93.265113962260, 64.479705604899}},
-                                {until("y", -90.549538712821), {0.860733595354, 86.652248582013, 90.549538712821}}};
-  for (const Case& c : cases) {
+  for (const int k : {1, 2, 3, 4, 5}) {
+    const Point exact = point_of(fmt::format("lee.end_{}", k));
+    const std::string until_end = k <= 3 ? until("x", exact.u) : until("y", -exact.v);
     std::vector<double> errors;
     for (const int elements : {5, 10, 20}) {  // from 40 on nothing but a small part of second order is left, 1e-6
-      const Point end = Path(lees_frame(elements, 4320 / 2.6, c.end)).end;
-      errors.push_back(std::hypot((end.P - c.exact.P), (end.u - c.exact.u) / 120, (end.v - c.exact.v) / 120));
+      const Point end = Path(lees_frame(elements, 4320 / 2.6, until_end)).end;
+      errors.push_back(std::hypot((end.P - exact.P), (end.u - exact.u) / 120, (end.v - exact.v) / 120));
     }
-    CAPTURE(c.end, errors);
+    CAPTURE(until_end, errors);
     CHECK(std::log2(errors[0] / errors[1]) > 1.9);
     CHECK(std::log2(errors[1] / errors[2]) > 1.9);
     CHECK(errors[2] < 1e-4);
@@ -155,18 +154,18 @@ TEST_CASE("a deep arch of 215 degrees, clamped and hinged: both limit points of 
     first.push_back(path.limits[0]);
     second.push_back(path.limits[1]);
   }
-  check_order(each(first, &Point::P), 897.283320159, 1e-4);
-  check_order(each(first, &Point::u), 61.1417390, 1e-4);
-  check_order(each(first, &Point::v), 113.7306619, 1e-4);
-  check_order(each(second, &Point::P), -73.0463771, 1e-3);
+  check_order(each(first, &Point::P), number("deep.first.P"), 1e-4);
+  check_order(each(first, &Point::u), number("deep.first.u"), 1e-4);
+  check_order(each(first, &Point::v), number("deep.first.v"), 1e-4);
+  check_order(each(second, &Point::P), number("deep.second.P"), 1e-3);
 }
 
 TEST_CASE("the deep arch past its first limit point") {
+  const Point exact = point_of("deep.end");
   std::vector<Point> ends;
-  for (const int elements : {10, 20, 40})
-    ends.push_back(Path(deep_arch(elements, 1e8, 5e7, until("x", 64.6131898710))).end);
-  check_order(each(ends, &Point::P), 709.0477632822, 1e-3);
-  check_order(each(ends, &Point::v), 120.0794509533, 1e-4);
+  for (const int elements : {10, 20, 40}) ends.push_back(Path(deep_arch(elements, 1e8, 5e7, until("x", exact.u))).end);
+  check_order(each(ends, &Point::P), exact.P, 1e-3);
+  check_order(each(ends, &Point::v), exact.v, 1e-4);
 }
 
 TEST_CASE("the limit load of the deep arch without extension and shear") {
@@ -174,7 +173,7 @@ TEST_CASE("the limit load of the deep arch without extension and shear") {
   std::vector<double> loads;
   for (const int elements : {10, 20, 40})
     loads.push_back(Path(deep_arch(elements, 1e10, 1e10, until("y", -116))).limits.front().P);
-  check_order(loads, 897.308996972, 1e-4);
+  check_order(loads, number("deep_stiff.first.P"), 1e-4);
 }
 
 TEST_CASE("a shallow arch: the path passes its bifurcation and both limit points") {
@@ -182,8 +181,8 @@ TEST_CASE("a shallow arch: the path passes its bifurcation and both limit points
   // bifurcates to its side at P = 75.00, where the path goes straight on; past the lower limit point it winds through
   // shapes of more waves.
   const double with_shear = 5.0 / 6 * 1e6 / 2.6, without_shear = 1e9;
-  for (const auto& [GA, exact] : {std::pair(without_shear, Point{85.507018218, 0, 2.414187377}),
-                                  std::pair(with_shear, Point{85.327464798, 0, 2.415148140})}) {
+  for (const double GA : {without_shear, with_shear}) {
+    const std::string name = GA == without_shear ? "shallow" : "shallow_shear";
     std::vector<Point> upper, lower;
     for (const int elements : {4, 8, 16}) {  // at 32 nothing but a part of second order is left, 2e-6
       const std::string section = fmt::format(
@@ -203,9 +202,9 @@ TEST_CASE("a shallow arch: the path passes its bifurcation and both limit points
       lower.push_back(path.limits[1]);
     }
     CAPTURE(GA);
-    check_order(each(upper, &Point::P), exact.P, 1e-3);
-    check_order(each(upper, &Point::v), exact.v, 1e-3);
-    if (GA == without_shear) check_order(each(lower, &Point::P), -226.2021, 1e-3);
+    check_order(each(upper, &Point::P), number(name + ".upper.P"), 1e-3);
+    check_order(each(upper, &Point::v), number(name + ".upper.v"), 1e-3);
+    if (GA == without_shear) check_order(each(lower, &Point::P), number(name + ".lower.P"), 1e-3);
   }
 }
 

@@ -2,12 +2,13 @@
 //
 // J. Simo, L. Vu-Quoc, J. Appl. Mech. 53 (1986) 855; S.-C. Wu, E. Haug, IJNME 26 (1988) 2211. The root turns by psi =
 // Om/Ts [t^2/2 + (Ts/2pi)^2 (cos(2 pi t/Ts) - 1)] up to Ts = 15 s, then at Om. References: geometrically exact rod by
-// spectral elements and Runge-Kutta on two meshes (1e-7); steady extension tan(kL)/k - L, k^2 = m Om^2/EA.
+// a spectral element (tests/references/spin_up.py); steady extension tan(kL)/k - L, k^2 = m Om^2/EA.
 #include <cmath>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/support/reference_table.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
@@ -58,20 +59,22 @@ Record spin_up(const Arm& arm, double h, double end) {
 TEST_CASE("an arm that is spun up deflects as the geometrically exact rod (Simo and Vu-Quoc)") {
   const Arm arm{10, 2.8e7, 1e7, 1.4e4, 1.2, 6e-4, 6};
   const Record coarse = spin_up(arm, 0.01, 10.1), fine = spin_up(arm, 0.005, 20);
-  CHECK_THAT(fine.least, Catch::WithinRel(-0.573834760, 3e-4));
-  CHECK_THAT(fine.time_of_least, Catch::WithinAbs(6.762, 0.006));
+  const ReferenceTable exact("spin_up");
+  CHECK_THAT(fine.least, Catch::WithinRel(exact("simo_vu_quoc.least"), 3e-4));
+  CHECK_THAT(fine.time_of_least, Catch::WithinAbs(exact("simo_vu_quoc.time"), 0.006));
   // Second order in the step: its extrapolation leaves the error of the elements, 1e-5.
-  CHECK_THAT((4 * fine.at_5 - coarse.at_5) / 3, Catch::WithinRel(-0.4684761834, 3e-5));
-  CHECK_THAT((4 * fine.at_10 - coarse.at_10) / 3, Catch::WithinRel(-0.3628145, 3e-5));
-  CHECK_THAT(fine.last_largest, Catch::WithinRel(3.650e-3, 5e-2));
-  CHECK_THAT(fine.extension, Catch::WithinRel(5.143174550426e-4, 1e-2));
+  CHECK_THAT((4 * fine.at_5 - coarse.at_5) / 3, Catch::WithinRel(exact("simo_vu_quoc.at_5"), 3e-5));
+  CHECK_THAT((4 * fine.at_10 - coarse.at_10) / 3, Catch::WithinRel(exact("simo_vu_quoc.at_10"), 3e-5));
+  CHECK_THAT(fine.last_largest, Catch::WithinRel(exact("simo_vu_quoc.swing"), 5e-2));
+  CHECK_THAT(fine.extension, Catch::WithinRel(exact("simo_vu_quoc.extension"), 1e-2));
 }
 
 TEST_CASE("an arm that is spun up beyond its first frequency at rest (Wu and Haug)") {
   const Arm arm{8, 5.03132e6, 2e6, 566.7, 0.201878, 566.7 / 5.03132e6 * 0.201878, 4};
   const Record record = spin_up(arm, 0.005, 20);
-  CHECK_THAT(record.least, Catch::WithinRel(-0.533610428, 1e-3));
-  CHECK_THAT(record.time_of_least, Catch::WithinAbs(6.765, 0.006));
-  CHECK_THAT(record.last_largest, Catch::WithinRel(8.311e-3, 5e-2));
-  CHECK_THAT(record.extension, Catch::WithinRel(1.095686523e-4, 1e-2));
+  const ReferenceTable exact("spin_up");
+  CHECK_THAT(record.least, Catch::WithinRel(exact("wu_haug.least"), 1e-3));
+  CHECK_THAT(record.time_of_least, Catch::WithinAbs(exact("wu_haug.time"), 0.006));
+  CHECK_THAT(record.last_largest, Catch::WithinRel(exact("wu_haug.swing"), 5e-2));
+  CHECK_THAT(record.extension, Catch::WithinRel(exact("wu_haug.extension"), 1e-2));
 }

@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "mechanism/laws/friction_law.hpp"
 #include "tests/benchmarks/contacts/contact_runs.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/finite_difference.hpp"
@@ -57,19 +56,15 @@ TEST_CASE("what slides, stops and sticks follows the law's differential equation
   const std::string law =
       "friction: {model: lugre, coefficient: 0.3, static: 0.45, stribeck_velocity: 0.05, viscous: "
       "0.02, bristle_stiffness: 2e3, bristle_damping: 20}";
-  FrictionLaw friction;
-  friction.model = FrictionLaw::Model::lugre;
-  friction.kinetic = 0.3;
-  friction.sticking = 0.45;
-  friction.stribeck_velocity = 0.05;
-  friction.viscous = 0.02;
-  friction.bristle_stiffness = 2e3;
-  friction.bristle_damping = 20;
+  // C. Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419: zdot = v - sigma_0 |v| z/mu(|v|), R =
+  // sigma_0 z + sigma_1 zdot + sigma_2 v per unit of the normal force, mu = mu_k + (mu_s - mu_k) exp(-(v/v_s)^2). The
+  // manual lets sigma_1 fall as sigma_1/sqrt(1 + (sigma_1 v/(4 mu_k))^2).
   const auto rate = [&](const Eigen::Vector3d& y) -> Eigen::Vector3d {  // x, v, z
-    const double s = std::abs(y[1]), u = y[1] - friction.bristle_stiffness * s * y[2] / friction.level(s).mu;
-    const double R =
-        friction.bristle_stiffness * y[2] + friction.bristle_damping_at(s).mu * u + friction.viscous * y[1];
-    return {y[1], along - down * R, u};
+    constexpr double sigma_0 = 2e3, sigma_1 = 20, sigma_2 = 0.02, mu_k = 0.3, mu_s = 0.45, v_s = 0.05;
+    const double v = y[1], mu = mu_k + (mu_s - mu_k) * std::exp(-v * v / (v_s * v_s));
+    const double zdot = v - sigma_0 * std::abs(v) * y[2] / mu;
+    const double damping = sigma_1 / std::hypot(1, sigma_1 * v / (4 * mu_k));
+    return {v, along - down * (sigma_0 * y[2] + damping * zdot + sigma_2 * v), zdot};
   };
   double errors[2] = {0, 0};
   for (const int fine : {0, 1}) {

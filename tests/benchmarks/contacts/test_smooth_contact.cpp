@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "mechanism/laws/friction_law.hpp"
 #include "tests/benchmarks/contacts/contact_runs.hpp"
 #include "tests/support/runge_kutta.hpp"
 
@@ -43,9 +42,6 @@ TEST_CASE("Painleve's rod runs through with compliant contact, as its own equati
   constexpr double mu = 2, half = 0.5, r = 0.01, k = 1e7, d = 0.05, v_0 = 0.01, g = 9.81, J = 1. / 12;
   const double a = std::atan(2.0);
   REQUIRE(1 + 3 * std::cos(a) * (std::cos(a) - mu * std::sin(a)) < 0);
-  FrictionLaw friction;
-  friction.kinetic = friction.sticking = mu;
-  friction.velocity = v_0;
   // x, z, angle of the rod's direction upwards from the end about -y, and their rates. The end e = middle - half (cos,
   // sin), a ball of radius r.
   using Six = Eigen::Matrix<double, 6, 1>;
@@ -56,7 +52,7 @@ TEST_CASE("Painleve's rod runs through with compliant contact, as its own equati
     const double arm_z = -half * s - r + 0.5 * p, arm_x = -half * c;  // place of contact from the middle
     const double vx = z[3] - z[5] * arm_z, vz = z[4] + z[5] * arm_x;
     const double N = k * std::pow(p, 1.5) * std::max(0.0, 1 - d * vz);
-    return {-N * friction.sliding(std::abs(vx)).h * vx, N, p};
+    return {-N * mu * std::tanh(vx / v_0), N, p};
   };
   const auto rate = [&](const Six& z) {
     const auto [F, N, p] = force(z);

@@ -3,5 +3,5 @@
 #include "tests/benchmarks/four_bar/loops.hpp"
 
 TEST_CASE("forty loops of four-bars pass the positions with all bars in one line, and stay parallelograms") {
-  bielle::four_bar::check_loops(40, {0.180512226684, 0.983572740583}, 620.3383);
+  bielle::four_bar::check_loops(40);
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "tests/benchmarks/joints/moved.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using bielle::mechanism::Session;
@@ -91,7 +92,7 @@ TEST_CASE("without gravity a bead slows down by the angle through which its wire
 
 // The equation of motion along the wire, m (|c'| u'' + t . c'' u'^2 - g . t) = -N mu tanh(v/v_0),
 // N = m |(I - t t^T)(c'' u'^2 - g)|, c the cubic spline through the points with periodic ends by chord length, solved
-// by DOP853 with relative tolerance 1e-13 in steps of at most 2e-4 s (scipy 1.10): arc and rate at 1.5 s.
+// by tests/references/bead_on_wire.py: arc, rate and normal force at 1.5 s.
 TEST_CASE("a bead on a curve in space follows its equation of motion") {
   const bielle::test::TemporaryFolder folder;
   const std::string wire = folder / "wire.csv";
@@ -102,7 +103,8 @@ TEST_CASE("a bead on a curve in space follows its equation of motion") {
     file << fmt::format("{:.17g},{:.17g},{:.17g}\n", std::cos(a), 0.3 * std::sin(2 * a), 0.8 * std::sin(a));
   }
   file.close();
-  constexpr double arc = 5.839611510189, rate = 1.851030634438, N = 17.434935327968;
+  const bielle::test::ReferenceTable exact("bead_on_wire");
+  const double arc = exact("arc"), rate = exact("rate"), N = exact("normal_force");
   const auto error_of = [&](double h) {
     double error = 0;
     move_to(

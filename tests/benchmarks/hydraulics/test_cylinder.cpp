@@ -1,12 +1,13 @@
 // A cylinder and a mass against independent solutions of the textbook equations
 //     m vdot = A_1 p_1 - A_2 p_2 - c v - F,   V_k pdot_k = B (Q_k -+ A_k v),   Q = C_d A sqrt(2 |D|/rho) sign(D)
-// by scipy's Radau (1e-11) and DOP853 (1e-12), which agree to 1e-12: B = 1.4e9 Pa, rho = 850 kg/m^3, C_d = 0.62,
-// m = 500 kg, pressures relative to the atmosphere.
+// (tests/references/hydraulic_cylinder.py): B = 1.4e9 Pa, rho = 850 kg/m^3, C_d = 0.62, m = 500 kg, pressures relative
+// to the atmosphere.
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "tests/benchmarks/hydraulics/hydraulic_runs.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/second_order.hpp"
 
 using namespace bielle::mechanism;
@@ -16,6 +17,13 @@ namespace test_cylinder {
 namespace {
 
 constexpr double m = 500, g = 9.81;
+
+std::vector<double> numbers(const std::string& row, const std::vector<std::string>& names) {
+  const ReferenceTable table("hydraulic_cylinder");
+  std::vector<double> values;
+  for (const std::string& name : names) values.push_back(table(row + "." + name));
+  return values;
+}
 
 /// The mass along z above the ground. @param actuator  further keys
 std::string lift(const std::string& actuator, const std::string& node = "", double gravity = 0) {
@@ -49,7 +57,7 @@ const std::vector<std::string> quantities = {"elements/jack/length", "elements/j
 }  // namespace
 
 TEST_CASE("a single-acting cylinder lifts a mass as its equations say") {
-  const std::vector<double> exact = {1 + .012698553260, .147797457195, 1890390.086};  // t = 0.1
+  const std::vector<double> exact = numbers("lifted_0.1", {"length", "rate", "pressure"});
   check_second_order(
       [&](double h) {
         const std::vector<double> found = at_end(single_acting, {.h = h, .end = 0.1}, quantities);
@@ -61,15 +69,16 @@ TEST_CASE("a single-acting cylinder lifts a mass as its equations say") {
 TEST_CASE("a single-acting cylinder comes to the speed of the orifice formula") {
   // A v = K sqrt(p_s - (m g + c v)/A)
   const std::vector<double> found = at_end(single_acting, {.h = 2e-3, .end = 2}, quantities);
-  CHECK(found[0] == Approx(1.256961663454).epsilon(2e-5));
-  CHECK(found[1] == Approx(.128672205988).epsilon(1e-8));
-  CHECK(found[2] == Approx(2581172.206).epsilon(1e-7));
+  const std::vector<double> exact = numbers("lifted_2", {"length", "rate", "pressure"});
+  CHECK(found[0] == Approx(exact[0]).epsilon(2e-5));
+  CHECK(found[1] == Approx(exact[1]).epsilon(1e-8));
+  CHECK(found[2] == Approx(exact[2]).epsilon(1e-7));
 }
 
 TEST_CASE("a double-acting cylinder answers its opening valve as its equations say") {
   // t = 0.1; the ramp of the command ends at a step. The edges of the valve open smoothly over a thousandth of their
-  // opening (lines/spool_valve.hpp), which delays the flow by 0.1e-6 of the ramp's time.
-  const std::vector<double> exact = {1 + .0294966731304, .280457879467, 3282417.615, 6697483.573};
+  // opening (lines/spool_valve.hpp).
+  const std::vector<double> exact = numbers("opened_0.1", {"length", "rate", "pressure_1", "pressure_2"});
   check_second_order(
       [&](double h) {
         const std::vector<double> found = at_end(valve_opens, {.h = h, .end = 0.1}, quantities);
@@ -81,16 +90,16 @@ TEST_CASE("a double-acting cylinder answers its opening valve as its equations s
 
 TEST_CASE("a double-acting cylinder moves steadily at the speed of its valve and leakage") {
   const std::vector<double> found = at_end(valve_opens, {.h = 1e-3, .end = 1}, quantities);
-  CHECK(found[0] == Approx(1.3095477330726).epsilon(1e-5));
-  CHECK(found[1] == Approx(.311514918002).epsilon(1e-7));
-  CHECK(found[2] == Approx(3957136.373).epsilon(1e-6));
-  CHECK(found[3] == Approx(6205833.641).epsilon(1e-6));
+  const std::vector<double> exact = numbers("opened_1", {"length", "rate", "pressure_1", "pressure_2"});
+  CHECK(found[0] == Approx(exact[0]).epsilon(1e-5));
+  CHECK(found[1] == Approx(exact[1]).epsilon(1e-7));
+  CHECK(found[2] == Approx(exact[2]).epsilon(1e-6));
+  CHECK(found[3] == Approx(exact[3]).epsilon(1e-6));
 }
 
 TEST_CASE("a moving mass is stopped by its closing valve: peak and swing") {
   // The valve opens within 10 ms and closes from 0.2 to 0.26 s against a tank of 5 MPa, below which p_1 stays positive.
-  // By scipy's DOP853 (1e-12) and Radau (1e-10) of the same equations, edges of the valve and laminar flow below 10 kPa
-  // included; they agree to 1e-11. Peak of p_2 after 0.2 s, then length, rate and pressures at 0.3 s.
+  // Peak of p_2 after 0.2 s, then length, rate and pressures at 0.3 s.
   const std::string stopped =
       lift(double_acting_cylinder +
            ", pressures: [6e6, 10e6], leakage: 1e-12, friction: {viscous: 1500}, supply: {pressure: 21e6, tank: 5e6}, "
@@ -98,7 +107,8 @@ TEST_CASE("a moving mass is stopped by its closing valve: peak and swing") {
            "{coefficient: 0.62, density: 850, area: 5e-6, command: \"step(t, 0, 0.01) - step(t, 0.2, 0.26)\", "
            "transition_pressure: 1e4}");
   Eigen::VectorXd exact(5);
-  exact << 12151105.026012, 1.0654665995999, -0.039599045554, 4593076.60084, 11083057.86485;
+  const std::vector<double> end = numbers("stopped_0.3", {"length", "rate", "pressure_1", "pressure_2"});
+  exact << numbers("stopped", {"peak"})[0], end[0], end[1], end[2], end[3];
   check_second_order(
       [&](double h) {
         double peak = 0;
@@ -116,9 +126,10 @@ TEST_CASE("a moving mass is stopped by its closing valve: peak and swing") {
 }
 
 TEST_CASE("trapped oil is a spring: period and turning points of a blocked cylinder") {
-  // p = p_0 - B ln(V/V_0) gives a potential, hence the turning points; the period is computed by DOP853.
+  // p = p_0 - B ln(V/V_0) gives a potential, hence the turning points and, by quadrature, the period.
   const std::string blocked = lift(double_acting_cylinder + ", pressures: [6e6, 10e6]", ", velocity: [0, 0, 0.1]");
-  constexpr double period = .049304523, h = period / 800;
+  const std::vector<double> exact = numbers("blocked", {"period", "highest", "lowest"});
+  const double period = exact[0], h = period / 800;
   double highest = -1, lowest = 1, before = 0, time_before = 0;
   std::vector<double> turns;
   run_hydraulics(blocked, {.h = h, .end = 2.2 * period, .rho = 1}, [&](const Session& session) {
@@ -131,8 +142,8 @@ TEST_CASE("trapped oil is a spring: period and turning points of a blocked cylin
   });
   REQUIRE(turns.size() >= 4);
   CHECK(turns[2] - turns[0] == Approx(period).epsilon(3e-5));
-  CHECK(highest == Approx(7.8479969463e-4).epsilon(3e-5));
-  CHECK(lowest == Approx(-7.8461213445e-4).epsilon(3e-5));
+  CHECK(highest == Approx(exact[1]).epsilon(3e-5));
+  CHECK(lowest == Approx(exact[2]).epsilon(3e-5));
 }
 
 TEST_CASE("a rigid volume fills through an orifice and through a laminar line by closed forms") {

@@ -3,13 +3,14 @@
 // Closed form of the universal joint (bend b, theta_1 = 0 where the arm on the first shaft lies in the plane of both):
 //     tan(theta_2) = tan(theta_1)/cos(b),   omega_2/omega_1 = cos(b)/(1 - sin(b)^2 cos(theta_1)^2)
 // (H. C. Seherr-Thoss et al., Universal Joints and Driveshafts, 2nd ed., 2006, section 1.2). The free motion of two
-// flywheels follows from the energy J_1 omega_1^2 + J_2 omega_2^2; its numbers were integrated by DOP853 to 1e-13.
+// flywheels follows from the energy J_1 omega_1^2 + J_2 omega_2^2 (tests/references/universal_joint.py).
 #include <cmath>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "tests/benchmarks/joints/moved.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/second_order.hpp"
 
 using bielle::mechanism::Session;
@@ -56,11 +57,13 @@ TEST_CASE("a driven universal joint has the fluctuation of its closed form, and 
 }
 
 TEST_CASE("two flywheels on a universal joint move as their energy says, with order two") {
-  const auto error = [](double h) {
+  const bielle::test::ReferenceTable exact("universal_joint");
+  const auto error = [&](double h) {
     Eigen::VectorXd left(3);
     move_to(cardan(""), h, 2, [&](const Session& session) {
-      left << session.read("joints/in/coordinate")[0] - 22.076650874262,
-          session.read("joints/in/rate")[0] - 10.017662048260, session.read("joints/out/rate")[0] - 11.539348199824;
+      left << session.read("joints/in/coordinate")[0] - exact("angle"),
+          session.read("joints/in/rate")[0] - exact("first_rate"),
+          session.read("joints/out/rate")[0] - exact("second_rate");
     });
     return left;
   };

@@ -1,12 +1,13 @@
 // A rigid slider-crank against closed forms: crank r = 0.15 m, rod l = 0.30 m, data of the IVP test set's problem
 // "crank" (B. Simeon): crank inertia 0.002727 kg m^2 about its pivot, rod 0.151104 kg (uniform, thin), slider 0.075552
-// kg. Kinematics: x = r cos a + sqrt(l^2 - r^2 sin^2 a). Torque at constant speed and free motion: minimal-coordinate
-// equation of motion, DOP853 with rtol 1e-13.
+// kg. Kinematics: x = r cos a + sqrt(l^2 - r^2 sin^2 a). Torque at constant speed and free motions: Newton and Euler's
+// equations of the three bodies (tests/references/slider_crank.py).
 #include <cmath>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/support/reference_table.hpp"
 #include "tests/support/run_model.hpp"
 #include "tests/support/second_order.hpp"
 
@@ -60,16 +61,18 @@ TEST_CASE("the drive's torque of a rigid slider-crank at constant speed is the i
     if (step == 200) torque_30 = -state.multiplier.tail<1>()[0];
     if (step == 600) torque_90 = -state.multiplier.tail<1>()[0];
   });
+  const bielle::test::ReferenceTable exact("slider_crank");
   // Second order in h: with 2400 steps a turn the error is some 1e-5 of the torque.
-  CHECK(torque_30 == Approx(68.3697144422).epsilon(1e-4));
-  CHECK(torque_90 == Approx(-44.1652171320).epsilon(1e-4));
+  CHECK(torque_30 == Approx(exact("torque_30")).epsilon(1e-4));
+  CHECK(torque_90 == Approx(exact("torque_90")).epsilon(1e-4));
 }
 
 TEST_CASE("a free rigid slider-crank keeps its phase: second order against the reduced equation of motion") {
   const ReadyModel model(slider_crank(""));
+  const double exact = bielle::test::ReferenceTable("slider_crank")("free.slider");
   const auto error = [&](double h) {
     const State state = integrate(model, Scheme::generalized_alpha(0.9), h, 0.1);
-    return model.node(state, "slider").x.x() - 0.431069774119;
+    return model.node(state, "slider").x.x() - exact;
   };
   const double coarse = error(2e-4), fine = error(1e-4), finest = error(5e-5);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.1));
@@ -105,6 +108,7 @@ drives: {{motor: {{joint: main, torque: 0.05}}}}
                                        fmt::arg("pin", list(pin)), fmt::arg("rod", list(0.5 * (pin + wrist))),
                                        fmt::arg("tilt", -b), fmt::arg("wrist", list(wrist)));
   const ReadyModel model(text);
+  const bielle::test::ReferenceTable exact("slider_crank");
   const auto error = [&](double h) -> VectorX {
     VectorX e = VectorX::Zero(5);
     int row = 0;
@@ -112,11 +116,11 @@ drives: {{motor: {{joint: main, torque: 0.05}}}}
       const NodeState& crank = model.node(state, "crank");
       const double angle = std::atan2(crank.R(1, 0), crank.R(0, 0));
       if (std::abs(state.time - 1) < h / 2) {
-        e.head<2>() << angle - 0.72275608206, (crank.Omega.z() - 2.0063149165) / 10;
+        e.head<2>() << angle - exact("swinging.angle_1"), (crank.Omega.z() - exact("swinging.rate_1")) / 10;
         ++row;
       } else if (std::abs(state.time - 2) < h / 2) {
-        e.tail<3>() << angle - 0.50876765675, (crank.Omega.z() - 4.9324494175) / 10,
-            model.node(state, "slider").x.x() - 0.421968268785;
+        e.tail<3>() << angle - exact("swinging.angle_2"), (crank.Omega.z() - exact("swinging.rate_2")) / 10,
+            model.node(state, "slider").x.x() - exact("swinging.slider_2");
         ++row;
       }
     });

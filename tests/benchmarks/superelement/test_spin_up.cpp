@@ -3,16 +3,16 @@
 // J. C. Simo, L. Vu-Quoc, On the dynamics of flexible beams under large overall motions - the plane case: Part II,
 // J. Appl. Mech. 53 (1986) 855: EA = 2.8e7, EI = 1.4e4, mass per length 1.2, length 10; the root turns by
 // psi = Om/Ts [t^2/2 + (Ts/2pi)^2 (cos(2 pi t/Ts) - 1)] up to Ts = 15 s, Om = 6 rad/s, then at Om.
-// References: the tip's deflection u2 behind the line of the root, geometrically exact rod by Runge-Kutta on two
-// meshes: least value -0.573834760 at t = 6.762, u2(5) = -0.4684761834, u2(10) = -0.3628145; linear beam with the
-// centrifugal tension of the rotating root: -0.574378 at 6.762. Likewise for the arm of S. Wu, E. Haug, IJNME 26 (1988)
-// 2211: length 8, EA = 5.03132e6, EI = 566.7, mass per length 0.201878, Om = 4 rad/s, more than its first frequency at
-// rest: linear beam with tension -0.534393, geometrically exact rod -0.533610428 at 6.765.
+// References: the tip's deflection u2 behind the line of the root, by the geometrically exact rod
+// (tests/references/spin_up.py); its least value by the linear beam with the centrifugal tension of the rotating root.
+// Likewise for the arm of S. Wu, E. Haug, IJNME 26 (1988) 2211: length 8, EA = 5.03132e6, EI = 566.7, mass
+// per length 0.201878, Om = 4 rad/s, more than its first frequency at rest.
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "tests/support/beam_superelement.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/run_model.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -62,16 +62,18 @@ TEST_CASE("an arm that is spun up deflects as the rod with centrifugal tension")
   const SpinUp run(simo_vu_quoc, true, 10.5);
   // One linear body with the tension of its spin and of its root's reaction is the linear beam with tension: from it
   // differ the six modes and the step; the geometrically exact rod is 1e-3 away.
-  CHECK_THAT(run.least, Catch::WithinRel(-0.574378, 2e-3));
-  CHECK_THAT(run.time_of_least, Catch::WithinAbs(6.762, 0.011));
-  CHECK_THAT(run.at_5, Catch::WithinRel(-0.4684761834, 3e-3));
-  CHECK_THAT(run.at_10, Catch::WithinRel(-0.3628145, 3e-3));
+  const ReferenceTable exact("spin_up");
+  CHECK_THAT(run.least, Catch::WithinRel(exact("simo_vu_quoc.linear_least"), 2e-3));
+  CHECK_THAT(run.time_of_least, Catch::WithinAbs(exact("simo_vu_quoc.time"), 0.011));
+  CHECK_THAT(run.at_5, Catch::WithinRel(exact("simo_vu_quoc.at_5"), 3e-3));
+  CHECK_THAT(run.at_10, Catch::WithinRel(exact("simo_vu_quoc.at_10"), 3e-3));
 }
 
 TEST_CASE("an arm that is spun up beyond its first frequency at rest is held by the tension of its spin") {
   const SpinUp run(wu_haug, true, 10.5);
-  CHECK_THAT(run.least, Catch::WithinRel(-0.534393, 3e-3));
-  CHECK_THAT(run.time_of_least, Catch::WithinAbs(6.765, 0.011));
+  const ReferenceTable exact("spin_up");
+  CHECK_THAT(run.least, Catch::WithinRel(exact("wu_haug.linear_least"), 3e-3));
+  CHECK_THAT(run.time_of_least, Catch::WithinAbs(exact("wu_haug.time"), 0.011));
 }
 
 TEST_CASE("without the tension of spin the arm bends too far") {

@@ -1,10 +1,12 @@
 // Craig and Bampton's method on a beam: relative frequency errors against the number of fixed-boundary modes.
 //
 // Reference: the same method on an Euler-Bernoulli beam with its four boundary freedoms and exact clamped-clamped
-// modes, in closed form (integrals of the modes with Hermite's polynomials). A slender solid beam must show the same
+// modes (tests/references/fixed_boundary_modes.py). A slender solid beam must show the same
 // errors against its own full model, but for shear and the mesh, which lower the errors of the higher modes: by up to
 // 20 % with 32 bricks along the beam, 4.5 % with 64, hence 3 % are allowed with 96.
+#include <map>
 #include <numbers>
+#include <string>
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
@@ -12,6 +14,7 @@
 #include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/reduce_body.hpp"
 #include "tests/support/box_mesh.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/solid_model.hpp"
 
 using namespace bielle;
@@ -72,26 +75,23 @@ Eigen::VectorXd nearest(const Eigen::VectorXd& all, const std::vector<double>& g
   return result;
 }
 
-struct Row {
-  int modes;
-  std::vector<double> errors;
-};
-
 void check_table(const Superelement& body, const std::vector<int>& boundary, int rigid, const Eigen::VectorXd& full,
-                 const std::vector<Row>& table) {
+                 const std::string& ends, const std::map<int, int>& counts) {
+  const test::ReferenceTable table("fixed_boundary_modes");
   const std::vector<int> modes = bending_modes(body);
-  for (const Row& row : table) {
-    REQUIRE(static_cast<int>(modes.size()) >= row.modes);
+  for (const auto& [kept, count] : counts) {
+    REQUIRE(static_cast<int>(modes.size()) >= kept);
     std::vector<int> coordinates = boundary;
-    coordinates.insert(coordinates.end(), modes.begin(), modes.begin() + row.modes);
+    coordinates.insert(coordinates.end(), modes.begin(), modes.begin() + kept);
     const Eigen::VectorXd found = restricted(body, coordinates, rigid);
-    for (std::size_t k = 0; k < row.errors.size(); ++k) {
-      const double error = found(static_cast<Eigen::Index>(k)) / full(static_cast<Eigen::Index>(k)) - 1;
-      INFO(row.modes << " modes, frequency " << k + 1 << ": error " << error << ", in closed form " << row.errors[k]);
-      // The full model bends in three dimensions: effects outside the strip's plane (its twist by an unsymmetric mesh)
-      // are below 1e-6.
+    for (int k = 0; k < count; ++k) {
+      const double error = found(k) / full(k) - 1;
+      const double exact = table(ends + "." + std::to_string(kept) + ".error_" + std::to_string(k + 1));
+      INFO(kept << " modes, frequency " << k + 1 << ": error " << error << ", in closed form " << exact);
+      // The full model bends in three dimensions: what the strip's plane leaves out (its twist by an unsymmetric mesh)
+      // comes to less than 1e-6.
       CHECK(error > -1e-9);
-      CHECK(error == Approx(row.errors[k]).epsilon(0.03).margin(1e-6));
+      CHECK(error == Approx(exact).epsilon(0.03).margin(1e-6));
     }
   }
 }
@@ -101,28 +101,20 @@ void check_table(const Superelement& body, const std::vector<int>& boundary, int
 TEST_CASE("Free-free and cantilever frequencies of a reduced beam err as in closed form") {
   const double first = std::sqrt(210e9 * 0.005 * 0.005 / 12 / 7800) / (2 * std::numbers::pi);
   const auto hertz = [&](double beta) { return beta * beta * first; };
+  const test::ReferenceTable exact("fixed_boundary_modes");
   const test::SolidModel free_strip(test::box_mesh(strip), steel);
   const Eigen::VectorXd free_full =
-      nearest(free_strip.frequencies(14),
-              {hertz(4.7300407448627), hertz(7.8532046240958), hertz(10.995607838002), hertz(14.137165491257)});
-  check_table(reduced_strip(Tie::average, 20), {2, 4, 8, 10}, 2, free_full,
-              {{0, {0.19932, 0.48609}},
-               {1, {0.0036003, 0.48609, 0.685}},
-               {2, {0.0036003, 0.0043887, 0.685}},
-               {4, {4.106e-4, 9.1916e-4, 0.0042744, 0.0038915}},
-               {6, {8.6408e-5, 2.6485e-4, 0.0012948, 0.0015077}},
-               {8, {2.5953e-5, 9.6069e-5, 4.6535e-4, 6.3785e-4}}});
+      nearest(free_strip.frequencies(14), {hertz(exact("free.root_1")), hertz(exact("free.root_2")),
+                                           hertz(exact("free.root_3")), hertz(exact("free.root_4"))});
+  check_table(reduced_strip(Tie::average, 20), {2, 4, 8, 10}, 2, free_full, "free",
+              {{0, 2}, {1, 3}, {2, 3}, {4, 4}, {6, 4}, {8, 4}});
 
   const test::SolidModel cantilever(test::box_mesh(strip), steel,
                                     [](const Eigen::Vector3d& x, int) { return x.x() < 1e-9; });
   const Eigen::VectorXd held_full =
-      nearest(cantilever.frequencies(8), {hertz(1.875104068712), hertz(4.6940911329742), hertz(7.8547574382376)});
-  check_table(reduced_strip(Tie::rigid, 20), {8, 10}, 0, held_full,
-              {{0, {0.0047543, 0.57965}},
-               {1, {3.4702e-4, 0.0041748, 0.897}},
-               {2, {5.8376e-5, 0.001091, 0.0036978}},
-               {4, {5.4086e-6, 1.4007e-4, 7.0981e-4}},
-               {6, {1.0739e-6, 3.1656e-5, 1.8566e-4}}});
+      nearest(cantilever.frequencies(8),
+              {hertz(exact("held.root_1")), hertz(exact("held.root_2")), hertz(exact("held.root_3"))});
+  check_table(reduced_strip(Tie::rigid, 20), {8, 10}, 0, held_full, "held", {{0, 2}, {1, 3}, {2, 3}, {4, 3}, {6, 3}});
 }
 
 TEST_CASE("Frequencies of a thick cantilever and of the free beam agree with Timoshenko's theory") {
@@ -138,11 +130,12 @@ TEST_CASE("Frequencies of a thick cantilever and of the free beam agree with Tim
   Progress quiet(true);
   const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {24, 3, 3}});
   const Superelement held = reduce_body(mesh, options, quiet, 2);
-  for (const auto& [mode, exact] : {std::pair{0, 83.15962533}, {1, 83.15962533}, {2, 498.40434217}}) {
-    CHECK(held.frequencies(mode) > exact);
-    CHECK(held.frequencies(mode) < 1.008 * exact);
+  const test::ReferenceTable exact("timoshenko_beam");
+  for (const auto& [mode, name] : {std::pair{0, "thick.clamped_1"}, {1, "thick.clamped_1"}, {2, "thick.clamped_2"}}) {
+    CHECK(held.frequencies(mode) > exact(name));
+    CHECK(held.frequencies(mode) < 1.008 * exact(name));
   }
   const Eigen::VectorXd found = test::SolidModel(mesh, steel).frequencies(2);
-  CHECK(found(0) == Approx(515.12921564).epsilon(3e-3));
-  CHECK(found(1) == Approx(515.12921564).epsilon(3e-3));
+  CHECK(found(0) == Approx(exact("thick.free")).epsilon(3e-3));
+  CHECK(found(1) == Approx(exact("thick.free")).epsilon(3e-3));
 }

@@ -1,11 +1,11 @@
 // A free body spun about its intermediate axis turns over and over (Dzhanibekov): J = diag(1, 2, 3) kg m^2, Omega(0) =
 // (0.01, 5, 0.01) rad/s. Closed form by Jacobi's elliptic functions (L. D. Landau, E. M. Lifshitz, Mechanics, section
-// 37): k^2 = 0.999992000095998848, it flips every 5.0259291381574703 s, first when Omega_2 = 0 at 2.74106806 s; values
-// below from that form with 30 digits, confirmed by DOP853 with rtol 1e-13.
+// 37), with 40 digits (tests/references/torque_free_body.py): it flips every 5.03 s, first when Omega_2 = 0 at 2.74 s.
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/reference_table.hpp"
 #include "tests/support/run_model.hpp"
 #include "tests/support/second_order.hpp"
 
@@ -28,7 +28,8 @@ const Scheme scheme = Scheme::generalized_alpha(0.9);
 
 TEST_CASE("a body turning about its intermediate axis follows the elliptic functions with order 2") {
   const ReadyModel model(body);
-  const Vector3 exact(0.01271487063, 4.99999383320, 0.01097979865);  // at 10 s, after two flips
+  const Vector3 exact =
+      bielle::test::ReferenceTable("torque_free_body").vector("10.Omega");  // at 10 s, after two flips
   check_second_order(
       [&](double h) -> VectorX { return model.node(integrate(model, scheme, h, 10), "body").Omega - exact; }, 4e-3, 3,
       0.2, 0.2);
@@ -36,7 +37,7 @@ TEST_CASE("a body turning about its intermediate axis follows the elliptic funct
 
 TEST_CASE("a body turning about its intermediate axis is right after four flips, too") {
   const ReadyModel model(body);
-  const Vector3 exact(0.01571521768, 4.99998530317, 0.01220611959);  // at 20 s
+  const Vector3 exact = bielle::test::ReferenceTable("torque_free_body").vector("20.Omega");
   check_second_order(
       [&](double h) -> VectorX { return model.node(integrate(model, scheme, h, 20), "body").Omega - exact; }, 2e-3, 2,
       0.2, 0.2);
@@ -44,6 +45,7 @@ TEST_CASE("a body turning about its intermediate axis is right after four flips,
 
 TEST_CASE("a body turning about its intermediate axis flips when the closed form does, with order 2") {
   const ReadyModel model(body);
+  const bielle::test::ReferenceTable exact("torque_free_body");
   const auto flips = [&](double h) -> VectorX {
     std::vector<double> times;
     double before = 0, time = 0;
@@ -55,7 +57,7 @@ TEST_CASE("a body turning about its intermediate axis flips when the closed form
       time = state.time;
     });
     REQUIRE(times.size() == 2);
-    return Eigen::Vector2d(times[0] - 2.74106806, times[1] - times[0] - 5.0259291381574703);
+    return Eigen::Vector2d(times[0] - exact("first_flip"), times[1] - times[0] - exact("between_flips"));
   };
   check_second_order(flips, 8e-3, 3, 0.2, 0.2);
 }

@@ -131,8 +131,9 @@ class Threads(CommandTest):
     program = "bielle-reduce"
 
     def environment_of(self, **more):
-        """The settings that OpenMP prints when it is loaded, and the output of the program."""
-        environment = {name: value for name, value in os.environ.items() if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")}
+        """Returns the settings that OpenMP displays when it is loaded; the program has to print its version."""
+        environment = {name: value for name, value in os.environ.items() 
+                       if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "GLIBC_TUNABLES")}
         done = subprocess.run([os.path.join(PROGRAMS, self.program), "--version"], text=True, capture_output=True,
                               env={**environment, "OMP_DISPLAY_ENV": "verbose", **more}, check=True)
         self.assertTrue(done.stdout.startswith("bielle-reduce "), done.stdout)
@@ -142,6 +143,13 @@ class Threads(CommandTest):
         self.assertIn("GOMP_SPINCOUNT = '0'", self.environment_of())
         self.assertIn("OMP_WAIT_POLICY = 'ACTIVE'", self.environment_of(OMP_WAIT_POLICY="active"))
         self.assertIn("GOMP_SPINCOUNT = '1000'", self.environment_of(GOMP_SPINCOUNT="1000"))
+
+    def test_memory_that_is_freed_is_kept_unless_the_user_says_otherwise(self):
+        def displays(**more):  # OpenMP displays its settings each time that the program is executed
+            return self.environment_of(OMP_WAIT_POLICY="passive", **more).count("OPENMP DISPLAY ENVIRONMENT BEGIN")
+
+        self.assertEqual(displays(), 2)
+        self.assertEqual(displays(GLIBC_TUNABLES="glibc.malloc.check=0"), 1)
 
     def test_the_environment_stays_and_so_does_the_output(self):
         self.write("bar.geo", BAR)

@@ -15,7 +15,8 @@ from box_mesh import REPOSITORY, InFolder
 from synthetic_modes import OMEGA, SIGMA, write_whirl
 
 from bielle_tools.modes import ModeMotion, Modes, ModeScenery, turned  # noqa: E402  (box_mesh knows where)
-from bielle_tools.results_file import Results, rotation_matrices  # noqa: E402
+from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.rotations import rotation_matrices  # noqa: E402
 from bielle_tools.superelement_body import superelement_of  # noqa: E402
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]

@@ -175,7 +175,7 @@ class Plots(ResultsTool):
     def test_every_figure_is_there_and_not_blank(self):
         done = self.succeed("bielle-plot", self.path("run.h5"), "-o", self.path("plots"))
         written = done.stdout.split()
-        expected = {"energy", "joints", "reactions", "drives", "paths", "body_rod", "beam_shaft", "element_ram", "solver"}
+        expected = {"energy", "joints", "reactions", "drives", "paths", "rotations", "body_rod", "beam_shaft", "element_ram", "solver"}
         self.assertEqual({os.path.splitext(os.path.basename(p))[0] for p in written}, expected)
         for path in written:
             picture = matplotlib.image.imread(path)[:, :, :3]
@@ -199,7 +199,7 @@ class Plots(ResultsTool):
             for name in ("time", "nodes", "energy"):
                 file.copy(file[name], file.require_group("analysis_1"), name)
         done = self.succeed("bielle-plot", self.path("run.h5"), "--analysis", "1", "-o", self.path("plots"))
-        self.assertEqual({os.path.basename(p) for p in done.stdout.split()}, {"energy.png", "paths.png"})
+        self.assertEqual({os.path.basename(p) for p in done.stdout.split()}, {"energy.png", "paths.png", "rotations.png"})
         self.refuse("bielle-plot", [self.path("run.h5"), "--analysis", "7"], "no analysis 7", "it has 1")
 
     def test_a_wrong_name_brings_the_nearest(self):

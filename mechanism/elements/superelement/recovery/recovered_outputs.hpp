@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mechanism/elements/superelement/recovery/recovered_field.hpp"
+#include "mechanism/model/mesh_fields.hpp"
 
 namespace bielle::mechanism {
 

@@ -84,23 +84,23 @@ void check_coordinates(const Joints& joints, const Joint& joint, const State& st
   const auto n = static_cast<Eigen::Index>(local.slots().size());
   for (std::size_t k = 0; k < joint.coordinates().size(); ++k) {
     CAPTURE(joint.type(), joint.coordinates()[k].name);
-    CoordinateJet jet;
+    CoordinateDerivatives jet;
     joint.calc_coordinate(k, local, jet);
     const auto at = [&](const VectorX& step, const auto& read) -> VectorX {
       const State there = moved(local, step);
-      CoordinateJet other;
+      CoordinateDerivatives other;
       joint.calc_coordinate(k, joints.local(joint, there), other);
       return read(other);
     };
     const MatrixX g = jacobian(
         [&](const VectorX& s) {
-          return at(s, [](CoordinateJet& j) -> VectorX { return VectorX::Constant(1, j.value); });
+          return at(s, [](CoordinateDerivatives& j) -> VectorX { return VectorX::Constant(1, j.value); });
         },
         n, h);
-    const MatrixX S =
-        jacobian([&](const VectorX& s) { return at(s, [](CoordinateJet& j) -> VectorX { return j.g(); }); }, n, h);
-    const MatrixX W =
-        jacobian([&](const VectorX& s) { return at(s, [](CoordinateJet& j) -> VectorX { return j.w(); }); }, n, h);
+    const MatrixX S = jacobian(
+        [&](const VectorX& s) { return at(s, [](CoordinateDerivatives& j) -> VectorX { return j.g(); }); }, n, h);
+    const MatrixX W = jacobian(
+        [&](const VectorX& s) { return at(s, [](CoordinateDerivatives& j) -> VectorX { return j.w(); }); }, n, h);
     CHECK((g.transpose() - jet.g()).cwiseAbs().maxCoeff() < accurate);
     CHECK((S - jet.S()).cwiseAbs().maxCoeff() < accurate * std::max(1.0, S.cwiseAbs().maxCoeff()));
     CHECK((W - jet.W()).cwiseAbs().maxCoeff() < accurate);

@@ -60,6 +60,25 @@ TEST_CASE("regularised friction creeps by the documented speed") {
   CHECK_THAT(plain.sliding(1).h, WithinRel(0.4, 1e-15));
 }
 
+TEST_CASE("viscous friction is added to the dry one, at rest as well") {
+  FrictionLaw wet;
+  wet.kinetic = wet.sticking = 0.4;
+  wet.velocity = 1e-3;
+  wet.viscous = 0.25;
+  for (const double v : {0.0, 1e-5, 1e-3, 0.1, 20.0})
+    CHECK_THAT(wet.sliding(v).h * v, WithinRel(0.4 * std::tanh(v / 1e-3) + 0.25 * v, 1e-13));
+  CHECK_THAT(wet.sliding(0).h, WithinRel(0.4 / 1e-3 + 0.25, 1e-14));
+}
+
+// sigma_1(v) v < 4 mu is what bristles need in order to take power for every deflection |z| <= mu/sigma_0.
+TEST_CASE("the damping of bristles ends at four times the friction") {
+  CHECK(law().bristle_damping_at(0).mu == 12);
+  for (const double v : {0.05, 0.1, 1.0}) CHECK(law().bristle_damping_at(v).mu * v < 4 * 0.3);
+  CHECK_THAT(law().bristle_damping_at(1e6).mu * 1e6, WithinRel(4 * 0.3, 1e-12));
+  // Half way: sigma_1 v = 4 mu gives 1/sqrt(2) of sigma_1.
+  CHECK_THAT(law().bristle_damping_at(4 * 0.3 / 12).mu, WithinRel(12 / std::sqrt(2.0), 1e-14));
+}
+
 TEST_CASE("bristles take power at any deflection and speed") {
   for (double s = 1e-3; s < 10; s *= 1.7)
     for (const double sign : {1.0, -1.0})

@@ -185,3 +185,41 @@ TEST_CASE("quaternions of any length stand for a rotation, but for zero") {
   // Rates from an angular velocity keep the length.
   CHECK(std::abs(p.dot(parameter_rate<UnitQuaternion>(p, Vector3(1, 2, 3)))) < 1e-15);
 }
+
+namespace {
+
+/// The complement is another set of parameters of the same rotation, and the complement of that is the first one.
+template <class P>
+void check_complement(const typename P::Parameters& p) {
+  CAPTURE(p.transpose());
+  const typename P::Parameters other = P::complement(p);
+  CHECK(error(P::rotation(other), P::rotation(p)) < 3e-15);
+  CHECK((other - p).norm() > 0.1);
+  CHECK(error(P::complement(other), p) < 3e-15 * (1 + p.norm()));
+}
+
+}  // namespace
+
+TEST_CASE("a rotation has other parameters besides the principal ones") {
+  Random random(7);
+  for (int k = 0; k < 20; ++k) {
+    const Matrix3 R = exp_so3(random.vector3(1.5));
+    check_complement<RotationVector>(RotationVector::parameters(R));
+    check_complement<UnitQuaternion>(UnitQuaternion::parameters(R));
+    check_complement<ConformalVector>(ConformalVector::parameters(R));
+    check_complement<EulerAngles>(EulerAngles::parameters(R));
+    check_complement<BryantAngles>(BryantAngles::parameters(R));
+  }
+}
+
+TEST_CASE("complements take over where the others end") {
+  const Vector3 e = Vector3(2, -1, 2) / 3;
+  CHECK(error(RotationVector::complement(M_PI * e), -M_PI * e) < 1e-15);
+  CHECK(error(RotationVector::complement(6 * e), (6 - 2 * M_PI) * e) < 1e-15);
+  CHECK(error(ConformalVector::complement(4 * e), -4 * e) < 2e-15);
+  CHECK(error(EulerAngles::complement(Vector3(0.3, 0.1, -0.2)), Vector3(0.3 - M_PI, -0.1, M_PI - 0.2)) < 1e-15);
+  CHECK(error(BryantAngles::complement(Vector3(0.3, 1.5, -0.2)), Vector3(0.3 - M_PI, M_PI - 1.5, M_PI - 0.2)) < 1e-15);
+  CHECK_THROWS_WITH(RotationVector::complement(Vector3::Zero()), Contains("no complement"));
+  CHECK_THROWS_WITH(ConformalVector::complement(Vector3::Zero()), Contains("infinite"));
+  CHECK_THROWS_WITH(RodriguesVector::complement(e), Contains("only one"));
+}

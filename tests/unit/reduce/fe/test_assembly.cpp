@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
@@ -115,6 +117,31 @@ TEST_CASE("The mass matrix reproduces mass and moments of inertia, on curved cel
   expected << body.mass * Eigen::Matrix3d::Identity(), -body.mass * cross, body.mass * cross,
       body.inertia - body.mass * cross * cross;
   CHECK((rigid - expected).norm() < 1e-13 * expected.norm());
+}
+
+TEST_CASE("The mass matrix of straight cells integrates all products of the fields that they hold") {
+  const bool quadratic = GENERATE(true, false);
+  const test::Box box{{1, 1, 1}, {2, 2, 2}, quadratic};
+  const Mesh mesh = test::distorted_box_mesh(box, 0.25);
+  const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
+  const NodeMatrix m = assemble_mass(solid, node_graph(solid.nodes, solid.points()), 2);
+  std::vector<Eigen::Vector3d> powers;
+  const int degree = quadratic ? 2 : 1;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; i + j <= degree; ++j)
+      for (int k = 0; i + j + k <= degree; ++k) powers.emplace_back(i, j, k);
+  const auto count = static_cast<Eigen::Index>(powers.size());
+  RowMatrix u(3 * mesh.point_count(), count);
+  Eigen::MatrixXd expected(count, count);
+  for (Eigen::Index a = 0; a < count; ++a) {
+    const Eigen::Vector3d& p = powers[static_cast<std::size_t>(a)];
+    u.col(a) = field(mesh, [&](const Eigen::Vector3d& x) {
+      return Eigen::Vector3d(std::pow(x.x(), p.x()) * std::pow(x.y(), p.y()) * std::pow(x.z(), p.z()), 0, 0);
+    });
+    for (Eigen::Index b = 0; b < count; ++b)  // the integral of a monomial over the unit cube
+      expected(a, b) = wood().density / (p + powers[static_cast<std::size_t>(b)] + Eigen::Vector3d::Ones()).prod();
+  }
+  CHECK((u.transpose() * m.multiply(u, 3) - expected).norm() < 1e-13 * expected.norm());
 }
 
 TEST_CASE("Matrices do not depend on the number of threads") {

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <numeric>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "reduce/fe/stress.hpp"
@@ -47,6 +49,34 @@ TEST_CASE("Surface nodes are those of faces that belong to one cell") {
     }
   }
   CHECK(surface_nodes(solid) == expected);
+}
+
+TEST_CASE("Between cells of one material the nodal stress is the mean of theirs, weighted by volume") {
+  // Two layers, 0.2 and 0.8 thick, of which the first alone is strained: 1 Pa in it, nothing in the other.
+  const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 1, 1}, false}, [](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(x.x() < 0.5 ? 0.4 * x.x() : 0.2 + 1.6 * (x.x() - 0.5), x.y(), x.z());
+  });
+  const Solid solid = make_solid(mesh, {{"m", Material::isotropic(1, 0, 1)}}, {{"all", "m"}});
+  RowMatrix u = RowMatrix::Zero(3 * mesh.point_count(), 1);
+  for (Eigen::Index a = 0; a < mesh.point_count(); ++a) u(3 * a) = std::min(mesh.points(0, a), 0.2);
+  std::vector<int> nodes(static_cast<std::size_t>(mesh.point_count()));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  std::vector<double> strained(nodes.size()), all(nodes.size());
+  const Eigen::MatrixXi cells = mesh.blocks[0].nodes;
+  for (Eigen::Index e = 0; e < cells.cols(); ++e) {
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.col(k) = mesh.points.col(cells(k + 1, e)) - mesh.points.col(cells(0, e));
+    const double volume = std::abs(edges.col(0).cross(edges.col(1)).dot(edges.col(2))) / 6;
+    const bool first = mesh.points(0, cells.col(e)).maxCoeff() < 0.3;
+    for (int k = 0; k < 4; ++k) {
+      all[static_cast<std::size_t>(cells(k, e))] += volume;
+      if (first) strained[static_cast<std::size_t>(cells(k, e))] += volume;
+    }
+  }
+  const RowMatrix stress = nodal_stress(solid, u, nodes);
+  for (const int a : nodes)
+    CHECK(stress(6 * a) ==
+          Approx(strained[static_cast<std::size_t>(a)] / all[static_cast<std::size_t>(a)]).margin(1e-13));
 }
 
 TEST_CASE("At a node between two materials the stress is that of the one with more volume there") {

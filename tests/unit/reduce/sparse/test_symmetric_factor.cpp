@@ -223,7 +223,7 @@ TEST_CASE("A factor that will not fit is refused before it is computed, with the
   // Lowers the limit until less remains than the factor needs, but enough for its symbolic analysis.
   const double wanted = 0.9 * whole.estimated_MB;
   rlimit lower = before;
-  lower.rlim_cur = address_space() + static_cast<rlim_t>(1e6 * wanted);
+  lower.rlim_cur = address_space() + static_cast<rlim_t>(1e6 * wanted) - mallinfo2().fordblks;
   REQUIRE(setrlimit(RLIMIT_AS, &lower) == 0);
   std::string said;
   const double left = free_memory_MB();

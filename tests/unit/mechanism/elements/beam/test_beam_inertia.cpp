@@ -14,6 +14,7 @@
 #include "tests/support/finite_difference.hpp"
 #include "tests/support/model_text.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/reference_table.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::DenseModel;
@@ -85,6 +86,14 @@ VectorX pinned_timoshenko(double B, double S, double m, double J) {
   return omega;
 }
 
+/// The first three of the steel bar of 1 m and 20 mm x 20 mm, tests/references/timoshenko_beam.py. @param ends clamped,
+/// pinned
+Vector3 steel_bar(const std::string& ends) {
+  const bielle::test::ReferenceTable table("timoshenko_beam");
+  const std::string name = "slender." + ends;
+  return {table(name + "_1"), table(name + "_2"), table(name + "_3")};
+}
+
 }  // namespace
 
 TEST_CASE("bending frequencies of slender beams converge with the fourth power of the element length") {
@@ -102,7 +111,7 @@ TEST_CASE("bending frequencies of slender beams converge with the fourth power o
 TEST_CASE("bending frequencies of a steel bar are those of Timoshenko's theory") {
   const double E = 210e9, A = 4e-4, I = A * A / 12, rho = 7800;
   const VectorX exact = pinned_timoshenko(E * I, 5.0 / 6 * E / 2.6 * A, rho * A, rho * I);
-  CHECK((exact - Vector3(295.46593, 1179.47432, 2644.94628)).cwiseAbs().maxCoeff() < 1e-5);
+  CHECK((exact - steel_bar("pinned")).cwiseAbs().maxCoeff() < 1e-5);
   MatrixX errors = error_table(exact, [](int n) { return plane_frequencies(n, steel, pinned); });
   // Besides the fourth order of a slender beam (which shear and rotary inertia change little) there is the part that
   // beam_inertia.hpp states, with E/(k_s G) = 3.12.
@@ -120,10 +129,8 @@ TEST_CASE("bending frequencies of a steel bar are those of Timoshenko's theory")
   CHECK(errors(0, 1) < 8.75e-4);
   CHECK(errors(0, 2) < 4.25e-3);
 
-  // Clamped: the exact values are roots of the determinant of the closed solution. Independent program at 8
-  // elements: 7.1e-6, 2.7e-4, 2.1e-3.
-  errors = error_table(Vector3(105.29650, 658.62831, 1838.55728),
-                       [](int n) { return plane_frequencies(n, steel, clamped); });
+  // Clamped; an independent program at 8 elements: 7.1e-6, 2.7e-4, 2.1e-3.
+  errors = error_table(steel_bar("clamped"), [](int n) { return plane_frequencies(n, steel, clamped); });
   CAPTURE(errors);
   CHECK(errors(0, 0) < 7.5e-6);
   CHECK(errors(0, 1) < 2.7e-4);
@@ -148,7 +155,7 @@ TEST_CASE("axial and torsional frequencies converge with the fourth power of the
 }
 
 TEST_CASE("constant strain leaves bending frequencies at the second power") {
-  const VectorX exact = Vector3(295.46593, 1179.47432, 2644.94628);
+  const VectorX exact = steel_bar("pinned");
   const MatrixX errors =
       error_table(exact, [](int n) { return plane_frequencies(n, steel, pinned, ", bending: constant"); });
   CAPTURE(errors, orders(errors));

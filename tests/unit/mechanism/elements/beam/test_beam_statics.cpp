@@ -10,6 +10,7 @@
 #include "tests/support/dense_model.hpp"
 #include "tests/support/dense_solution.hpp"
 #include "tests/support/model_text.hpp"
+#include "tests/support/reference_table.hpp"
 
 using namespace bielle::mechanism;
 using bielle::test::DenseModel;
@@ -151,34 +152,35 @@ TEST_CASE("an arc that is twisted has the exact flexibility of its rod") {
 
 TEST_CASE("the twisted beam of MacNeal and Harder") {
   // R. MacNeal, R. Harder, Finite Elem. Anal. Des. 1 (1985) 3: L = 12, 1.1 x 0.32, twist 90 degrees, E = 29e6, nu =
-  // 0.22; published 5.424e-3 and 1.754e-3. Here the exact linear solution of the pre-twisted Timoshenko rod (k = 5/6),
-  // by shooting.
+  // 0.22; published 5.424e-3 and 1.754e-3. Here the exact linear solution of the pre-twisted Timoshenko rod (k = 5/6)
+  // (tests/references/twisted_beam.py).
+  const bielle::test::ReferenceTable exact("twisted_beam");
   const auto twisted = [](int elements, const std::string& bending, const std::string& shear = "") {
     return "nodes: {root: {position: [0, 0, 0]}, tip: {position: [12, 0, 0]}}\n"
            "elements: {b: {type: beam, nodes: [root, tip], orientation: [0, 1, 0], twist: pi/2, elements: " +
            std::to_string(elements) + ", bending: " + bending +
            ", section: {rectangle: [0.32, 1.1], young: 29e6, poisson: 0.22" + shear + "}}}\n";
   };
-  check_deflection(5.4293214784e-3, [&](int n, const char* bending) {
+  check_deflection(exact("shear.y"), [&](int n, const char* bending) {
     return unit_deflection(twisted(n, bending), Vector3::UnitY()).y();
   });
-  check_deflection(1.7496233389e-3, [&](int n, const char* bending) {
+  check_deflection(exact("shear.z"), [&](int n, const char* bending) {
     return unit_deflection(twisted(n, bending), Vector3::UnitZ()).z();
   });
   // Stiff in shear: the pre-twisted Bernoulli rod.
   const std::string stiff = ", shear_factors: [1e8, 1e8]";
   for (const int n : {1, 3}) {
     CHECK_THAT(unit_deflection(twisted(n, "residual", stiff), Vector3::UnitY()).y(),
-               Catch::WithinRel(5.4258794721e-3, 1e-8));
+               Catch::WithinRel(exact("bending.y"), 1e-8));
     CHECK_THAT(unit_deflection(twisted(n, "residual", stiff), Vector3::UnitZ()).z(),
-               Catch::WithinRel(1.7461813326e-3, 1e-8));
+               Catch::WithinRel(exact("bending.z"), 1e-8));
     CHECK_THAT(std::abs(unit_deflection(twisted(n, "residual", stiff), Vector3::UnitZ()).y()),
-               Catch::WithinRel(1.7187438647e-3, 1e-8));
+               Catch::WithinRel(exact("bending.cross"), 1e-8));
   }
   // The cross flexibility is symmetric.
   const double yz = unit_deflection(twisted(8, "residual"), Vector3::UnitY()).z();
   CHECK_THAT(yz, Catch::WithinRel(unit_deflection(twisted(8, "residual"), Vector3::UnitZ()).y(), 1e-9));
-  CHECK_THAT(std::abs(yz), Catch::WithinRel(1.7187438647e-3, 1e-4));
+  CHECK_THAT(std::abs(yz), Catch::WithinRel(exact("shear.cross"), 1e-4));
 }
 
 TEST_CASE("the straight and the curved beam of MacNeal and Harder are beam theory's, near the published values") {

@@ -1,10 +1,9 @@
 // Frequencies of a superelement at rest and spinning: rotating frames are the touchstone of its inertia.
 //
-// The free-free beam of beam_superelement.hpp spins about z with Om; y is in the plane of rotation. In a frame that
-// spins with it, the exact inertia of a linear field softens in-plane bending, omega^2 - Om^2, and does not affect
-// out-of-plane bending; tension of the centrifugal field stiffens both. References: 12 geometrically exact beam
-// elements, linearised about the spinning state by an independent prototype, give (omega^2(Om) - omega^2(0)) / Om^2 =
-// 2.05, 3.04, 5.39, 6.38.
+// The free-free beam of beam_superelement.hpp spins about z with Om; y is in the plane of rotation. Seen from a frame
+// that spins with it, the exact inertia of a linear field softens in-plane bending, omega^2 - Om^2, and leaves bending
+// across alone; tension of the centrifugal field stiffens both. Reference: (omega^2(Om) - omega^2(0)) / Om^2 by
+// Ritz's method (tests/references/spinning_free_beam.py).
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -16,6 +15,7 @@
 #include "reduce/dense/orthogonal_factors.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "tests/support/eigenvalues.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/superelement_alone.hpp"
 
 using namespace bielle::mechanism;
@@ -129,8 +129,9 @@ TEST_CASE("spin softens bending in its plane by its square and leaves bending ac
 }
 
 TEST_CASE("the tension of spin stiffens bending as in the geometrically exact beam") {
-  const std::array<double, 4> exact = {2.05, 3.04, 5.39, 6.38};
-  // The retained modes carry the tension: four to 2 per cent, twelve to what the references' digits are worth.
+  const ReferenceTable table("spinning_free_beam");
+  const std::array<double, 4> exact = {table("in_plane_1"), table("across_1"), table("in_plane_2"), table("across_2")};
+  // The retained modes carry the tension: four to 2 per cent, twelve to 0.7 per cent.
   for (const auto& [modes, tolerance] : {std::pair{4, 0.02}, {12, 0.007}}) {
     CAPTURE(modes);
     const auto c = spin_coefficients(straight_beam({}, modes));
@@ -139,20 +140,19 @@ TEST_CASE("the tension of spin stiffens bending as in the geometrically exact be
 }
 
 TEST_CASE("a rotating blade has the frequencies of the rotating Euler-Bernoulli cantilever") {
-  // A. D. Wright et al., J. Appl. Mech. 49 (1982) 197; values by a Ritz series in 40 digits. Unit length, mass per
-  // length and bending stiffness: omega = mu, Om = eta. In the plane of rotation omega^2 = flap^2 - Om^2.
-  const std::array<double, 7> flap = {3.5160152685,  3.68164681396, 4.13731957303, 4.79727853236,
-                                      5.58500142088, 6.44954474857, 7.36037301931};
+  // A. D. Wright et al., J. Appl. Mech. 49 (1982) 197; values by tests/references/rotating_beam.py. Unit length, mass
+  // per length and bending stiffness: omega = mu, Om = eta. In the plane of rotation omega^2 = flap^2 - Om^2.
+  const ReferenceTable exact("rotating_beam");
   BeamProperties properties{1, 1e6, 1, 1, 1, 1e-6};
   const BeamSuperelement reduced = straight_beam(properties, 16).reduced();
   const SuperelementAlone alone(reduced.body);
-  for (std::size_t eta = 0; eta < flap.size(); ++eta) {
-    const double Om = static_cast<double>(eta);
+  for (const int eta : {0, 1, 2, 3, 4, 5, 6}) {
+    const double Om = eta, flap = exact(std::to_string(eta) + ".flap_1");
     const auto found = spinning_frequencies(alone, {0, 0, Om}, Vector3::Zero(), true);
     // The interface force at the root (load stiffness) and the free body's centrifugal field together are the blade's
     // tension. Eight modes in each plane carry it to 1e-4 at the highest speed.
-    const double lag = std::sqrt(flap[eta] * flap[eta] - Om * Om);
+    const double lag = std::sqrt(flap * flap - Om * Om);
     CHECK_THAT(found[0], Catch::WithinRel(lag, 2e-4));
-    CHECK_THAT(found[1], Catch::WithinRel(flap[eta], 2e-4));
+    CHECK_THAT(found[1], Catch::WithinRel(flap, 2e-4));
   }
 }

@@ -1,0 +1,26 @@
+// Measures of a node's orientation R, node axes -> inertial axes, by three of its parametrisations.
+//
+//   rotation_vector.x   component of the rotation vector of R, of up to half a turn [rad]
+//   bryant.a, .b, .c    R = Rx(a) Ry(b) Rz(c), b in [-pi/2, pi/2] [rad]
+//   euler.a, .b, .c     R = Rz(a) Rx(b) Rz(c), b in [0, pi] [rad]
+//   bryant.a.rate, ..   their rates [rad/s]
+//
+// A function of the state knows no turns: values are principal ones, which jump where they leave their domain. Where
+// the middle angle is at its singularity, first and last angle have no derivatives and no rates: what needs them ends
+// the run with a sentence.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mechanism/model/measure.hpp"
+
+namespace bielle::mechanism {
+
+/// "bryant.a", "bryant.a.rate", ...: what formulas may use of every node.
+const std::vector<std::string>& orientation_measure_names();
+/// One of them, of a node.
+std::unique_ptr<Measure> make_orientation_measure(const std::string& name, int node, const std::string& measure);
+
+}  // namespace bielle::mechanism
