@@ -56,8 +56,8 @@ class Workplace {
   /// @param ranks_at  file descriptor of the open socket to the ranks; negative if there are none
   explicit Workplace(int ranks_at) {
     if (ranks_at < 0) return;
-    prctl(PR_SET_PDEATHSIG, SIGKILL);      // without the ranks nothing is left to do
-    fcntl(ranks_at, F_SETFD, FD_CLOEXEC);  // no child of ours keeps the ranks waiting
+    prctl(PR_SET_PDEATHSIG, SIGKILL);      // ends this process with the ranks
+    fcntl(ranks_at, F_SETFD, FD_CLOEXEC);  // no child process keeps the socket to the ranks open
     mallopt(M_MMAP_THRESHOLD, 1 << 20);    // large blocks are returned to the system when they are freed
     ranks_ = std::make_unique<Channel>(ranks_at, "the ranks");
     greeting_ = ranks_->receive_number<Greeting>();

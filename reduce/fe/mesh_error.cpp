@@ -18,7 +18,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr Eigen::Index at_a_time = 9;  // so many fields: stress at all sampling points is in memory
+constexpr Eigen::Index at_a_time = 9;  // number of fields; their stresses at all sampling points are in memory
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using RowArray = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

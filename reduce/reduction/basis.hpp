@@ -31,7 +31,7 @@ struct Basis {
   Eigen::MatrixXd released;           ///< (released directions, n): their values in T
   Eigen::VectorXd eigenvalues;        ///< omega^2 of Phi, then of the residual vectors [rad^2/s^2]
   Eigen::VectorXd residuals;          ///< relative residuals of the eigenpairs; residual vectors have none
-  Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
+  Eigen::Index residual_vectors = 0;  ///< number of residual vectors, the last of the modes
   std::optional<double> next;         ///< omega^2 of the first mode left out [rad^2/s^2]; absent: not sought, or none
   LinearFields linear;
   int solves = 0;      ///< columns that the eigenvalue iteration solved for

@@ -60,7 +60,7 @@ struct ReductionOptions {
   std::map<std::string, Material> materials;
   std::map<std::string, std::string> regions;  ///< volume group -> material name; key "all" for the whole body
   std::vector<InterfaceRequest> interfaces;    ///< at least one: a mechanism moves a body by its interfaces
-  std::optional<int> mode_count;               ///< the lowest so many fixed-boundary modes; with neither: none
+  std::optional<int> mode_count;               ///< number of fixed-boundary modes, the lowest; with neither: none
   std::optional<double> modes_below;           ///< those below [Hz]; with both: the lowest `mode_count` of them
   EigenMethod mode_method = EigenMethod::automatic;
   bool inertia_relief = false;  ///< residual vectors for its own accelerations (inertia_answer.hpp)

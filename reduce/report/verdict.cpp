@@ -49,9 +49,9 @@ std::string rounded_up(double frequency) {
 
 /// The range of frequencies in which an error is small.
 struct Range {
-  Eigen::Index good = 0;                                       // so many, the lowest
-  bool open = false;                                           // all that were examined are good: it may go on
-  double limit = 0;                                            // [Hz]; 0: not even the first
+  Eigen::Index good = 0;  // number of frequencies in the range, the lowest ones
+  bool open = false;      // all examined frequencies are good: the range has no known end
+  double limit = 0;       // [Hz]; 0: not even the first
   double first_bad = std::numeric_limits<double>::infinity();  // the first frequency with a large error [Hz]
 
   /// Tells whether a body that is wanted up to a frequency (0: not specified) does not reach it.

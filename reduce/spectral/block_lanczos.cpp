@@ -102,7 +102,7 @@ class BlockLanczos {
                                          counted(result_.restarts, "restart"), converged(ritz, count_),
                                          counted(count_, "mode")));
     ++result_.restarts;
-    const Index least = basis_.front() + block_;  // to be made room for
+    const Index least = basis_.front() + block_;  // columns that must remain free
     const Index most = basis_.room() + ritz.size() - least;
     basis_.restart(ritz, std::clamp<Index>((ritz.size() + count_) / 2, 1, most));
   }

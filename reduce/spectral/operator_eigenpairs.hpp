@@ -36,7 +36,7 @@ struct OperatorEigenpairs {
   bool all = false;           ///< there are no others
 };
 
-/// At least the `count` eigenpairs of largest magnitude, if there are so many.
+/// Finds at least the `count` eigenpairs of largest magnitude, or all if there are fewer.
 /// @throws ComputationError when ARPACK does not converge
 OperatorEigenpairs largest_eigenpairs(const LinearOperator<double>& T, Eigen::Index count,
                                       const OperatorEigenOptions& options = {});

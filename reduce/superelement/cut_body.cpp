@@ -139,7 +139,7 @@ bool holds_pieces(const std::string& path) {
   try {
     return has_format(Hdf5File::open(path));
   } catch (const InputError&) {
-    return false;  // whoever reads it says what is wrong
+    return false;  // the reader of the file reports the fault
   }
 }
 

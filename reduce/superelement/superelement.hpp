@@ -81,7 +81,7 @@ struct Superelement {
 
   std::vector<Interface> interfaces;
   Eigen::VectorXd frequencies;        ///< (m) of the fixed-boundary modes [Hz], then of the residual vectors
-  Eigen::Index residual_vectors = 0;  ///< so many of the modes, the last ones
+  Eigen::Index residual_vectors = 0;  ///< number of residual vectors, the last of the modes
 
   Eigen::MatrixXd stiffness;                          ///< K~ [N/m, N, N m and mixed with amplitudes]
   Eigen::MatrixXd mass;                               ///< M~

@@ -30,7 +30,7 @@ get_property(libraries GLOBAL PROPERTY BIELLE_LIBRARIES)
 set_target_properties(bielle_options PROPERTIES EXPORT_NAME options)
 install(TARGETS ${libraries} bielle_options EXPORT BielleTargets ARCHIVE)
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} reduce/*.hpp mechanism/*.hpp)
-list(FILTER headers EXCLUDE REGEX "^mechanism/python/")  # those of a module, which nobody links
+list(FILTER headers EXCLUDE REGEX "^mechanism/python/")  # headers of the Python module, which is not linked
 foreach(header ${headers})
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bielle/${folder})

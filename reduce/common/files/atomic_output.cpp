@@ -39,7 +39,7 @@ AtomicOutput::AtomicOutput(std::string path) : path_(std::move(path)) {
   for (int k = 1; k <= most_at_a_time; ++k) {
     temporary_path_ = k == 1 ? path_ + ".partial" : fmt::format("{}.{}.partial", path_, k);
     lock_ = open(temporary_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0) return;  // whoever writes it says why
+    if (lock_ < 0) return;  // the later write reports the reason
     if (lock(lock_) && has_name(lock_, temporary_path_)) return;
     close(lock_);
   }

@@ -101,7 +101,7 @@ std::string walk_dataset(hid_t dataset) {
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   if (count <= 0) return {};
   if (H5Tget_class(type) == H5T_STRING) {
-    if (static_cast<hsize_t>(count) > H5Dget_storage_size(dataset)) return {};  // refused by those who read it
+    if (static_cast<hsize_t>(count) > H5Dget_storage_size(dataset)) return {};  // refused by the reader
     const bool could_be_read = read_texts(type, space, static_cast<std::size_t>(count), [&](hid_t memory, void* data) {
       return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
     });

@@ -18,7 +18,7 @@ namespace bielle::test {
 
 constexpr double thick_ellipse_target = -5.38e6;  // sigma_yy at D [Pa]
 
-/// sigma_yy at D with so many bricks across, around and through the plate.
+/// Computes sigma_yy at D [Pa]. @param bricks  numbers of bricks across, around and through the plate
 inline double thick_ellipse_stress(const std::array<int, 3>& bricks) {
   using namespace reduce;
   const Mesh mesh = box_mesh({{1, 1, 1}, bricks}, [](const Eigen::Vector3d& x) {

@@ -8,13 +8,14 @@ import sentences
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 # Openers that an area may contain; 0 for all others. Lower a number when the count falls.
-ALLOWED = {"mechanism (C++)": 698}
+ALLOWED = {"mechanism (C++)": 696}
 
 
 class Sentences(unittest.TestCase):
     def test_openers(self):
         found = sentences.faults(ROOT)
-        self.assertGreaterEqual(set(found), {"mechanism (C++)", "mechanism", "reduce", "tests", "tools", "meshes", "."})
+        areas = {"mechanism (C++)", "mechanism", "reduce", "tests", "tools", "meshes", "."}
+        self.assertGreaterEqual(set(found), areas)
         for area, faults in sorted(found.items()):
             with self.subTest(area):
                 shown = faults if area not in ALLOWED else faults[:20]
@@ -22,7 +23,8 @@ class Sentences(unittest.TestCase):
 
     def test_a_planted_sentence_is_found(self):
         planted = {
-            "a.hpp": "int a;  ///< of the body\n/// Adds a node. What is new is its number.\n/// @returns what is left\n",
+            "a.hpp": "int a;  ///< of the body\n/// Adds a node. What is new is its number.\n"
+                     "/// @returns what is left\n",
             "b.py": '"""Reads a file.\n\nWhere it ends, nothing is read.\n"""\n\n\ndef f():\n    return 1  # who\n',
             "c.cmake": "# Of the compiler.\nset(A 1)\n",
             "d.md": "# What it does\n\nA text. Of these two the first.\n\n"

@@ -23,7 +23,7 @@ analysis: [{type: dynamic, duration: 0.3, step: 0.005}]
 class StudyRuns(unittest.TestCase):
     def test_twenty_values_are_twenty_single_runs_and_a_failing_one_is_survived(self):
         masses = [f"{mass:.17g}" for mass in np.linspace(0.5, 3, 20)]
-        masses[7] = "-1"  # no body has it
+        masses[7] = "-1"  # a body cannot have a negative mass
         with tempfile.TemporaryDirectory() as folder:
             def at(name):
                 return os.path.join(folder, name)

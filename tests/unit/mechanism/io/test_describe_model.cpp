@@ -123,7 +123,7 @@ events:
   landed: {when: height, crosses: -0.1, direction: falling, action: stop}
   passed: {when: main.angle, crosses: 1}
 )yaml");
-  CHECK_THAT(text, Contains("  measures     4\n"));  // main.angle.rate, which a formula has made, is none of the user's
+  CHECK_THAT(text, Contains("  measures     4\n"));  // main.angle.rate, made by a formula, is not counted
   CHECK_THAT(text, Contains("  measure 'lag': 2*main.angle [rad]\n"));
   CHECK_THAT(text, Contains("  measure 'height': position of node 'a' along (0, 0, 1) [m]\n"));
   CHECK_THAT(text, Contains("  measure 'turning': angular velocity of node 'a' about (1, 0, 0) [rad/s]\n"));

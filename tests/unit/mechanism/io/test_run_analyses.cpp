@@ -91,7 +91,7 @@ analysis:
   CHECK(second[0] == Approx(0.5 * (1 + end)));
   CHECK(second[1] == 1);
   CHECK(moved[1] == Approx(0.5));
-  // After the motion all of the loads act, and the stage stands where its motion at that time has it.
+  // After the motion the full loads act, and the stage is at the position that its motion prescribes for that time.
   const Eigen::VectorXd last = results.read_vector("/analysis_4/time");
   REQUIRE(last.size() == 1);
   CHECK(last[0] == 1);

@@ -24,7 +24,7 @@ using Values = std::vector<double>;
 
 namespace {
 
-/// A finished file of one analysis with so many rows.
+/// Writes a finished file of one analysis with the given number of rows.
 std::string finished(const TemporaryFolder& folder, int rows) {
   ResultsSample sample;
   ResultsFile results(folder / "run.h5", sample.model, "mechanism: a sample\n");

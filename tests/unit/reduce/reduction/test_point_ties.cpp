@@ -1,4 +1,4 @@
-// Named points: the mean of a surface as the average tie has it, and places in the mesh.
+// Named points: the mean of a surface with the weights of the average tie, and places in the mesh.
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
