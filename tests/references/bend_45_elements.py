@@ -55,14 +55,14 @@ class Bend:
         self.rest = np.concatenate([[self.length, 0, 0, 0, 0, self.length / 100]])
 
     def energies(self, u):
-        """Of each element, whose nodes have the increments u: six of A, six of B. More axes may stand before."""
+        """One per element, whose nodes have the increments u: six of A, six of B. More axes may stand before."""
         x_A, x_B = self.x[:-1] + u[..., :3], self.x[1:] + u[..., 6:9]
         A = np.swapaxes(self.R[:-1] @ rotation(u[..., 3:6]), -1, -2)
         d = logarithm(A @ self.R[1:] @ rotation(u[..., 9:]), (A @ (x_B - x_A)[..., None])[..., 0]) - self.rest
         return (C * d * d).sum(-1) / (2 * self.length)
 
     def gradients(self, u):
-        """Of each element by its twelve increments."""
+        """Derivatives of each energy by its twelve increments."""
         steps = 1e-30j * np.eye(12)[:, None, :]
         return np.moveaxis(self.energies(u[..., None, :, :] + steps).imag / 1e-30, -2, -1)
 

@@ -25,7 +25,7 @@ class Element:
         self.back = -self.D.T * self.weight  # of the integration by parts
 
     def value(self, f, s):
-        """Of a polynomial with values at the nodes, at a place."""
+        """The polynomial with values at the nodes, at a place."""
         near = s - self.s
         if np.abs(near).min() < 1e-14:
             return f[np.abs(near).argmin()]

@@ -74,7 +74,7 @@ class Pendulum:
 
 
 def pendulum_errors(scheme, h):
-    """Of place, velocity and tension at 1 s, released from (1, 0)."""
+    """Errors of place, velocity and tension at 1 s, released from (1, 0)."""
     run = Integrator(Pendulum(), scheme, h, np.array([1.0, 0]), np.zeros(2), np.array([0, -9.81]))
     for _ in range(round(1 / h)):
         run.step()

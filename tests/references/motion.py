@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 def integrate(rate, start, times, agree=1e-9, rtol=2.3e-14, atol=1e-14, max_step=np.inf):
     """States at ascending times after zero, one row each. @param rate  dz/dt of (t, z)
 
-    The motion is computed with rtol and with thirty times as much. What they differ by, relative to the largest value
+    The motion is computed with rtol and with thirty times as much. Their difference, relative to the largest value
     of each component, has to be less than `agree`.
     """
     def motion(factor):

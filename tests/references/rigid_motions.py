@@ -32,7 +32,7 @@ def exponential(d):
 
 
 def logarithm(R, x):
-    """Of a motion whose angle lies between 0 and pi."""
+    """The logarithm of a motion whose angle lies between 0 and pi."""
     sine = mpmath.sqrt(sum(((R[j, i] - R[i, j]) / 2)**2 for i, j in ((0, 1), (0, 2), (1, 2))))
     angle = mpmath.atan2(sine, (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2)
     psi = [angle / sine * (R[k[0], k[1]] - R[k[1], k[0]]) / 2 for k in ((2, 1), (0, 2), (1, 0))]
@@ -44,7 +44,7 @@ def logarithm(R, x):
 
 
 def energy(moves):
-    """Of nodes that are moved by twelve increments."""
+    """The energy when the nodes are moved by twelve increments."""
     R_B, x_B = exponential(D)
     R_A = rotation(moves[3:6])
     x_A = matrix(moves[:3])

@@ -48,7 +48,7 @@ def mechanism():
     link.torques = {0: 0.033}
     link.spring = (np.array(C), 2, np.array([0.018, 0.02]) - centres[2], 4530, 0.07785)
 
-    # Where the joints stand that the bodies turn about.
+    # The joints that the bodies turn about stand here.
     P = linkage.turned(s["beta"], [0.007, 0])
     G = A + linkage.turned(s["delta"], [0.04, 0])
     H = A + linkage.turned(s["epsilon"] - quarter, [0.04, 0])

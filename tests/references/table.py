@@ -60,7 +60,7 @@ def read(path):
 
 
 def differences(old, new):
-    """What has changed by more than is claimed, one sentence each."""
+    """Lists all changes by more than is claimed, one sentence each."""
     found = [f"'{name}' is no longer computed" for name in old.rows if name not in new.rows]
     found += [f"'{name}' does not stand in the table" for name in new.rows if name not in old.rows]
     for name, (value, within, _) in new.rows.items():

@@ -119,7 +119,7 @@ Run run_of_superelement(const bielle::test::BeamSuperelement& rod, double h) {
 
 constexpr double response = 1.56e-3;  ///< size of the deflection [m]
 
-/// Of the geometrically exact rod (GA = 5/6 G A) by a spectral element, tests/references/flexible_crank.py.
+/// Numbers of the geometrically exact rod (GA = 5/6 G A) by a spectral element, tests/references/flexible_crank.py.
 double exact_number(const std::string& name) {
   return bielle::test::ReferenceTable("flexible_crank")("smooth_start." + name);
 }
