@@ -63,8 +63,8 @@ double VelocityCorrection::turn_of_constraints(const SchemeStep& step) const {
   for (std::size_t m = 0; m < system_.slots().size(); ++m) {
     const Slots& slots = system_.slots()[m];
     if (slots.multipliers == 0) continue;
-    rate = std::max(
-        rate, system_.model().members()[m].component->turning_rate(LocalState(step.trial(), slots, environment_)));
+    rate = std::max(rate, system_.model().members()[m].component->turning_rate(
+                              LocalState(step.trial(), slots, environment_)));
   }
   return rate * step.trial_size();
 }
