@@ -1,4 +1,4 @@
-// bielle-mechanism: a model file in, motion out.
+// The program bielle-mechanism: it reads a model file and writes the motion.
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,7 @@ std::map<std::string, std::string> read_overrides(const std::vector<std::string>
   return overrides;
 }
 
-/// @throws InputError where a continued run would replace the results of another one that nobody has named
+/// @throws InputError if a continued run would replace the results of another one without being told to
 std::string default_results(const std::string& model, const std::string& restart) {
   namespace fs = std::filesystem;
   const std::string results = fs::path(model).replace_extension(".h5").string();
@@ -57,8 +57,8 @@ int body(int argc, char** argv) {
   add_common_options(app, common);
   if (!parse_command_line(app, argc, argv)) return 0;
 
-  // Matrices of a mechanism are small, and its own threads share the elements: those of BLAS would only be in their
-  // way.
+  // Matrices of a mechanism are small, and its own threads share the elements: threads of BLAS would only slow them
+  // down.
   const BlasThreads one(1);
   start_blas(common.threads);
   const MechanismFile file = read_mechanism_file(model_path, read_overrides(settings));

@@ -82,7 +82,7 @@ const std::vector<ComponentType>& component_table() {
 
 namespace {
 
-/// The clause that sends what belongs to another section there, or nothing.
+/// Returns a clause that names the section of a type from another section, or nothing.
 std::optional<std::string> where_it_belongs(Section section, const std::string& wanted) {
   for (const ComponentType& type : component_table())
     if (type.section != section && wanted == type.name) {

@@ -1,4 +1,4 @@
-// All component types by name: the one place where a new type is registered.
+// Table of all component types by name: the only place where a new type is registered.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 namespace bielle::mechanism {
 
 struct ComponentType {
-  Section section;   ///< elements, joints, drives, loads or states
+  Section section;   ///< one of elements, joints, drives, loads or states
   const char* name;  ///< the entry's `type`; drives, loads and states have one type each and no `type` key
   ComponentReader read;
 };
 
 const std::vector<ComponentType>& component_table();
 
-/// Reads one entry of a section into the model. @throws InputError for an unknown type, with the nearest name
+/// Reads one entry of a section into the model. @throws InputError for an unknown type, naming the nearest name
 void read_component(Section section, const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

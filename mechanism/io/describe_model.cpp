@@ -21,12 +21,12 @@ namespace {
 constexpr std::array described_sections = {Section::elements, Section::joints,     Section::drives,   Section::loads,
                                            Section::states,   Section::hydraulics, Section::measures, Section::events};
 
-/// What formulas have made for themselves is no entry of the file.
+/// Measures created by formulas for internal use are no entries of the file.
 bool is_own(const Member& member) {
   return member.entry.section != Section::measures || member.recorded != Recorded::no;
 }
 
-/// One line of a list of counts: "  elements     3 (beam 2, rigid_body 1)".
+/// Returns one line of a list of counts: "  elements     3 (beam 2, rigid_body 1)".
 std::string count_line(const std::string& title, const std::string& noun, const std::map<std::string, int>& types) {
   if (types.empty()) return {};
   int total = 0;
@@ -39,10 +39,10 @@ std::string count_line(const std::string& title, const std::string& noun, const 
   return fmt::format("  {:<12} {}{}\n", title, total, says_more ? fmt::format(" ({})", fmt::join(parts, ", ")) : "");
 }
 
-/// How many entries of each type there are. A beam counts once, whatever it is divided into.
+/// Counts the entries of each type. A beam counts once, for any number of elements.
 std::string count_entries(const Model& model) {
   std::string text;
-  std::map<std::string, int> in_joints;  // what acts there: several may act in one joint
+  std::map<std::string, int> in_joints;  // actions in joints: several are possible in one joint
   for (const Section section : described_sections) {
     std::map<std::string, int> types;
     for (const std::string& name : model.names_in(section)) {
@@ -63,7 +63,7 @@ std::string count_entries(const Model& model) {
   return text;
 }
 
-/// Every entry as its components describe it.
+/// Describes every entry by its components.
 std::string describe_entries(const Model& model, const System& system, const State& state) {
   std::string text;
   for (const Section section : described_sections)
@@ -87,7 +87,7 @@ std::string describe_entries(const Model& model, const System& system, const Sta
   return text;
 }
 
-/// "rotation y, rotation z of node 'pin'". @param unknowns  of the node
+/// Returns "rotation y, rotation z of node 'pin'". @param unknowns  unknowns of the node
 std::string name_directions(const System& system, int node, const std::vector<int>& unknowns) {
   const NodeFreedom& freedom = system.kinematics().freedom(node);
   std::vector<std::string> names;
@@ -99,7 +99,8 @@ std::string name_directions(const System& system, int node, const std::vector<in
   return fmt::format("{} of node '{}'", fmt::join(names, ", "), system.model().node(node).name);
 }
 
-/// What entries have to remark, in the order of the file. @param most  of which each has a line
+/// Lists the warnings of entries, in the order of the file. @param most  number of entries that have a line of their
+/// own
 std::string describe_remarks(const Model& model, std::size_t most) {
   std::string text;
   std::size_t count = 0;
@@ -110,7 +111,7 @@ std::string describe_remarks(const Model& model, std::size_t most) {
   return text;
 }
 
-/// Start values and rates of coordinates.
+/// Describes start values and rates of coordinates.
 std::string describe_start_conditions(const System& system) {
   std::string text;
   for (const CoordinateCondition& each : conditions_of_file(system).coordinates) {
@@ -124,7 +125,7 @@ std::string describe_start_conditions(const System& system) {
   return text;
 }
 
-/// Nodes that nothing is attached to.
+/// Lists nodes without components.
 std::string describe_unused(const Model& model, const System& system) {
   std::vector<bool> used(model.nodes().size(), false);
   for (const Slots& slots : system.slots())
@@ -132,14 +133,14 @@ std::string describe_unused(const Model& model, const System& system) {
   for (const Node& node : model.nodes())
     if (node.carrier) used[static_cast<std::size_t>(*node.carrier)] = true;
   std::string text;
-  for (std::size_t k = 1; k < used.size(); ++k)  // the ground comes first, and may stand alone
+  for (std::size_t k = 1; k < used.size(); ++k)  // the ground comes first, and may have none
     if (!used[k])
       text +=
           fmt::format("  unused       node '{}': no element, joint or load is attached to it\n", model.nodes()[k].name);
   return text;
 }
 
-/// Directions that no mass resists.
+/// Lists directions without mass.
 std::string describe_massless(const Model& model, const System& system, const State& state) {
   std::vector<double> values;
   system.tangent(state, model.environment, {0, 0, 1, 0, 0}, nullptr, values);
@@ -148,7 +149,7 @@ std::string describe_massless(const Model& model, const System& system, const St
     return place >= 0 && values[static_cast<std::size_t>(place)] != 0;
   };
   std::string text;
-  std::map<std::string, int> inner;  // nodes inside of elements without mass, by the element
+  std::map<std::string, int> inner;  // number of nodes inside of elements without mass, by element
   for (int k = 0; k < static_cast<int>(model.nodes().size()); ++k) {
     const Node& node = model.node(k);
     const NodeFreedom& freedom = system.kinematics().freedom(k);

@@ -1,4 +1,4 @@
-// What the program prints: a model without running it (`--check`), and the summary of a run.
+// Output of the program: the description of a model without running it (`--check`), and the summary of a run.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace bielle::mechanism {
 
-/// Counts of nodes and components, unknowns, degrees of freedom, redundant constraints, how well the input positions
-/// fit together, unused nodes, directions without mass, and every entry as its components describe it. Assembles a
-/// state of its own. Takes time in proportion to the model, apart from the analysis of constraints.
-/// @throws ComputationError when the mechanism cannot be assembled
+/// Lists counts of nodes and components, unknowns, degrees of freedom, redundant constraints, the errors of the input
+/// positions, unused nodes, directions without mass, and every entry as its components describe it. The function
+/// assembles a state of its own. It takes time in proportion to the model, apart from the analysis of constraints.
+/// @throws ComputationError if the mechanism cannot be assembled
 std::string describe_model(const MechanismFile& file);
 
-/// Times, steps, iterations, the start's changes, and the energy balance of each analysis.
+/// Lists times, steps, iterations, the start's changes, and the energy balance of each analysis.
 std::string format_summary(const MechanismFile& file, const std::vector<AnalysisSummary>& summaries,
                            const std::vector<PhaseReport>& phases, const std::string& results_path);
 

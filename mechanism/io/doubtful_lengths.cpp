@@ -16,7 +16,7 @@ namespace {
 
 /// Links of machines are shorter than this in metres, and longer in millimetres [m].
 constexpr double longest_usual = 10;
-/// Radius of gyration over the distance of joints: of a bar 0.29, a thousandth of it in such models.
+/// Ratio of radius of gyration to the distance of joints: 0.29 for a bar, a thousandth of it in such models.
 constexpr double least_usual = 1.0 / 300;
 
 int carrier_of(const Model& model, int node) {
@@ -24,7 +24,7 @@ int carrier_of(const Model& model, int node) {
   return node;
 }
 
-/// Where joints act on each node, in the inertial frame at the start.
+/// Returns the points at which joints act on each node, in the inertial frame at the start.
 std::map<int, std::vector<Vector3>> attachments(const Model& model) {
   std::map<int, std::vector<Vector3>> points;
   for (const Member& member : model.members()) {
@@ -38,7 +38,7 @@ std::map<int, std::vector<Vector3>> attachments(const Model& model) {
 }
 
 double largest_distance(const std::vector<Vector3>& points) {
-  constexpr std::size_t most = 20;  // of a body with more joints these are enough
+  constexpr std::size_t most = 20;  // this number is sufficient for a body with more joints
   double largest = 0;
   for (std::size_t i = 0; i < std::min(points.size(), most); ++i)
     for (std::size_t j = 0; j < i; ++j) largest = std::max(largest, (points[i] - points[j]).norm());

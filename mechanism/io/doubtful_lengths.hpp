@@ -1,4 +1,4 @@
-// Models whose positions are in millimetres while their inertias are in kg m^2.
+// Detection of models whose positions are in millimetres while their inertias are in kg m^2.
 #pragma once
 
 #include "mechanism/model/model.hpp"
@@ -6,8 +6,8 @@
 
 namespace bielle::mechanism {
 
-/// Notes a doubt where every rigid body with two joints has them tens of metres apart and its mass next to one point.
-/// @param root  of the file that the model was read from, all of it
+/// Adds a warning if every rigid body with two joints has them tens of metres apart and its mass near one point.
+/// @param root  root of the whole file that the model was read from
 void doubt_lengths(const Model& model, const YamlValue& root);
 
 }  // namespace bielle::mechanism

@@ -20,7 +20,7 @@ InterruptGuard::InterruptGuard()
       previous_term_(std::signal(SIGTERM, note)),
       previous_hup_(std::signal(SIGHUP, note)) {
   interrupted = 0;
-  if (previous_hup_ == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: the run is to outlive its terminal
+  if (previous_hup_ == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: the run must survive its terminal
 }
 
 InterruptGuard::~InterruptGuard() {

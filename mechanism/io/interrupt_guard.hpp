@@ -5,17 +5,17 @@
 
 namespace bielle::mechanism {
 
-/// While it lives, an interrupt (Ctrl-C), a termination request or the end of the terminal lets the current step
-/// finish; then the run stops.
+/// During the lifetime of this object, an interrupt (Ctrl-C), a termination request or the end of the terminal lets the
+/// current step finish; then the run stops.
 class InterruptGuard {
  public:
   InterruptGuard();
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
-  /// @param time    that the run has come to [s]
-  /// @param advice  how to go on, for the message
-  /// @throws Interrupted once an interrupt has come
+  /// @param time    present time of the run [s]
+  /// @param advice  instruction how to continue, for the message
+  /// @throws Interrupted after an interrupt
   void check(double time, const std::string& advice = "") const;
 
  private:

@@ -54,12 +54,12 @@ void read_parameters(YamlValue& root, const std::map<std::string, std::string>& 
                                    did_you_mean(name, names)));
 }
 
-/// Each item of a list once. @param seen  names so far
+/// Checks that an item of a list occurs only once. @param seen  names so far
 void check_once(const YamlValue& item, const std::string& name, std::set<std::string>& seen) {
   if (!seen.insert(name).second) item.fail(fmt::format("'{}' stands in this list twice", name));
 }
 
-/// A formula of t, or `{table: f.csv}`.
+/// Reads a formula of t, or `{table: f.csv}`.
 Expression read_acceleration(const YamlValue& value) {
   if (!value.is_map()) return value.expression({"t"});
   value.check_keys({"table"}, "an acceleration");
@@ -103,7 +103,7 @@ void read_holds(const YamlValue& entry, Node& node) {
       node.freedom[k] = Freedom::prescribed;
       node.motion[k] = read_motion(value);
     }
-    // Rotations are prescribed together: those that are fixed stay zero.
+    // Rotations are prescribed together: fixed ones stay zero.
     const auto rotations = node.freedom.begin() + 3;
     if (std::count(rotations, node.freedom.end(), Freedom::prescribed) > 0 &&
         std::count(rotations, node.freedom.end(), Freedom::free) > 0)
@@ -111,7 +111,7 @@ void read_holds(const YamlValue& entry, Node& node) {
   }
 }
 
-/// The rotations of a node can be held all, or two, or none.
+/// Checks that all, two or none of the rotations of a node are held.
 void check_holds(const YamlValue& entry, const Node& node) {
   const auto rotations = node.freedom.begin() + 3;
   if (std::count(rotations, node.freedom.end(), Freedom::fixed) == 1 &&
@@ -120,7 +120,7 @@ void check_holds(const YamlValue& entry, const Node& node) {
         "all three rotations of a node can be held, or two, or none, but not one alone; a universal joint holds one");
 }
 
-/// What is held has no velocity of its own: to give one is a mistake, not to be forgotten.
+/// A held direction has no velocity of its own: a given one is an error, and must not be ignored.
 void check_velocities(const YamlValue& entry, const Node& node) {
   for (std::size_t k = 0; k < 3; ++k)
     if (node.velocity[static_cast<int>(k)] != 0 && node.freedom[k] != Freedom::free)
@@ -147,7 +147,7 @@ void read_node(const std::string& name, const YamlValue& entry, Model& model) {
   model.add_node(std::move(node));
 }
 
-/// The entries of a section by names under which results can stand.
+/// Returns the entries of a section, with names under which results can be stored.
 std::vector<std::pair<std::string, YamlValue>> named_entries(const YamlValue& section) {
   auto entries = section.entries();
   for (const auto& [name, entry] : entries) check_name(name, entry);
@@ -170,7 +170,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
   if (root.has("mechanism")) file.model.title = root.at("mechanism").text();
   if (const auto gravity = root.find("gravity")) {
     file.model.environment.gravity = gravity->vector3();
-    constexpr double most = 1e60;  // weights stay numbers
+    constexpr double most = 1e60;  // largest gravity with finite weights
     if (!(file.model.environment.gravity.cwiseAbs().maxCoeff() < most))
       gravity->fail("expected accelerations in m/s^2; no force can be computed with these");
     doubt_outside(*gravity, file.model.environment.gravity.norm(), plausible_gravity);

@@ -1,4 +1,4 @@
-// The mechanism file: a model, the analyses to run on it, and what to record.
+// The mechanism file: a model, the analyses to run on it, and the selection of results.
 #pragma once
 
 #include <map>
@@ -16,11 +16,11 @@ struct MechanismFile {
   Model model;
   std::vector<std::unique_ptr<Analysis>> analyses;
   OutputOptions output;
-  std::string text;  ///< of the file
-  std::string path;  ///< of the file; empty when read from a text
-  /// Sentences about values that are possible and probably not meant, each with its place.
+  std::string text;  ///< text of the file
+  std::string path;  ///< path of the file; empty if it was read from a text
+  /// Warnings about values that are possible but probably unintended, each with its position.
   std::vector<std::string> doubts;
-  ModelMaker maker;  ///< the model with another value of a parameter
+  ModelMaker maker;  ///< creates the model with another value of a parameter
 };
 
 /// Reads a mechanism file.
@@ -28,7 +28,7 @@ struct MechanismFile {
 /// @throws InputError
 MechanismFile read_mechanism_file(const std::string& path, const std::map<std::string, std::string>& overrides = {});
 
-/// The same from a file's text, `name` standing for the file in messages.
+/// Reads the text of a mechanism file, where `name` identifies the file in messages.
 MechanismFile read_mechanism_text(const std::string& text, const std::string& name,
                                   const std::map<std::string, std::string>& overrides = {});
 

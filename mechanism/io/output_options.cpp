@@ -11,7 +11,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// `only: {nodes: [pin], joints: []}`: of the sections that are named, nothing else is recorded.
+/// Reads `only: {nodes: [pin], joints: []}`: in the named sections, nothing else is recorded.
 void read_only(const YamlValue& only, Model& model) {
   only.check_keys({"nodes", "joints", "elements"}, "`only`");
   for (const Section section : {Section::nodes, Section::joints, Section::elements}) {
@@ -26,7 +26,7 @@ void read_only(const YamlValue& only, Model& model) {
       if (!known.contains(item.text())) item.word(available, fmt::format("one of the {}", section_name(section)));
       if (!wanted.insert(item.text()).second) item.fail("is named twice");
     }
-    // An element in pieces stands for them.
+    // An element in pieces represents them.
     for (const std::string& name : std::set<std::string>(wanted))
       for (const std::size_t m : model.members_of({section, name}))
         if (const Entry& results = model.members()[m].results; results.section == section) wanted.insert(results.name);
@@ -46,7 +46,7 @@ void for_each_element(const YamlValue& entries, const std::string& key, Model& m
   }
 }
 
-/// Does what may throw without knowing the place in the file.
+/// Runs a function that may throw without the position in the file, and adds this position.
 template <class Act>
 void at_place_of(const YamlValue& value, Act&& act) {
   try {
@@ -56,7 +56,7 @@ void at_place_of(const YamlValue& value, Act&& act) {
   }
 }
 
-/// `fields: {rod: [displacement, von_mises]}`: what elements record in addition to their usual outputs.
+/// Reads `fields: {rod: [displacement, von_mises]}`: outputs of elements in addition to the usual ones.
 void read_fields(const YamlValue& fields, Model& model) {
   for_each_element(
       fields, "fields", model, [](Component& component, const std::string& element, const YamlValue& names) {
@@ -73,7 +73,7 @@ void read_fields(const YamlValue& fields, Model& model) {
       });
 }
 
-/// A point of a mesh, `[x, y, z]`, or one of its nodes by number.
+/// Reads a point of a mesh, `[x, y, z]`, or the number of one of its nodes.
 MeshPlace read_mesh_place(const YamlValue& value) {
   MeshPlace place;
   if (value.is_sequence())
@@ -83,7 +83,7 @@ MeshPlace read_mesh_place(const YamlValue& value) {
   return place;
 }
 
-/// `stress_at: {rod: {root: [x, y, z]}}`: a field of stress or strain at single points of an element's mesh.
+/// Reads `stress_at: {rod: {root: [x, y, z]}}`: a field of stress or strain at single points of an element's mesh.
 void read_points(const YamlValue& points, const std::string& field, Model& model) {
   const std::string key = field + "_at";
   for_each_element(points, key, model, [&](Component& component, const std::string& element, const YamlValue& named) {
@@ -100,7 +100,7 @@ void read_points(const YamlValue& points, const std::string& field, Model& model
   });
 }
 
-/// `peaks: {rod: [von_mises, principal_stress]}`: largest values over all steps.
+/// Reads `peaks: {rod: [von_mises, principal_stress]}`: largest values over all steps.
 void read_peaks(const YamlValue& peaks, Model& model) {
   for_each_element(peaks, "peaks", model, [](Component& component, const std::string& element, const YamlValue& names) {
     MeshFields* mesh = component.mesh_fields();
@@ -117,7 +117,7 @@ void read_peaks(const YamlValue& peaks, Model& model) {
   });
 }
 
-/// Times to record, ascending. @param end  of the last dynamic analysis [s]
+/// Reads the times to record, ascending. @param end  end of the last dynamic analysis [s]
 std::vector<double> read_times(const YamlValue& entry, double end) {
   std::vector<double> times;
   for (const YamlValue& item : entry.items()) {

@@ -1,4 +1,4 @@
-// The section `output` of a mechanism file: which rows of results are recorded, and what is in them.
+// The section `output` of a mechanism file: the rows of results to record, and their contents.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,12 @@ namespace bielle::mechanism {
 
 struct OutputOptions {
   Recording recording;
-  std::optional<ResultsLayout> layout;  ///< nothing: what suits the size of the model
+  std::optional<ResultsLayout> layout;  ///< empty: chosen by the size of the model
   bool log = false;                     ///< a table of all attempted steps next to the results
 };
 
-/// Reads the section and sets what the model's components record.
-/// @param end  of the last dynamic analysis [s]
-/// @throws InputError
+/// Reads the section and sets the outputs of the model's components.
+/// @param end  end of the last dynamic analysis [s] @throws InputError
 OutputOptions read_output(const YamlValue& entry, double end, bool statics, Model& model);
 
 }  // namespace bielle::mechanism

@@ -16,7 +16,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// What a session says goes to the user.
+/// Messages of a session are shown to the user.
 class ShownNotes : public Notes {
  public:
   ShownNotes(Progress& progress, Notes* others) : progress_(progress), others_(others) {}
@@ -34,18 +34,18 @@ class ShownNotes : public Notes {
   Notes* others_;
 };
 
-/// A run that was killed at its very beginning leaves the head of an HDF5 file.
+/// A run that was killed at its very beginning leaves the header of an HDF5 file.
 constexpr std::uintmax_t bare_head = 96;
 
 bool holds_results(const std::string& path) {
   try {
     return Hdf5File::open(path).read_text_attribute("/", "format") == "bielle results";
   } catch (const InputError&) {
-    return false;  // no HDF5 file at all, or none of ours
+    return false;  // no HDF5 file, or no results file
   }
 }
 
-/// What a run that fails leaves where there was nothing is removed if it holds no results: a full disk cuts files off.
+/// If a run fails and its new file contains no results, the file is removed: a full disk truncates files.
 class Remains {
  public:
   explicit Remains(std::string path) : path_(std::move(path)), thrown_(std::uncaught_exceptions()) {
@@ -65,8 +65,8 @@ class Remains {
   bool new_ = false;
 };
 
-/// The checkpoint to go on from, which is then in the results file. @throws InputError when there is none for this
-/// model
+/// Returns the checkpoint from which to continue, after copying it to the results file. @throws InputError if there is
+/// none for this model
 Checkpoint take_checkpoint(const MechanismFile& file, const std::string& restart, const std::string& results_path) {
   namespace fs = std::filesystem;
   Checkpoint checkpoint = read_checkpoint(restart, file.model);
@@ -122,7 +122,7 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
   try {
     session.emplace(file.model, threads);
   } catch (const ComputationError&) {
-    open_results(file, results_path, checkpoint);  // whatever stood there, it says that this run has failed
+    open_results(file, results_path, checkpoint);  // the file records that this run has failed
     throw;
   }
   const std::unique_ptr<ResultsFile> results = open_results(file, results_path, checkpoint);
@@ -142,7 +142,7 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
     session->on_attempt([&](const Attempt& attempt) { log->write(attempt); });
   }
   std::optional<InterruptGuard> guard;
-  std::string advice;  // how to go on after an interruption
+  std::string advice;  // instruction how to continue after an interruption
   if (listener.on_step) {
     session->on_step(listener.on_step);
   } else {

@@ -7,8 +7,7 @@
 //                 the axes of each node
 //   second_axis   x of the frame (made orthogonal), given in either way. By default x is the inertial axis most normal
 //   to z,
-//                 initially; if the two z differ initially, the second node's x follows by the smallest rotation
-//                 between
+//                 initially; if the two z differ, the second node's x follows by the smallest rotation between
 //                 them
 //
 // A joint without axis has frames that are initially parallel to the inertial axes.

@@ -3,8 +3,7 @@
 //
 //     mu(s) = mu_k + (mu_s - mu_k) exp(-(s/v_s)^2),   s = |v|           Stribeck's curve; mu_s = mu_k without v_s
 // `coulomb`, regularised:   F = -N [mu(s) tanh(s/v_0)/s + sigma_2] v
-//     It is smooth at rest, where it is a damper N mu_s/v_0: sticking surfaces creep. A fraction f < 1 of mu_s N is
-//     reached
+//     Smooth at rest, where it is a damper N mu_s/v_0: sticking surfaces creep. A fraction f < 1 of mu_s N is reached
 //     at the speed v_0 atanh(f) (v_0 much smaller than v_s).
 // `lugre`, bristles of deflection z [m] (a vector, as v):
 //     zdot = v - sigma_0 |v| z/mu(s),   F = -N [sigma_0 z + sigma_1(s) zdot + sigma_2 v]

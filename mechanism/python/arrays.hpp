@@ -1,4 +1,4 @@
-// Numbers as arrays of NumPy, without copies where something keeps them.
+// Numbers as NumPy arrays, without copies if another object keeps them.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace bielle::python {
 
-/// An array that takes the numbers over. @param shape  of as many
+/// Returns an array that takes ownership of the numbers. @param shape  shape with the same number of entries
 inline pybind11::array_t<double> take_array(std::vector<double>&& values, const std::vector<std::size_t>& shape) {
   auto held = std::make_unique<std::vector<double>>(std::move(values));
   const double* data = held->data();
@@ -18,13 +18,13 @@ inline pybind11::array_t<double> take_array(std::vector<double>&& values, const 
   return pybind11::array_t<double>(shape, data, owner);
 }
 
-/// A number where the shape is {}, an array otherwise.
+/// Returns a number if the shape is {}, otherwise an array.
 inline pybind11::object number_or_array(std::vector<double>&& values, const std::vector<std::size_t>& shape) {
   if (shape.empty() && values.size() == 1) return pybind11::float_(values[0]);
   return take_array(std::move(values), shape);
 }
 
-/// A view of numbers that `owner` keeps alive. @param strides  in numbers, not in bytes
+/// Returns a view of numbers that `owner` keeps alive. @param strides  in numbers, not in bytes
 inline pybind11::array_t<double> view_array(const double* data, const std::vector<std::size_t>& shape,
                                             std::vector<std::size_t> strides, const pybind11::handle& owner,
                                             bool writeable) {
@@ -34,7 +34,7 @@ inline pybind11::array_t<double> view_array(const double* data, const std::vecto
   return view;
 }
 
-/// Strides of numbers that stand one after the other, the last index running fastest.
+/// Returns strides of contiguous numbers, with the last index running fastest.
 inline std::vector<std::size_t> packed_strides(const std::vector<std::size_t>& shape) {
   std::vector<std::size_t> strides(shape.size(), 1);
   for (std::size_t k = shape.size(); k-- > 1;) strides[k - 1] = strides[k] * shape[k];

@@ -1,4 +1,4 @@
-// The parts of the module `bielle._core`, each in a source of its own. The package bielle/ gives them their form for
+// The parts of the module `bielle._core`, each in its own source. The package bielle/ defines their interface for
 // users.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The exceptions of the package, with the sentences of the programs.
+// The exceptions of the package, with the messages of the programs.
 #include <typeinfo>
 
 #include <pybind11/stl.h>
@@ -10,7 +10,7 @@
 namespace bielle::python {
 namespace {
 
-// Borrowed from the module, which lives to the end.
+// The references are borrowed from the module, which is never destroyed.
 PyObject *error = nullptr, *input_error = nullptr, *computation_error = nullptr;
 
 void set(PyObject* type, const std::exception& thrown) {
@@ -25,7 +25,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const ComputationError& failed) {
     set(computation_error, failed);
   } catch (const std::logic_error& refused) {
-    if (typeid(refused) != typeid(std::logic_error)) throw;  // out_of_range and the like have exceptions of Python
+    if (typeid(refused) != typeid(std::logic_error)) throw;  // out_of_range and similar have exceptions of Python
     set(error, refused);
   }
 }

@@ -1,8 +1,8 @@
-// One session computes for one caller at a time, also where Python has several threads.
+// One session computes for one caller at a time, even if Python has several threads.
 //
-// While a session computes, Python's lock (the GIL) is released: other threads of Python run, and may hold the same
-// session. They are refused with a sentence. A callback of the session may read it, but not compute with it.
-// Everything here happens under the lock.
+// While a session computes, Python's lock (the GIL) is released: other threads of Python run, and may use the same
+// session. Their calls are rejected with a message. A callback of the session may read it, but not compute with it.
+// All functions here are called with the lock held.
 #pragma once
 
 #include <stdexcept>
@@ -12,10 +12,10 @@ namespace bielle::python {
 
 class Gate {
  public:
-  /// While it lives, the session computes.
+  /// During the lifetime of this object, the session computes.
   class Computing {
    public:
-    /// @throws std::logic_error when the session computes already
+    /// @throws std::logic_error if the session already computes
     explicit Computing(Gate& gate) : gate_(gate) {
       gate.check_idle();
       gate.computing_ = true;
@@ -29,7 +29,7 @@ class Gate {
     Gate& gate_;
   };
 
-  /// While it lives, a computing session calls back.
+  /// During the lifetime of this object, a computing session calls back.
   class Calling {
    public:
     explicit Calling(Gate& gate) : gate_(gate) { gate.calling_ = true; }
@@ -42,13 +42,13 @@ class Gate {
   };
 
   bool computing() const { return computing_; }
-  /// @throws std::logic_error unless the session may be asked to compute
+  /// @throws std::logic_error unless the session is ready to compute
   void check_idle() const {
     check_readable();
     if (computing_)
       throw std::logic_error("the session is computing: a callback may read it, set its inputs and stop it");
   }
-  /// @throws std::logic_error unless the session may be read by this thread
+  /// @throws std::logic_error unless this thread may read the session
   void check_readable() const {
     if (computing_ && !(calling_ && thread_ == std::this_thread::get_id()))
       throw std::logic_error("the session is computing in another thread");

@@ -1,4 +1,4 @@
-// A model as Python holds it: shared by the sessions, motions and results that refer to it.
+// A model held by Python: shared by the sessions, motions and results that refer to it.
 #pragma once
 
 #include <memory>

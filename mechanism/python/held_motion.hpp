@@ -1,4 +1,4 @@
-// A motion as Python holds it.
+// A motion held by Python.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class HeldMotion {
   HeldMotion& operator=(const HeldMotion&) = delete;
 
   WorkingSession& session() { return *session_; }
-  /// To be read. @throws std::logic_error while its session computes in another thread
+  /// Returns the motion for reading. @throws std::logic_error while its session computes in another thread
   mechanism::Motion& readable() {
     session_->gate()->check_readable();
     return *motion_;

@@ -1,4 +1,4 @@
-// Between steps of a computation without Python's lock: Ctrl-C is heard, callbacks are called.
+// Handles signals (Ctrl-C) and callbacks between steps of a computation without Python's lock.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace bielle::python {
 
-/// What Python wants to be told of while something computes; None: nothing.
+/// Callbacks of Python during a computation; None: no callback.
 struct Callbacks {
   pybind11::object on_step = pybind11::none();   ///< called without arguments
   pybind11::object on_event = pybind11::none();  ///< called with time and name
@@ -17,12 +17,13 @@ struct Callbacks {
 
 class Interruptible {
  public:
-  /// @param gate  of the session that computes, or nullptr @param callbacks  nullptr: none; must outlive this object
+  /// @param gate  gate of the session that computes, or nullptr @param callbacks  nullptr: none; must outlive this
+  ///              object
   explicit Interruptible(Gate* gate = nullptr, const Callbacks* callbacks = nullptr)
       : gate_(gate), callbacks_(callbacks) {}
 
-  /// Called without the lock, which is taken only for callbacks and now and then for signals.
-  /// @throws pybind11::error_already_set what a callback or the handler of a signal raises (KeyboardInterrupt)
+  /// Call it without the lock, which is taken only for callbacks and at intervals for signals.
+  /// @throws pybind11::error_already_set the exception of a callback or of a signal handler (KeyboardInterrupt)
   void step();
   void event(double time, const std::string& name);
 

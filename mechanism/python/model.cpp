@@ -1,4 +1,4 @@
-// Models: read, described, never changed.
+// Models: they are read and described, never changed.
 #include <algorithm>
 
 #include <pybind11/stl.h>
@@ -46,7 +46,7 @@ std::map<std::string, std::vector<std::string>> entry_names(const Model& model) 
   for (const Section section : {Section::elements, Section::joints, Section::drives, Section::loads, Section::states,
                                 Section::measures, Section::hydraulics})
     names[section_name(section)] = model.names_in(section);
-  // (Formulas make measures as well: "main.angle".)
+  // (Formulas create measures as well: "main.angle".)
   std::erase_if(names[section_name(Section::measures)], [&](const std::string& name) {
     const std::vector<std::size_t>& members = model.members_of({Section::measures, name});
     return std::all_of(members.begin(), members.end(),
@@ -76,7 +76,7 @@ std::string describe(const MechanismFile& file) {
 }  // namespace
 
 void bind_model(pybind11::module_& module) {
-  // (The holder is not const, as pybind11 wants it; nothing here changes a model.)
+  // (The holder is not const, as pybind11 requires; nothing here changes a model.)
   pybind11::class_<MechanismFile, std::shared_ptr<MechanismFile>>(module, "Model")
       .def_static("read_file",
                   [](const std::string& path, const Overrides& parameters) {

@@ -1,4 +1,4 @@
-// bielle._core: what the package `bielle` calls.
+// bielle._core: the functions that the package `bielle` calls.
 #include "mechanism/python/bind.hpp"
 #include "mechanism/python/without_lock.hpp"
 

@@ -1,4 +1,4 @@
-// Motions: steps, and what they cost.
+// Motions: steps, and their cost.
 #include <pybind11/stl.h>
 
 #include "mechanism/analyses/summary_text.hpp"

@@ -1,4 +1,4 @@
-// Reading what was recorded.
+// Reading of recorded results.
 #include "mechanism/python/recorder.hpp"
 
 #include <pybind11/stl.h>
@@ -28,7 +28,8 @@ std::vector<std::string> names_of(const Recorder& recorder, const Recorded& anal
   return names;
 }
 
-/// A view of what stays, a copy of what still grows. @param shape  of all rows @param strides  in numbers
+/// Returns a view of complete data, or a copy of data that still grow. @param shape  shape of all rows @param strides
+/// in numbers
 py::array_t<double> rows(const HeldRecorder& recorder, std::size_t analysis, const double* data,
                          const std::vector<std::size_t>& shape, const std::vector<std::size_t>& strides) {
   py::array_t<double> view = view_array(data, shape, strides, py::cast(recorder), false);
@@ -53,7 +54,7 @@ py::object read(const HeldRecorder& recorder, std::size_t k, const std::string& 
   return rows(recorder, k, count == 0 ? nullptr : analysis.values.data() + column->begin, shape, strides);
 }
 
-/// Name -> (shape of a row or array, units, description, whether it has rows).
+/// Maps name -> (shape of a row or array, units, description, whether it has rows).
 py::dict datasets(const Recorder& recorder, std::size_t k) {
   const Recorded& analysis = recorded(recorder, k);
   py::dict found;

@@ -1,4 +1,4 @@
-// Results that a session hands over: in memory, and in a file where one is wanted.
+// Results that a session passes on: to memory, and to a file if requested.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace bielle::python {
 
-/// Knows which of its analyses are complete: only their numbers stay where they are.
+/// The object knows which of its analyses are complete: only their numbers do not move any more.
 class RecorderMemory final : public mechanism::MemorySink {
  public:
   using MemorySink::MemorySink;
@@ -26,7 +26,7 @@ struct Recorder {
   Recorder(HeldModel of, std::shared_ptr<const Gate> by)
       : model(std::move(of)), gate(std::move(by)), memory(model->model) {}
   HeldModel model;
-  std::shared_ptr<const Gate> gate;  ///< of the session that writes; nullptr: nobody writes any more
+  std::shared_ptr<const Gate> gate;  ///< gate of the session that writes; nullptr: no session writes any more
   RecorderMemory memory;
   std::unique_ptr<mechanism::ResultsFile> file;
 };

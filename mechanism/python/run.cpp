@@ -1,4 +1,4 @@
-// All analyses of a model, as the program runs them.
+// Runs all analyses of a model, as the program does.
 #include <pybind11/stl.h>
 
 #include "mechanism/io/run_analyses.hpp"
@@ -21,7 +21,7 @@ struct KeptNotes : Notes {
   std::vector<std::string> sentences;
 };
 
-/// Recorder, [(summary, numbers, rows) of each analysis], notes.
+/// Returns recorder, [(summary, numbers, rows) of each analysis], notes.
 py::tuple run(const std::shared_ptr<MechanismFile>& file, const std::string& output, const std::string& restart,
               int threads, bool progress, bool memory) {
   if (file->analyses.empty()) throw InputError("nothing to do: the model has no `analysis`");

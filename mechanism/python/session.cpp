@@ -29,7 +29,7 @@ std::unique_ptr<Analysis> read_keys(const std::string& text, const std::string& 
   return analysis;
 }
 
-/// Summary, numbers, rows.
+/// Returns summary, numbers, rows.
 py::tuple run(WorkingSession& working, const Analysis& analysis, const Callbacks& callbacks) {
   const AnalysisSummary summary = working.compute(callbacks, [&](Session& session) {
     working.close_motion(session);
@@ -52,7 +52,7 @@ std::unique_ptr<HeldMotion> start_motion(const HeldSession& working, const std::
     working->close_motion(session);
     working->open_motion(session, dynamic.expected_rows(session.recording()));
     try {
-      // (A motion stays where it is made.)
+      // (A motion cannot be moved.)
       return saved ? std::unique_ptr<Motion>(new Motion(session.dynamics(dynamic.options(), numbers)))
                    : std::unique_ptr<Motion>(new Motion(session.dynamics(dynamic.options())));
     } catch (...) {

@@ -1,4 +1,4 @@
-// BLAS by one thread while anything of Bielle computes, as in the programs; afterwards as before.
+// Restricts BLAS to one thread while Bielle computes, as in the programs; the number is restored afterwards.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace bielle::python {
 
-/// NumPy may share the BLAS and wants its threads. Several of these objects may live at the same time: the first sets
-/// one thread, the last gives the others back.
+/// NumPy may share the BLAS and needs its threads. Several of these objects may exist at the same time: the first sets
+/// one thread, the last restores the others.
 class SingleBlasThread {
  public:
   SingleBlasThread() {

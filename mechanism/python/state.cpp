@@ -14,7 +14,7 @@ using mechanism::State;
 constexpr std::size_t node_stride = sizeof(NodeState) / sizeof(double);
 static_assert(sizeof(NodeState) == 24 * sizeof(double), "a node is nothing but its numbers");
 
-/// (nodes, 3) of the vectors that each node has at an offset.
+/// Returns (nodes, 3) of the vectors that each node has at an offset.
 template <class Member>
 auto vectors_of_nodes(Member member) {
   return [member](const py::object& self) {
@@ -24,7 +24,7 @@ auto vectors_of_nodes(Member member) {
   };
 }
 
-/// (nodes, 3, 3); Eigen stores columns.
+/// Returns (nodes, 3, 3); Eigen stores columns.
 py::array_t<double> axes_of_nodes(const py::object& self) {
   const State& state = self.cast<const State&>();
   const double* data = state.nodes.empty() ? nullptr : state.nodes.front().R.data();

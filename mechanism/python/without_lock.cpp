@@ -7,7 +7,7 @@
 namespace bielle::python {
 namespace {
 
-// These belong to the whole process, as Python's lock does.
+// These variables belong to the whole process, as Python's lock does.
 std::atomic<int> computing = 0;
 std::atomic<bool> ending = false, abandoned = false;
 
@@ -16,12 +16,13 @@ std::atomic<bool> ending = false, abandoned = false;
   throw pybind11::error_already_set();
 }
 
-/// The lock is not to be had any more.
+/// The lock cannot be taken any more.
 void stay_away_if_abandoned() {
   while (abandoned) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// The program ends: waits for all that computes. (A step of a large model takes its time; a thread may have no end.)
+/// The program ends: the function waits for all computations. (A step of a large model takes some time; a thread may
+/// never end.)
 void end_computing() {
   constexpr std::chrono::seconds longest{60};
   ending = true;

@@ -26,7 +26,7 @@ WorkingSession::WorkingSession(HeldModel model, int threads) : model_(std::move(
   });
 }
 
-/// Files ask components for their results in a thread of their own: they end before the session does.
+/// Files compute the results of components in their own thread: they must end before the session does.
 WorkingSession::~WorkingSession() {
   for (const auto& [recorder, before] : recorders_) recorder->file.reset();
 }
@@ -36,7 +36,7 @@ WorkingSession::Listening::Listening(WorkingSession& of, const Callbacks& callba
   session.listener_ = &interruptible;
 }
 
-/// A motion of thousands of starts says the same again and again.
+/// A motion with thousands of starts gives the same messages repeatedly.
 void WorkingSession::KeptNotes::note(const std::string& sentence) {
   std::string shown = without_unseen_lines(sentence);
   if (std::find(sentences.begin(), sentences.end(), shown) == sentences.end()) sentences.push_back(std::move(shown));

@@ -1,4 +1,4 @@
-// A session as Python holds it: computes without Python's lock, one thing at a time.
+// A session held by Python: it computes without Python's lock, one computation at a time.
 #pragma once
 
 #include <memory>
@@ -26,13 +26,13 @@ class WorkingSession {
   WorkingSession& operator=(const WorkingSession&) = delete;
 
   const HeldModel& model() const { return model_; }
-  /// To be read, and for what callbacks may do: set inputs, stop, save.
+  /// Returns the session for reading, and for the operations that callbacks may use: set inputs, stop, save.
   /// @throws std::logic_error while it computes in another thread
   mechanism::Session& readable() {
     gate_->check_readable();
     return *session_;
   }
-  /// To be changed otherwise. @throws std::logic_error while it computes, also from callbacks
+  /// Returns the session for other changes. @throws std::logic_error while it computes, also from callbacks
   mechanism::Session& idle() {
     gate_->check_idle();
     return *session_;
@@ -41,7 +41,7 @@ class WorkingSession {
   const std::vector<std::string>& said() const { return notes_.sentences; }
   void forget_said() { notes_.sentences.clear(); }
 
-  /// Calls act(session) without Python's lock. @throws what act and callbacks throw
+  /// Calls act(session) without Python's lock. @throws the exceptions of act and callbacks
   template <class Act>
   auto compute(const Callbacks& callbacks, const Act& act) {
     const Gate::Computing computing(*gate_);
@@ -52,18 +52,18 @@ class WorkingSession {
     return act(*session_);
   }
 
-  /// Sends what follows to a recorder as well; a motion under way is recorded from its next step on.
-  /// @param memory  rows are kept there, not only written to a file
+  /// Also sends subsequent results to a recorder; a motion in progress is recorded from its next step on.
+  /// @param memory  rows are kept in memory, not only written to a file
   void attach(const std::shared_ptr<Recorder>& recorder, mechanism::Recording recording, bool memory);
-  /// Ends what is being recorded, and a file as complete.
+  /// Ends the recording, and completes its file.
   void detach(const std::shared_ptr<Recorder>& recorder);
   bool recording() const { return !recorders_.empty(); }
-  /// A motion begins, whose rows go to the recorders, if any.
+  /// Begins a motion, whose rows go to the recorders, if there are any.
   void open_motion(mechanism::Session& session, std::size_t expected_rows);
   void close_motion(mechanism::Session& session);
   void abandon(mechanism::Session& session);
 
-  /// Takes a motion that Python has no use for while the session may be computing.
+  /// Takes a motion that Python does not need any more, while the session may be computing.
   void bury(std::unique_ptr<mechanism::Motion> motion);
 
  private:
@@ -85,8 +85,8 @@ class WorkingSession {
   KeptNotes notes_;
   Interruptible* listener_ = nullptr;
   std::vector<std::pair<std::shared_ptr<Recorder>, mechanism::Recording>>
-      recorders_;      ///< and the recording before each
-  bool open_ = false;  ///< an analysis, for a motion
+      recorders_;      ///< and the recording options before each
+  bool open_ = false;  ///< an analysis is open, for a motion
   std::unique_ptr<mechanism::Session> session_;
   std::vector<std::unique_ptr<mechanism::Motion>> ended_;  ///< to be destroyed before the session
 };

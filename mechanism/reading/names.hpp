@@ -10,22 +10,23 @@
 
 namespace bielle::mechanism {
 
-/// Results stand under the names of nodes, elements and joints, where '/' opens a group and '.' is the group itself.
-/// @throws InputError for a name with an empty part or a '.' for a part
+/// Results are stored under the names of nodes, elements and joints, in which '/' opens a group and '.' is the group
+/// itself.
+/// @throws InputError for a name with an empty part or a '.' as a part
 void check_name(const std::string& name, const YamlValue& entry);
 
-/// The node that a value names. @throws InputError with the nearest name
+/// Returns the node that a value names. @throws InputError naming the nearest name
 int node_named_by(const YamlValue& value, const Model& model);
 
-/// The value must be a list of exactly `count` node names.
+/// Returns the nodes of a value, which must be a list of exactly `count` node names.
 std::vector<int> nodes_named_by(const YamlValue& value, std::size_t count, const Model& model);
 
-/// The first component of the entry of a section that a value names (drives name joints).
-/// @throws InputError with the nearest name
+/// Returns the first component of the entry of a section that a value names (drives name joints).
+/// @throws InputError naming the nearest name
 Component& component_named_by(Section section, const YamlValue& value, const Model& model);
 
 /// Reads one entry of a section of the mechanism file (`name: {type: ..., ...}`) into the model. Each component type
-/// has one, in its own file; io/component_table lists them.
+/// has a reader, in its own file; io/component_table lists them.
 using ComponentReader = void (*)(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

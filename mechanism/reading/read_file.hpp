@@ -6,7 +6,7 @@
 
 namespace bielle::mechanism {
 
-/// What `read` makes of the file that a value names; faults of the file are told with the value's place.
+/// Applies `read` to the file that a value names; errors in the file are reported with the value's position.
 /// @param read  (path) -> result, throws InputError
 template <class Read>
 auto read_named_file(const YamlValue& value, const Read& read) {

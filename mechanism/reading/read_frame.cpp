@@ -18,7 +18,7 @@ Matrix3 read_quaternion(const YamlValue& value) {
   return rotation_of_quaternion(q / largest);
 }
 
-/// Two of the axes: the first as given, the second made orthogonal to it.
+/// Reads two of the axes: the first as given, the second made orthogonal to it.
 Matrix3 read_axes(const YamlValue& value) {
   value.check_keys({"x", "y", "z"}, "`axes`");
   const std::vector<std::pair<std::string, YamlValue>> entries = value.entries();
@@ -38,7 +38,8 @@ Matrix3 read_axes(const YamlValue& value) {
   return R;
 }
 
-/// Files give a few digits: the rotation nearest to the matrix is taken, unless it is farther than rounding explains.
+/// Numbers in files have a few digits: the rotation nearest to the matrix is used, unless the difference exceeds
+/// rounding.
 Matrix3 read_matrix(const YamlValue& value) {
   const Matrix3 given = value.matrix(3, 3);
   if (const auto fault = rotation_fault(given))
@@ -71,7 +72,7 @@ Matrix3 read_orientation(const YamlValue& entry) {
   if (given == "matrix") return read_matrix(value);
   const Vector3 p = value.vector3();
   const bool angles = given != "rodrigues" && given != "conformal";
-  constexpr double largest = 1e6;  // more turns leave fewer than ten digits of the last one
+  constexpr double largest = 1e6;  // with more turns, fewer than ten digits of the last one are left
   if (angles && p.cwiseAbs().maxCoeff() > largest)
     value.fail(fmt::format("angles of more than {:.0e} rad do not tell an orientation any more", largest));
   if (angles && p.cwiseAbs().maxCoeff() > 2 * M_PI)

@@ -9,22 +9,22 @@
 
 namespace bielle::mechanism {
 
-/// The keys that give an orientation; at most one of them may be present.
+/// Returns the keys that give an orientation; at most one of them may be present.
 ///   rotation_vector: [rad x3]          axis times angle
-///   quaternion: [w, x, y, z]           need not be of length one
+///   quaternion: [w, x, y, z]           its length is arbitrary
 ///   bryant: [a, b, c]                  R = R_x(a) R_y(b) R_z(c) [rad]
 ///   euler: [a, b, c]                   R = R_z(a) R_x(b) R_z(c) [rad]
 ///   axes: {x: [..], y: [..]}           two of x, y, z; the second is made orthogonal to the first
-///   matrix: [[..], [..], [..]]         R itself: columns are the own axes; made orthonormal when off by less than 1e-3
+///   matrix: [[..], [..], [..]]         R itself: columns are the own axes; made orthonormal if the error is below 1e-3
 ///   rodrigues: [..]                    tan(angle/2) times the axis
 ///   conformal: [..]                    4 tan(angle/4) times the axis (Wiener-Milenkovic)
 const std::vector<std::string>& orientation_keys();
 
-/// Rotation (own axes -> inertial axes) of an entry; identity when it has none of the keys.
-/// @throws InputError when there are two, or one that gives no rotation
+/// Returns the rotation (own axes -> inertial axes) of an entry; identity if it has none of the keys.
+/// @throws InputError if there are two, or one that gives no rotation
 Matrix3 read_orientation(const YamlValue& entry);
 
-/// `position` (default zero) with an orientation.
+/// Reads `position` (default zero) with an orientation.
 Frame read_frame(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

@@ -7,13 +7,13 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The motion is that of a node that nothing carries.
+/// Returns the motion of a node without a carrier.
 StartMotion own_motion(const Node& node) {
   StartMotion motion{node.frame.x, node.velocity, node.frame.R * node.angular_velocity};
   for (int k = 0; k < 3; ++k)
     if (node.freedom[static_cast<std::size_t>(k)] == Freedom::prescribed)
       motion.v[k] = node.motion[static_cast<std::size_t>(k)].derivative(0, 1);
-  // Prescribed rotations come all three together, with those that are fixed at zero.
+  // Prescribed rotations are prescribed together, with those that are fixed at zero.
   if (std::count(node.freedom.begin() + 3, node.freedom.end(), Freedom::prescribed) == 0) return motion;
   Vector3 psi, rate;
   for (int k = 0; k < 3; ++k) {
@@ -33,7 +33,7 @@ void follow(Model& model, const std::function<void()>& rule, int rounds) {
 
 StartMotion start_motion(const Model& model, int node) {
   int root = node;
-  // (Carriers that run in a circle are an error later on.)
+  // (Carriers in a circle are reported as an error later.)
   for (std::size_t k = 0; model.node(root).carrier && k < model.nodes().size(); ++k) root = *model.node(root).carrier;
   const StartMotion motion = own_motion(model.node(root));
   const Vector3 x = model.node(node).frame.x;

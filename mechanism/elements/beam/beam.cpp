@@ -15,7 +15,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The inner nodes start between their ends: each end alone would move them rigidly.
+/// The inner nodes start with velocities interpolated between the rigid motions of both ends.
 void follow_ends(const std::vector<int>& nodes, Model& model) {
   if (nodes.size() == 2) return;
   when_motion_is_known(model, [nodes, &model] {
@@ -29,7 +29,7 @@ void follow_ends(const std::vector<int>& nodes, Model& model) {
   });
 }
 
-/// Nodes of the beam from start to end, the inner ones made here.
+/// Returns the nodes of the beam from start to end; the inner ones are created here.
 std::vector<int> make_nodes(const std::string& name, const YamlValue& entry, const std::vector<int>& ends,
                             const std::vector<Frame>& sections, Model& model) {
   std::vector<int> nodes{ends[0]};
@@ -98,7 +98,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
     const Matrix3 R_B = model.node(nodes[i + 1]).frame.R.transpose() * sections[i + 1].R;
     const double s_A = static_cast<double>(k) / count, s_B = static_cast<double>(k + 1) / count;
     BeamReference reference = d0;
-    if (line.angle() != 0 && total_twist != 0)  // else it is a helix
+    if (line.angle() != 0 && total_twist != 0)  // otherwise it is a helix
       reference = {d0, line.length() / count, line.rate(s_A, R_start, total_twist) / count,
                    line.rate(s_B, R_start, total_twist) / count, [&, back = inverse(sections[i + 1])](double z) {
                      return back * line.frame((1 - z) * s_A + z * s_B, R_start, total_twist);

@@ -21,7 +21,7 @@ BeamBowing::BeamBowing(const Matrix6& stiffness, const ElementSections& sections
 BeamBowing::Stretch BeamBowing::at(const Vector6& e) const {
   Stretch stretch;
   if (!bows_) return stretch;
-  constexpr double nothing = 1e-20;  // ends that coincide have no chord
+  constexpr double nothing = 1e-20;  // coincident ends have no chord
   const double c = 1 + along_.dot(e.head<3>());
   stretch.Qe.noalias() = Q_ * e;
   const double G = stretch.G = e.dot(stretch.Qe), r = stretch.r = std::sqrt(c * c + G + nothing);
@@ -33,8 +33,7 @@ BeamBowing::Stretch BeamBowing::at(const Vector6& e) const {
   return stretch;
 }
 
-// With m = r dr/de:  d2r/de2 = (t t^T + Q - m m^T/r^2)/r, and of q = r + G/(10 r) - c the second derivatives by r and
-// G.
+// With m = r dr/de:  d2r/de2 = (t t^T + Q - m m^T/r^2)/r, and q = r + G/(10 r) - c is differentiated twice by r and G.
 Matrix6 BeamBowing::second_gradient(const Stretch& stretch) const {
   if (!bows_) return Matrix6::Zero();
   const double r = stretch.r, by_r = 1 - 0.1 * stretch.G / (r * r);

@@ -22,13 +22,14 @@ using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
 
-/// Resultants at a section of an element of relative motion d that is in equilibrium, of its f: the nodal wrench at B,
-/// T6^-T(d) f, carried there. @param section  in the axes of the section frame at B
+/// Resultants at a section of an element with relative motion d in equilibrium, as a function of its f: the nodal
+/// wrench at B, T6^-T(d) f, transferred to the section. @param section  frame of the section in the axes of the section
+/// frame at B
 Matrix6 equilibrium(const Vector6& d, const Frame& section) {
   return adjoint(section).transpose() * tangent_se3_inverse(d).transpose();
 }
 
-/// Flexibility at z: the parabola through those of the Gauss points (constant for a uniform section).
+/// Returns the flexibility at z: the parabola through those of the Gauss points (constant for a uniform section).
 Matrix6 flexibility_at(const std::array<Matrix6, 3>& S, double z) {
   const std::array<double, 3>& p = Gauss3::place;
   Matrix6 sum = Matrix6::Zero();
@@ -40,7 +41,7 @@ Matrix6 flexibility_at(const std::array<Matrix6, 3>& S, double z) {
 }
 
 Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& reference, BeamBending bending) {
-  constexpr int parts = 16;  // three Gauss points in each: 1e-10 for an element that turns by a right angle
+  constexpr int parts = 16;  // three Gauss points in each: 1e-10 for an element with a rotation of a right angle
   std::array<Matrix6, 3> S;
   Matrix6 mean = Matrix6::Zero(), sum = Matrix6::Zero();
   for (std::size_t g = 0; g < 3; ++g) {
@@ -57,7 +58,7 @@ Matrix6 element_stiffness(const ElementSections& sections, const BeamReference& 
   return symmetric_inverse(sum);
 }
 
-/// The larger eigenvalue of the flexibility against moments across the element [1/(N m^2)].
+/// Returns the larger eigenvalue of the flexibility for moments normal to the element [1/(N m^2)].
 double softness_across(const Matrix6& flexibility, const Vector3& along) {
   const Matrix3 across = Matrix3::Identity() - along * along.transpose();
   const Matrix3 bending = across * flexibility.bottomRightCorner<3, 3>() * across;
@@ -101,7 +102,7 @@ void BeamElement::declare(Declaration& declaration) const {
   declaration.memory.assign(psi.begin(), psi.end());
 }
 
-/// Section frames, relative frame, and what follows from them.
+/// Section frames, relative frame, and derived quantities.
 struct BeamElement::Deformation {
   Matrix3 R_A, R_B;  ///< section axes -> inertial
   Vector6 d;
@@ -110,9 +111,9 @@ struct BeamElement::Deformation {
   BeamBowing::Stretch bowing;
   Matrix6x12 S;  ///< J P
   Vector6 eps, epsdot;
-  Vector6 f;  ///< of the strains
+  Vector6 f;  ///< resultants of the strains
 
-  /// J^T times resultants of the strains: those that work on e.
+  /// Returns J^T times the resultants of the strains: the forces conjugate to e.
   Vector6 of_motion(const Vector6& resultants, const Vector3& along) const {
     return resultants + bowing.gradient * along.dot(resultants.head<3>());
   }
@@ -120,7 +121,7 @@ struct BeamElement::Deformation {
 
 Vector6 BeamElement::relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const {
   const Vector6 d = log_se3({R_A.transpose() * (state.node(1).x - state.node(0).x), R_A.transpose() * R_B});
-  // Past 180 degrees the logarithm takes the other way round.
+  // Past 180 degrees the logarithm jumps to the opposite rotation.
   if ((d.tail<3>() - state.memory()).norm() > std::numbers::pi)
     refuse(state, "its ends have turned past 180 degrees against each other", ", or take smaller steps");
   return d;
@@ -178,7 +179,7 @@ void BeamElement::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) c
 
 namespace {
 
-/// target += Q^T A Q with Q = diag(U_0, U_1, U_2, U_3)^T.
+/// Adds Q^T A Q to target, with Q = diag(U_0, U_1, U_2, U_3)^T.
 void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<MatrixX> target) {
   for (std::size_t j = 0; j < 4; ++j) {
     const auto column = static_cast<Eigen::Index>(3 * j);
@@ -192,13 +193,14 @@ void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<
 
 }  // namespace
 
-// In body increments of the section frames (12x12, F = P^T J^T f, n = t . f):
+// The matrices in body increments of the section frames are (12x12, F = P^T J^T f, n = t . f)
 //   K_b = P^T J^T (C_e J P/L + C_d depsdot/dh) + ([G(-d, J^T f); G(d, J^T f)] + P^T (n/L) d2q/de2) P,
 //   C_b = P^T J^T C_d J P/L
 //   L depsdot/dh = J W + (t/L) (P v)^T d2q/de2 P,
 //   W = d(P v)/dh = [D(d, v_B) + D(-d, v_A)] P + P [0 (R_k^T xdot_k)~; 0 0]_k,   D(d, w) = d(T6^-1(d) w)/dd
-// and for the nodes, with dh_k = [R_Sk^T dx; R_k^T dTheta] (R_Sk section axes, R_k their constant place in the node):
-//   K = Q^T K_b Q and in the blocks (x_k, Theta_k) the turning of the force with its node, -R_Sk F_u,k~ R_k^T.
+// and for the nodes, with dh_k = [R_Sk^T dx; R_k^T dTheta] (section axes R_Sk, their constant orientation R_k in the
+// node):
+//   K = Q^T K_b Q, and in the blocks (x_k, Theta_k) the rotation of the force with its node, -R_Sk F_u,k~ R_k^T.
 void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const {
   const Vector12 F = D.S.transpose() * D.f;
   const Vector6 f_of_motion = D.of_motion(D.f, along_);
@@ -223,7 +225,7 @@ void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) con
   K.block<3, 3>(6, 9) -= D.R_B * skew(F.segment<3>(6)) * R_B_.transpose();
 }
 
-// f = C (eps + J P h/L), h the step in body increments of the section frames.
+// f = C (eps + J P h/L), with the step h in body increments of the section frames.
 Vector6 BeamElement::predicted_resultants(const LocalState& before, const LocalState& state) const {
   const Deformation D = deformation(before);
   Vector12 h;
@@ -306,7 +308,7 @@ std::vector<OutputField> BeamElement::output_fields() const {
 
 void BeamElement::write_output(const LocalState& state, double* values) const {
   const Deformation D = deformation(state);
-  // Physical resultants in the middle; constant strain has but one set.
+  // Physical resultants in the middle; constant strain has only one set.
   Matrix6 middle = Matrix6::Identity();
   if (bending_ == BeamBending::residual) middle = equilibrium(D.d, exp_se3(-0.5 * D.d));
   const Vector6 f = middle * D.of_motion(D.f, along_);

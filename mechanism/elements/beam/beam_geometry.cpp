@@ -46,13 +46,13 @@ Vector6 BeamLine::rate(double s, const Matrix3& R_start, double twist) const {
 
 namespace {
 
-/// Two points closer than this part of the scale of the figure are one.
+/// Two points closer than this fraction of the scale of the figure are considered equal.
 constexpr double coincident = 1e-9;
 
 BeamLine arc_about(const YamlValue& value, const Vector3& start, const Vector3& end) {
   const Vector3 given = value.vector3();
   const double r_a = (start - given).norm(), r_b = (end - given).norm();
-  // Coordinates in input files are rounded; the centre moves to where both ends lie on one circle exactly.
+  // Coordinates in input files are rounded; the centre is moved so that both ends are exactly on one circle.
   if (std::abs(r_a - r_b) > 1e-5 * std::max(r_a, r_b))
     value.fail(
         fmt::format("the ends are not at one distance from the centre of the arc: {:.9g} m and {:.9g} m; three points "
@@ -89,7 +89,7 @@ BeamLine arc_through(const YamlValue& value, const Vector3& start, const Vector3
     const double angle = std::atan2(axis.dot(from.cross(to)), from.dot(to));
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   };
-  // About +n the three points follow each other in the order start, through, end.
+  // About +n the three points are in the order start, through, end.
   return BeamLine::arc(start, centre, axis, angle_to(end));
 }
 

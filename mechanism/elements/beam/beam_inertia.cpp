@@ -12,7 +12,7 @@ std::array<const NodeState*, 2> ends(const LocalState& state) { return {&state.n
 
 constexpr Eigen::Index first_row(std::size_t node) { return 6 * static_cast<Eigen::Index>(node); }
 
-/// Of the line of mass centres at c, from the rate of the section frame.
+/// Tangent of the line of mass centres at c, from the derivative of the section frame.
 Vector3 tangent_of(const Vector6& rate, const Vector3& c) { return rate.head<3>() + rate.tail<3>().cross(c); }
 
 }  // namespace
@@ -21,7 +21,7 @@ BeamInertia::BeamInertia(const ElementSections& sections, const Matrix3& R_A, co
                          const BeamReference& reference) {
   const double L = reference.length;
   const Vector3 t = reference.d0.head<3>().normalized();
-  double mass = 0;  // per length, mean
+  double mass = 0;  // mean per length
   Vector3 moment = Vector3::Zero();
   Matrix3 J_A = Matrix3::Zero(), J_B = Matrix3::Zero();
   for (std::size_t g = 0; g < 3; ++g) {

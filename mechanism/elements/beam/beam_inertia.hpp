@@ -1,25 +1,25 @@
 // Inertia of one beam element.
 //
 // clang-format off
-// Line of mass centres between nodes A and B, z in [0, 1], with the mass offset c and the tangents of this line at the
-// ends in the reference, g = u + psi~ c ([u; psi] the rate of the section frame with z), fixed in the section frames of A
-// and B (R_A, R_B here their axes):
+// The line of mass centres between nodes A and B, with z in [0, 1], the mass offset c and the tangents of this line at
+// the ends in the reference state, g = u + psi~ c ([u; psi] is the derivative of the section frame by z), fixed in the
+// section frames of A and B (R_A, R_B are here their axes), is
 //     x(z) = (1-z)(x_A + R_A c) + z (x_B + R_B c) + z (1-z) (R_A g_A - R_B g_B)/2
-// so that the rotations of the ends bend the line. Kinetic energy, m and J (about the mass centre) per length:
+// so that the rotations of the ends bend the line. Kinetic energy, with m and J (about the mass centre) per length:
 //     T = 1/2 m L int |xdot|^2 dz                     consistent, by three Gauss points (exact for the mass matrix)
 //       + 1/2 (m L/12) |ydot|^2,   y = (x_B + R_B c) - (x_A + R_A c) - (R_A g_A + R_B g_B)/2
 //       + 1/2 (L/2) (Omega_A.J Omega_A + Omega_B.J Omega_B) - 1/2 (J_t L/12) (t.(Omega_A - Omega_B))^2   (section axes)
 // clang-format on
-// with the line's length L, the direction t of d0_u, and J_t = t.J t. The terms with 1/12 are the mean of consistent
-// and lumped masses, whose errors in the frequencies of axial, shear and torsional waves, +-(k L)^2/24, cancel (G.
-// Goudreau, R. Taylor, Comput. Methods Appl. Mech. Eng. 2 (1973) 69); in bending y is of third order, and the lumped
-// rotary inertia is the right one. Together with the residual bending flexibility of BeamElement the frequencies of
-// uniform beams, straight, curved, twisted, offset from the node line, converge with the fourth power of L, but for a
-// part E/(k_s G) (k r)^2 (k L)^2/24 in bending (wave number k, radius of gyration r, shear factor k_s): the line does
-// not represent how the shear varies along it. Everything turns with the nodes, and y is independent of translations:
-// energy and momenta are conserved exactly. No term depends on the deformation. In a tapered beam m, c and J are those
-// of the Gauss points; J goes to the ends by linear shares, and the terms with 1/12 take means: frequencies of tapered
-// beams converge with the second power of L.
+// The symbols are the line's length L, the direction t of d0_u, and J_t = t.J t. The terms with 1/12 are the mean of
+// consistent and lumped masses, whose errors in the frequencies of axial, shear and torsional waves, +-(k L)^2/24,
+// cancel (G. Goudreau, R. Taylor, Comput. Methods Appl. Mech. Eng. 2 (1973) 69); in bending y is of third order, and
+// the lumped rotary inertia is correct. With the residual bending flexibility of BeamElement, the frequencies of
+// uniform beams, straight, curved, twisted, or with an offset from the node line, converge with the fourth power of L,
+// except for a part E/(k_s G) (k r)^2 (k L)^2/24 in bending (wave number k, radius of gyration r, shear factor k_s):
+// the line does not represent the variation of shear along it. All terms rotate with the nodes, and y is independent of
+// translations: energy and momenta are conserved exactly. No term depends on the deformation. In a tapered beam m, c
+// and J are those of the Gauss points; J is distributed to the ends linearly, and the terms with 1/12 use means:
+// frequencies of tapered beams converge with the second power of L.
 #pragma once
 
 #include <array>
@@ -32,11 +32,11 @@
 
 namespace bielle::mechanism {
 
-/// The stress-free shape of an element: by default the helix that leads from A to B.
+/// The stress-free shape of an element: by default the helix from A to B.
 struct BeamReference {
   Vector6 d0;                                ///< log6(H_A^-1 H_B)
-  double length;                             ///< of the line [m]
-  Vector6 rate_A, rate_B;                    ///< of the section frame with z at the ends, in its axes; of a helix d0
+  double length;                             ///< length of the line [m]
+  Vector6 rate_A, rate_B;                    ///< derivative of the section frame by z at the ends, in its axes
   std::function<Frame(double)> seen_from_B;  ///< section frame at z in [0, 1] (0 at A) in the axes of the one at B
 
   BeamReference(const Vector6& helix)  // NOLINT: a relative motion is a shape
@@ -60,14 +60,14 @@ class BeamInertia {
   void add_energy(const LocalState& state, Energy& energy) const;
 
  private:
-  /// A mass w at sum_k (N_k x_k + R_k a_k), k = A, B. (For y the N_k add up to zero: no weight, no momentum.)
+  /// A mass w at sum_k (N_k x_k + R_k a_k), k = A, B. (For y the sum of N_k is zero: no weight, no momentum.)
   struct Point {
     double w = 0;  ///< [kg]
     std::array<double, 2> N{};
     std::array<Vector3, 2> a;  ///< [m], node axes
   };
   std::array<Point, 4> points_;
-  std::array<std::array<Matrix3, 2>, 2> J_;  ///< rotary inertia of and between nodes [kg m^2], node axes
+  std::array<std::array<Matrix3, 2>, 2> J_;  ///< rotary inertia of nodes and between nodes [kg m^2], node axes
   bool massless_;
 };
 

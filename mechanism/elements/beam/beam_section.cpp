@@ -11,7 +11,7 @@ BeamSection BeamSection::homogeneous(const SectionConstants& k, double young, do
                                      const Vector2& offset) {
   BeamSection section;
   const Vector3 o(0, offset.x(), offset.y()), s = o + Vector3(0, k.shear_centre.x(), k.shear_centre.y());
-  // Strains (gamma_x at the centroid, gamma_y and gamma_z at the shear centre, Kappa) from those at the node line.
+  // Maps strains at the node line to (gamma_x at the centroid, gamma_y and gamma_z at the shear centre, Kappa).
   Matrix6 strains = Matrix6::Identity();
   strains.block<1, 3>(0, 3) = -skew(o).row(0);
   strains.block<2, 3>(1, 3) = -skew(s).bottomRows<2>();
@@ -51,7 +51,7 @@ double BeamSection::largest_strain(const Vector6& strain) const {
 
 BeamSection BeamSection::shifted(const Vector2& offset) const {
   const Vector3 o(0, offset.x(), offset.y());
-  // Strains at the section's origin from those at the node line: Gamma + Kappa x o.
+  // Maps strains at the node line to those at the section's origin: Gamma + Kappa x o.
   Matrix6 strains = Matrix6::Identity();
   strains.topRightCorner<3, 3>() = -skew(o);
   BeamSection section = *this;

@@ -1,4 +1,5 @@
-// Cross sections of beams: stiffness and mass per length in the section frame, x along the beam, y and z across.
+// Cross sections of beams: stiffness and mass per length in the section frame, with x along the beam, y and z normal to
+// it.
 //
 // Resultants (n, m) = stiffness (Gamma, Kappa), in the order forces x y z, moments x y z; the origin of the section is
 // the node line. A homogeneous shape (section_shape.hpp) with its centroid at o and its shear centre at o + s has
@@ -19,32 +20,34 @@
 
 namespace bielle::mechanism {
 
-/// What one beam element needs to know of its section.
+/// Section properties required by one beam element.
 struct BeamSection {
   Matrix6 stiffness = Matrix6::Zero();    ///< [N, N m, N m^2], symmetric positive definite
-  double mass = 0;                        ///< per length [kg/m]; zero: the beam has no inertia
+  double mass = 0;                        ///< mass per length [kg/m]; zero: the beam has no inertia
   Vector3 mass_offset = Vector3::Zero();  ///< centre of mass from the node line [m], section frame
-  Matrix3 inertia = Matrix3::Zero();      ///< about the centre of mass, per length [kg m]
-  Vector2 reach = Vector2::Zero();  ///< of the farthest fibre from the centroid along y and z [m]; zero: not known
-  double twist_reach = 0;           ///< largest shear strain per twist [m]; zero: not known
-  /// At each stress point: sigma_xx, tau_xy, tau_xz [Pa] (rows) of unit resultants (columns).
+  Matrix3 inertia = Matrix3::Zero();      ///< inertia about the centre of mass, per length [kg m]
+  Vector2 reach = Vector2::Zero();        ///< largest distance from the centroid along y and z [m]; zero: not known
+  double twist_reach = 0;                 ///< largest shear strain per twist rate [m]; zero: not known
+  /// At each stress point: sigma_xx, tau_xy, tau_xz [Pa] (rows) due to unit resultants (columns).
   std::vector<Eigen::Matrix<double, 3, 6>> stress;
 
-  /// A homogeneous section. @param young,shear  moduli [Pa] @param density [kg/m^3]
-  /// @param offset  of the centroid from the node line [m]
+  /// Returns a homogeneous section. @param young,shear  moduli [Pa] @param density [kg/m^3]
+  /// @param offset  offset of the centroid from the node line [m]
   static BeamSection homogeneous(const SectionConstants& constants, double young, double shear, double density,
                                  const Vector2& offset = Vector2::Zero());
-  /// Mass, offset and inertia of [[m I, -m c~], [m c~, J]], J about the node line. @param M  per length
+  /// Sets mass, offset and inertia from [[m I, -m c~], [m c~, J]], with J about the node line. @param M  matrix per
+  /// length
   void set_mass(const Matrix6& M);
-  /// The same section with its origin at `offset` from the node line [m].
+  /// Returns the same section with its origin at `offset` from the node line [m].
   BeamSection shifted(const Vector2& offset) const;
-  /// The largest strain in the section: of a fibre along the beam, or two thirds of the largest shear
+  /// Returns the largest strain in the section, either of a fibre along the beam or two thirds of the largest shear
   /// (beam_strain.hpp).
   /// @param strain  (Gamma, Kappa)
   double largest_strain(const Vector6& strain) const;
 };
 
-/// The sections of one element: at the three Gauss points (gauss.hpp) of its length. One section: the same everywhere.
+/// The sections of one element: at the three Gauss points (gauss.hpp) of its length. A single section is constant along
+/// the element.
 struct ElementSections {
   std::array<BeamSection, 3> at;
 
@@ -54,25 +57,25 @@ struct ElementSections {
   double mean_mass() const;  ///< per length [kg/m]
 };
 
-/// Section along a beam: s in [0, 1] from start to end. A pair [start, end] tapers linearly in its dimensions and
-/// constants.
+/// Section along a beam, with s in [0, 1] from start to end. A pair [start, end] is a taper that is linear in
+/// dimensions and constants.
 class SectionLaw {
  public:
   /// @throws InputError naming the key that is missing, unknown or out of range
   explicit SectionLaw(const YamlValue& value);
   BeamSection at(double s) const;
-  ElementSections over(double s_A, double s_B) const;  ///< of the element from s_A to s_B
+  ElementSections over(double s_A, double s_B) const;  ///< sections of the element from s_A to s_B
   std::size_t stress_points() const { return static_cast<std::size_t>(start_.points.size() / 2); }
 
  private:
-  /// One section as lists of numbers that may be interpolated.
+  /// One section as lists of numbers that can be interpolated.
   struct Definition {
-    std::string kind;  ///< the key that names it: "rectangle", ..., "EA", "stiffness"
+    std::string kind;  ///< its key: "rectangle", ..., "EA", "stiffness"
     VectorX numbers;   ///< dimensions of a shape, constants, or matrices
-    VectorX material;  ///< of a shape: Young's modulus, shear modulus, density
-    VectorX offset;    ///< (2) of the centroid, or of the origin of given constants, from the node line
-    bool has_density = false, has_offset = false;  ///< given
-    VectorX shear_factors;                         ///< (2), or empty: those of the shape
+    VectorX material;  ///< for a shape: Young's modulus, shear modulus, density
+    VectorX offset;    ///< (2) offset of the centroid, or of the origin of given constants, from the node line
+    bool has_density = false, has_offset = false;  ///< whether they are given
+    VectorX shear_factors;                         ///< (2), or empty: values of the shape
     VectorX points;                                ///< y and z of each stress point, from the centroid
   };
   static Definition read(const YamlValue& value);
@@ -81,10 +84,10 @@ class SectionLaw {
   Definition between(double s) const;
   void check_points(const Definition& definition) const;
   BeamSection evaluate(double s) const;
-  YamlValue value_;  ///< for messages
+  YamlValue value_;  ///< the entry, for messages
   Definition start_, end_;
-  std::optional<BeamSection> uniform_;  ///< without taper
-  std::optional<WallTaper> walls_;      ///< with taper, of shapes that take finite elements
+  std::optional<BeamSection> uniform_;  ///< set without taper
+  std::optional<WallTaper> walls_;      ///< set for a taper of shapes that require finite elements
 };
 
 }  // namespace bielle::mechanism

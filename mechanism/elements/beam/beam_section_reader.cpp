@@ -1,4 +1,4 @@
-// Cross sections in the mechanism file.
+// Reader of cross sections in the mechanism file.
 #include <algorithm>
 #include <array>
 
@@ -16,7 +16,7 @@ namespace {
 constexpr std::array constants_keys{"EA", "GAy", "GAz", "GJ", "EIy", "EIz"};
 constexpr std::array mass_keys{"mass_per_length", "Jx", "Jy", "Jz"};
 
-/// In addition to the shape itself.
+/// Keys in addition to the shape itself.
 const std::vector<std::string> shape_keys{"young",         "poisson", "shear",        "density",
                                           "shear_factors", "offset",  "stress_points"};
 
@@ -30,7 +30,7 @@ double shear_modulus(const YamlValue& value, double young_modulus) {
   return young_modulus / (2 * (1 + nu));
 }
 
-/// (2), zero when absent.
+/// Reads the offset (2), zero if absent.
 Vector2 read_offset(const YamlValue& value, const std::string& what) {
   const auto offset = value.find("offset");
   if (!offset) return Vector2::Zero();
@@ -52,7 +52,7 @@ VectorX read_constants(const YamlValue& value) {
   for (int k = 0; k < 4; ++k) {
     const YamlValue item = value.at(mass_keys[static_cast<std::size_t>(k)]);
     numbers[6 + k] = item.non_negative_number();
-    // Without rotary inertia the section's rotation would have no mass at all.
+    // Without rotary inertia the section's rotation would have no mass.
     if (numbers[6] > 0 && numbers[6 + k] == 0) item.fail("a section with mass has mass moments > 0 about all its axes");
     if (numbers[6] == 0 && numbers[6 + k] > 0) item.fail("a section without mass has no mass moments");
   }
@@ -62,7 +62,7 @@ VectorX read_constants(const YamlValue& value) {
 void check_positive_definite(const YamlValue& value, const MatrixX& A, const std::string& what) {
   const double largest = A.cwiseAbs().maxCoeff();
   if (!(A - A.transpose()).isZero(1e-9 * largest)) value.fail(fmt::format("{} must be symmetric", what));
-  // Scaled to a unit diagonal: translations and rotations have different units.
+  // The matrix is scaled to a unit diagonal: translations and rotations have different units.
   const VectorX scale = A.diagonal().cwiseMax(0).cwiseSqrt();
   const bool positive = scale.minCoeff() > 0 &&
                         is_positive_definite(scale.cwiseInverse().asDiagonal() * A * scale.cwiseInverse().asDiagonal());
@@ -98,7 +98,7 @@ VectorX read_matrices(const YamlValue& value) {
   return numbers;
 }
 
-/// The one key that says what the section is.
+/// Returns the only key that defines the section.
 std::string kind_of(const YamlValue& value) {
   std::vector<std::string> kinds = section_shape_names(), given;
   kinds.emplace_back("EA");
@@ -174,7 +174,7 @@ void SectionLaw::check_taper(const YamlValue& value, const Definition& start, co
   if (start.shear_factors.size() != end.shear_factors.size())
     value.fail("give `shear_factors` at both ends, or at none");
   if (start.points.size() != end.points.size()) value.fail("give as many `stress_points` at the end as at the start");
-  // What is left out counts as zero: a taper to nothing would be a slip.
+  // A missing key counts as zero: a taper to zero would be a mistake.
   if (start.has_density != end.has_density) value.fail("give the density or mass at both ends, or at none");
   if (start.has_offset != end.has_offset) value.fail("give `offset` at both ends, or at none");
 }

@@ -9,9 +9,9 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr double worth_a_doubt = 0.02;
-// Bending under tension fades from a clamp like exp(-x/l), which one cubic follows over some lengths l only: with seven
-// in each of four elements the deflection of a strip is right to 1 %, the first frequency of a blade of two elements
-// with ten in each is 10 % high. Moments next to the clamp need elements of one or two lengths.
+// Bending under tension decays from a clamp like exp(-x/l), which one cubic can only represent over a few lengths l:
+// with seven in each of four elements the deflection of a strip is accurate to 1 %; the first frequency of a blade of
+// two elements with ten in each is 10 % too high. Moments next to the clamp require elements of one or two lengths.
 constexpr double too_long = 7;
 constexpr double advised = 3.5;
 

@@ -1,12 +1,12 @@
-// How far beams are strained: their law of resultants is linear, for small strains, however far they bend.
+// Strains of beams: their law of resultants is linear, for small strains, but for bending of any size.
 //
-// With the strain (Gamma, Kappa) in the middle of an element, o the elastic centroid, (b, h) the farthest fibre from it
-// along y and z and r the shear per twist:
+// The definitions use the strain (Gamma, Kappa) in the middle of an element, the elastic centroid o, the farthest fibre
+// (b, h) from it along y and z, and the shear r per twist rate:
 //     normal = |Gamma_x + kappa_y o_z - kappa_z o_y| + |(kappa_y h, kappa_z b)|,   shear = |(Gamma_y, Gamma_z)| +
 //     |kappa_x| r.
-// For sections given as shapes b and h are exact, and so is r for circles, tubes and rectangles; r of other shapes is
-// sqrt(2 J/A), which is low by up to a fifth for open walls and high by up to two fifths for closed ones. Sections
-// given by constants are taken as rectangles, b = sqrt(3 EI/EA), of Poisson's ratio 0.3.
+// For sections given as shapes, b and h are exact, and so is r for circles, tubes and rectangles; r of other shapes is
+// sqrt(2 J/A), which is too low by up to a fifth for open walls and too high by up to two fifths for closed ones.
+// Sections given by constants are treated as rectangles, b = sqrt(3 EI/EA), with Poisson's ratio 0.3.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@
 
 namespace bielle::mechanism {
 
-/// The watch keeps the largest strain of a beam element over all steps, and whether its length resolves bending under
-/// tension. The element that is farthest beyond a bound speaks for its beam.
+/// The step recorder records the largest strain of a beam element over all steps, and whether its length resolves
+/// bending under tension. The element that exceeds a bound most writes the summary of its beam.
 class BeamStrainWatch final : public StepRecorder {
  public:
   explicit BeamStrainWatch(const BeamElement& element) : element_(element) {}

@@ -14,14 +14,14 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr std::size_t along_beam = 0, in_time = 1;  // arguments of the formulas
+constexpr std::size_t along_beam = 0, in_time = 1;  // argument numbers of the formulas
 
 Vector3 evaluate(const FormulaVector& vector, double s, double t) {
   const std::array<double, 2> values{s, t};
   return {vector[0](values), vector[1](values), vector[2](values)};
 }
 
-/// Places inside an element, 0 < z < 1, where a formula of s jumps or has a kink, with 0 and 1.
+/// Returns positions inside an element, 0 < z < 1, at which a formula of s jumps or has a kink, with 0 and 1.
 std::vector<double> pieces(const LineLoad& load, double s_A, double s_B) {
   std::vector<double> ends{0, 1};
   std::vector<double> places;
@@ -35,8 +35,8 @@ std::vector<double> pieces(const LineLoad& load, double s_A, double s_B) {
   return ends;
 }
 
-/// Integral over the beam of a formula, or of its magnitude, by three Gauss points in each of `parts` equal parts of
-/// the pieces between kinks of each element.
+/// Integrates a formula, or its magnitude, over the beam, by three Gauss points in each of `parts` equal parts of the
+/// pieces between kinks of each element.
 template <class Value>
 double integral(const std::vector<double>& ends, int parts, const Value& value) {
   double sum = 0;
@@ -49,7 +49,7 @@ double integral(const std::vector<double>& ends, int parts, const Value& value) 
   return sum;
 }
 
-/// W_B: what a small rotation of end B turns the section at z by.
+/// W_B: maps a small rotation of end B to that of the section at z.
 Matrix3 end_share(double z, const Vector3& psi) { return z * tangent(z * psi) * tangent_inverse(psi); }
 
 /// d(W_B^T n)/dpsi with n fixed:  W_B^T n = z T^-T(psi) p,   p = T(z psi)^T n.
@@ -83,8 +83,8 @@ void DistributedLoad::declare(Declaration& declaration) const {
 struct DistributedLoad::Section {
   Vector3 psi;
   Matrix3 S;                 ///< section axes -> inertial
-  std::array<Matrix3, 2> W;  ///< dTheta of the section from those of the section frames at the ends
-  Vector3 F, M;              ///< as given, with the load factor
+  std::array<Matrix3, 2> W;  ///< maps dTheta of the section frames at the ends to that of the section
+  Vector3 F, M;              ///< as given, multiplied by the load factor
   Vector3 f, n;              ///< force (inertial) and moment about the line (section axes), per length
 };
 
@@ -193,7 +193,7 @@ void DistributedLoad::calc_time_formulas(const LocalState& state, std::span<doub
 }
 
 void DistributedLoad::describe(const LocalState& /*state*/, Description& description) const {
-  if (span_.s_A > 0) return;  // the same on every element
+  if (span_.s_A > 0) return;  // equal on all elements
   std::string text;
   if (load_.has_force) text += fmt::format("force {} N/m", format_vector(load_.force));
   if (load_.has_force && !load_.at.isZero(0))
@@ -230,7 +230,7 @@ LineLoad read_line_load(const YamlValue& value) {
   return load;
 }
 
-/// Refuses a formula that the points of the elements do not integrate: a part of it would be lost silently.
+/// Rejects a formula that the points of the elements do not integrate: a part of it would be lost without a message.
 void check_integrals(const YamlValue& value, const LineLoad& load, const Expression& formula, int elements) {
   if (formula.is_constant()) return;
   std::vector<double> times = formula.break_points(in_time);

@@ -1,4 +1,4 @@
-// Three components of a load, each a formula.
+// A load with three components, each a formula.
 #pragma once
 
 #include <array>
@@ -10,14 +10,15 @@
 
 namespace bielle::mechanism {
 
-/// Components along three axes; zero as constructed.
+/// Components along three axes; initially zero.
 using FormulaVector = std::array<Expression, 3>;
 
-/// @param variables  that the formulas may use, e.g. {"s", "t"} @param expected  what they are, for the message
+/// @param variables  variables that the formulas may use, e.g. {"s", "t"} @param expected  description of them, for the
+///                   message
 FormulaVector read_formula_vector(const YamlValue& value, const std::vector<std::string>& variables,
                                   const std::string& expected);
 
-/// "(0, sin(t), 2)", as the user wrote it.
+/// Returns "(0, sin(t), 2)", as the user wrote it.
 std::string format_vector(const FormulaVector& vector);
 
 /// Adds the values of an argument at which any component jumps or has a kink.

@@ -21,14 +21,14 @@ using Fields = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 Vector3 shape(double t) { return {(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)}; }
 Vector3 shape_slope(double t) { return {4 * t - 3, 4 - 8 * t, 4 * t - 1}; }
 
-/// Products of functions of y and of z; node 3 j + i stands at the i-th place along y and the j-th along z.
+/// Products of functions of y and of z; node 3 j + i is at the i-th position along y and the j-th along z.
 Vector9 product(const Vector3& along_y, const Vector3& along_z) {
   Vector9 all;
   for (int j = 0; j < 3; ++j) all.segment<3>(3 * j) = along_z[j] * along_y;
   return all;
 }
 
-/// Shape functions of a cell at a place (u, w) in [0, 1]^2, and their derivatives along u and w.
+/// Shape functions of a cell at a position (u, w) in [0, 1]^2, and their derivatives by u and w.
 struct ShapeValues {
   double u, w;
   Vector9 v, v_u, v_w;
@@ -45,7 +45,7 @@ struct GaussPoint {
   double weight;
 };
 
-/// The nine of a cell.
+/// Returns the nine Gauss points of a cell.
 const std::vector<GaussPoint>& gauss_points() {
   static const std::vector<GaussPoint> all = [] {
     std::vector<GaussPoint> points;
@@ -57,16 +57,16 @@ const std::vector<GaussPoint>& gauss_points() {
   return all;
 }
 
-/// Grid lines from a to b, fine at both ends. @param first  size of the cells there
+/// Adds grid lines from a to b, with fine cells at both ends. @param first  size of the cells there
 void add_lines(double a, double b, double first, double growth, std::vector<double>& lines) {
-  const double largest = 0.08 * (b - a);  // so that the parabola of a web's shear stress is right to 1e-3
+  const double largest = 0.08 * (b - a);  // so that the parabolic shear stress of a web is accurate to 1e-3
   std::vector<double> from_end{0};
   double size = first;
   while (from_end.back() + size < 0.5 * (b - a)) {
     from_end.push_back(from_end.back() + size);
     size = std::min(size * growth, largest);
   }
-  // The middle takes what is left; two cells there where it is long.
+  // The rest is divided in the middle, into two cells if it is long.
   const double rest = (b - a) - 2 * from_end.back();
   for (double x : from_end) lines.push_back(a + x);
   if (rest > size) lines.push_back(0.5 * (a + b));
@@ -121,7 +121,7 @@ bool RectangleArea::contains(const Vector2& p) const {
 
 double RectangleArea::thinnest_part() const {
   double least = INFINITY, size = 0;
-  for (const SectionRectangle& r : rectangles)  // edges of the thinnest ones are one edge below
+  for (const SectionRectangle& r : rectangles)  // edges of the thinnest ones are the same edge below
     least = std::min({least, r.y1 - r.y0, r.z1 - r.z0});
   for (const bool along_y : {true, false}) {
     std::vector<double> edges;
@@ -189,13 +189,13 @@ SaintVenant::Stresses SaintVenant::stresses(const Cell& cell, const Differences&
   return tau;
 }
 
-// Weak forms, v any test function:
+// Weak forms, with any test function v:
 //   int tau_i . grad v = int c_i.(y,z) v   (flexure),    int tau . grad v = 0   (torsion)
 // J = int |tau|^2 is a sum of squares: I_y + I_z - int |grad omega|^2 would be a small difference for thin walls.
 Eigen::Matrix<double, Eigen::Dynamic, 3> SaintVenant::evaluate(const Matrix2& I_inverse) {
   Fields residual = Fields::Zero(nodes_, 3);
   Matrix3 energy = Matrix3::Zero();
-  Vector2 torque = Vector2::Zero();  // of the flexural stresses about the centroid: int (y tau_z - z tau_y)
+  Vector2 torque = Vector2::Zero();  // torque of the flexural stresses about the centroid: int (y tau_z - z tau_y)
   for (const Cell& cell : cells_) {
     const double b = cell.y1 - cell.y0, h = cell.z1 - cell.z0;
     const Differences values = differences(cell);
@@ -236,14 +236,15 @@ void SaintVenant::solve(const RectangleArea& area) {
   }
   Eigen::SparseMatrix<double> K(nodes_, nodes_);  // lower triangle
   K.setFromTriplets(entries.begin(), entries.end());
-  // Functions are free up to a constant: held at one node, where the loads (which add up to zero) leave nothing.
+  // Functions are determined up to a constant: they are fixed at one node, at which the loads (whose sum is zero) have
+  // no effect.
   K.coeffRef(0, 0) *= 2;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(K);
 
   const Matrix2 c = area.I.inverse();
   field_.setZero(nodes_, 3);
   constexpr int most = 12;
-  constexpr double enough = 1e-7;  // error of the stresses, by the energy of their correction
+  constexpr double enough = 1e-7;  // error of the stresses, from the energy of their correction
   for (int k = 0; k < most; ++k) {
     const Fields r = evaluate(c);
     const Fields correction = factors.solve(r);

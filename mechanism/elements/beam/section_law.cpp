@@ -1,4 +1,4 @@
-// The section at a place along a beam: evaluated once for a uniform beam, interpolated along a taper.
+// The section at a position along a beam: computed once for a uniform beam, interpolated along a taper.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ SectionLaw::Definition SectionLaw::between(double s) const {
 
 namespace {
 
-/// Lengths and moduli that are far off make constants that no number holds.
+/// Extreme lengths and moduli give constants that cannot be represented.
 bool is_representable(const BeamSection& section) {
   return section.stiffness.allFinite() && section.stiffness.diagonal().minCoeff() > 0 && std::isfinite(section.mass) &&
          section.inertia.allFinite() && (section.mass == 0 || section.inertia.diagonal().minCoeff() > 0);

@@ -13,7 +13,7 @@ using std::numbers::pi;
 SectionConstants rectangle_constants(double width_y, double height_z) {
   const double a = std::max(width_y, height_z), c = std::min(width_y, height_z);
   double sum = 0;
-  // Terms fall like n^-5: beyond n = 2001 the rest is below 1e-15 of the first.
+  // Terms decrease like n^-5: beyond n = 2001 the rest is below 1e-15 of the first.
   for (int n = 2001; n >= 1; n -= 2) sum += std::tanh(n * pi * a / (2 * c)) / std::pow(n, 5);
   SectionConstants k;
   k.A = a * c;
@@ -57,7 +57,7 @@ Eigen::Matrix<double, 3, 6> unit_stress(const SectionConstants& k, const Vector2
 
 namespace {
 
-/// Points this much outside, relative to the size, count as on the boundary.
+/// Points outside by less than this, relative to the size, count as on the boundary.
 constexpr double slack = 1e-9;
 
 class Rectangle : public SectionShape {
@@ -68,7 +68,8 @@ class Rectangle : public SectionShape {
     return std::abs(p.x()) <= (0.5 + slack) * b_ && std::abs(p.y()) <= (0.5 + slack) * h_;
   }
 
-  // Torsion by Prandtl's function phi, tau = (phi_z, -phi_y), u along the longer side a and w along the shorter c:
+  // Torsion by Prandtl's function phi, tau = (phi_z, -phi_y), with u along the longer side a and w along the shorter
+  // side c:
   //   phi = c^2/4 - w^2 - (8 c^2/pi^3) sum_{n odd} (-1)^((n-1)/2)/n^3 cosh(n pi u/c)/cosh(n pi a/(2c)) cos(n pi w/c)
   UnitShearStress shear_stress(const Vector2& p) const override {
     const bool upright = h_ > b_;
@@ -149,7 +150,7 @@ std::vector<SectionRectangle> walls(const std::string& shape, const VectorX& d) 
           {d[0] - d[2], d[0], d[3], d[1] - d[3]}};
 }
 
-/// A number for both, or a pair.
+/// Reads a number for both, or a pair.
 Vector2 one_or_two(const YamlValue& value, const std::string& pair) {
   if (value.is_scalar()) return Vector2::Constant(value.positive_number());
   return value.positive_numbers(2, "a number or a pair " + pair);
@@ -194,7 +195,7 @@ VectorX read_walls(const std::string& shape, const YamlValue& value) {
   return d.head<4>();
 }
 
-/// Neither a wall nor a part that projects from one may be too thin for the finite elements.
+/// Throws if a wall, or a part that projects from one, is too thin for the finite elements.
 void check_thin_parts(const YamlValue& value, const RectangleArea& area) {
   const double part = area.thinnest_part();
   if (part < SaintVenant::thinnest_part)
@@ -214,7 +215,7 @@ const std::vector<std::string>& section_shape_names() {
 
 namespace {
 
-/// Between an atom and a country: fourth powers of such lengths can be computed with. [m]
+/// Permitted lengths [m]: fourth powers of such lengths can be represented.
 constexpr double least_size = 1e-12, most_size = 1e6;
 
 [[noreturn]] void refuse_size(const YamlValue& value, double size) {
@@ -242,7 +243,7 @@ VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) 
   if (dimensions.maxCoeff() > most_size) refuse_size(value, dimensions.maxCoeff());
   if (is_made_of_walls(shape)) check_thin_parts(value, wall_area(shape, dimensions));
   for (const double size : dimensions)
-    if (size != 0 && size < least_size) refuse_size(value, size);  // (zero: a shape with fewer sizes)
+    if (size != 0 && size < least_size) refuse_size(value, size);  // (zero: the shape has fewer dimensions)
   return dimensions;
 }
 

@@ -1,11 +1,11 @@
 // Sections of walls along a taper, from a few solutions of Saint-Venant's problems.
 //
 // Between two ends whose dimensions vary linearly, J, the shear compliance, the shear centre and the shear stresses at
-// moving points are smooth functions of the place s along the beam. They are interpolated, without dimensions (log J, A
-// F, s/r, A tau and J r/A tau, with area A and radius of gyration r), by polynomials through Chebyshev's points, whose
-// number is doubled until the former polynomial is right to 3e-3 at the new points: by its geometric convergence the
-// new one is then right to some 1e-5, less than the error of the finite elements. Where 33 points do not suffice (a
-// wall that nearly vanishes) each section is solved separately.
+// moving points are smooth functions of the position s along the beam. They are interpolated, in dimensionless form
+// (log J, A F, s/r, A tau and J r/A tau, with area A and radius of gyration r), by polynomials through Chebyshev
+// points, whose number is doubled until the previous polynomial is accurate to 3e-3 at the new points: because of its
+// geometric convergence the new one is then accurate to some 1e-5, less than the error of the finite elements. If 33
+// points are not sufficient (a wall that nearly vanishes), each section is solved separately.
 #pragma once
 
 #include <vector>
@@ -14,28 +14,28 @@
 
 namespace bielle::mechanism {
 
-/// What finite elements give of a section.
+/// Results of the finite elements for a section.
 struct SectionValues {
   SectionConstants constants;
   std::vector<UnitShearStress> shear_stress;  ///< at the stress points
 };
 
-/// @param points  y and z of each stress point, from the centroid [m]
+/// @param points  y and z of each stress point, relative to the centroid [m]
 SectionValues section_values(const SectionShape& shape, const VectorX& points);
 
 class WallTaper {
  public:
   /// @param shape   i, t, l or box
   /// @param start,end  dimensions
-  /// @param points_start,points_end  of the stress points, inside of the section all along
+  /// @param points_start,points_end  stress points at both ends; they are inside of the section along the whole beam
   WallTaper(std::string shape, VectorX start, VectorX end, VectorX points_start, VectorX points_end);
 
   SectionValues at(double s) const;
-  int solutions() const { return static_cast<int>(nodes_.size()); }  ///< that it rests on; 0: each section its own
+  int solutions() const { return static_cast<int>(nodes_.size()); }  ///< used; 0: none is shared
 
  private:
   SectionValues solve(double s) const;
-  VectorX numbers(double s) const;  ///< of a solution, without dimensions
+  VectorX numbers(double s) const;  ///< dimensionless values at s
   VectorX interpolated(double s) const;
 
   std::string shape_;

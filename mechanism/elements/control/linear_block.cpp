@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Mean frequency of the poles that are not zero [rad/s]; 1 where all are. @param a  in ascending powers of s
+/// Returns the mean frequency of the nonzero poles [rad/s]; 1 if all poles are zero. @param a  in ascending powers of s
 double mean_frequency(const std::vector<double>& a) {
   const std::size_t n = a.size() - 1;
   std::size_t lowest = 0;

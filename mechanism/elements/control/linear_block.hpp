@@ -15,24 +15,25 @@ struct LinearBlock {
   MatrixX D;  ///< (outputs, inputs): direct feed-through
 };
 
-/// x' = u: the user's own differential equation, u its right side. Output x.
+/// Returns x' = u: the user's own differential equation with its right-hand side u. The output is x.
 LinearBlock integrator();
-/// y' = (u - y)/T. @param time_constant  T > 0 [s]
+/// Returns y' = (u - y)/T. @param time_constant  T > 0 [s]
 LinearBlock first_order_filter(double time_constant);
-/// The same with T = 0: y = u. Its one state follows by itself, and nothing reads it.
+/// Returns the same with T = 0: y = u. Its single state decays by itself, and is not used.
 LinearBlock no_filter();
-/// y'' + 2 d w y' + w^2 y = w^2 u, w = 2 pi frequency. States y, y'/w; outputs y, y'.
+/// Returns y'' + 2 d w y' + w^2 y = w^2 u, w = 2 pi frequency. Its states are y, y'/w; its outputs y, y'.
 /// @param frequency  > 0 [Hz] @param damping  d >= 0 [-]
 LinearBlock second_order_filter(double frequency, double damping);
 
-/// y = b(s)/a(s) u, coefficients in descending powers of s; the first of `denominator` is not zero, and there are no
-/// more in `numerator`. Controllable canonical form with time counted in 1/w_0, w_0 the geometric mean of the poles
-/// that are not zero, so that states are of the input's size whatever the poles are:
+/// Returns y = b(s)/a(s) u, with coefficients in descending powers of s; the first of `denominator` is not zero, and
+/// `numerator` has at most as many. The realisation is the controllable canonical form with time in units of 1/w_0,
+/// where w_0 is the geometric mean of the nonzero poles, so that states have the size of the input for any poles:
 ///     x_i' = w_0 x_(i+1),   x_n' = w_0 (u/g - sum alpha_i x_i),   y = sum beta_i x_i + d u,
-/// with alpha the coefficients of a(w_0 sigma), made monic. Reference: T. Kailath, Linear Systems, 1980, 2.1.
+/// Here alpha are the coefficients of a(w_0 sigma), normalised to a leading one. Reference: T. Kailath, Linear Systems,
+/// 1980, 2.1.
 LinearBlock realisation(const std::vector<double>& numerator, const std::vector<double>& denominator);
 
-/// G of x = G u, where all rates are zero; nothing where A is singular (an integrator).
+/// Returns G of x = G u, if all rates are zero; no value if A is singular (an integrator).
 std::optional<MatrixX> rest_of(const LinearBlock& block);
 
 }  // namespace bielle::mechanism

@@ -1,7 +1,7 @@
-// What the rates of a control block are: adds -(A x + B u) to the equations x' + .. = 0 of its unknowns, u formulas of
-// time and state. A user's own differential equation is x' = u, with x among what u depends on.
+// The rates of a control block: adds -(A x + B u) to the equations x' + .. = 0 of its unknowns, with formulas u of time
+// and state. A user's own differential equation is x' = u, where u may depend on x.
 //
-// In a static analysis the rates are zero, but for unknowns that they do not determine there (State::held).
+// In a static analysis the rates are zero, except for unknowns that this does not determine (State::held).
 #pragma once
 
 #include <optional>
@@ -19,10 +19,10 @@ namespace bielle::mechanism {
 
 class StateEquation final : public Component, public TimeDependent {
  public:
-  /// @param rest   G of a start at rest, x = G u at the start, in place of the start values of the unknowns
+  /// @param rest   G of a start at rest, x = G u at the start, instead of the start values of the unknowns
   /// @param about  the block in words, for `--check`: "first-order filter, 0.01 s"
   StateEquation(const StateUnknowns& unknowns, LinearBlock block, std::optional<MatrixX> rest, std::string about);
-  /// Takes one more input, once the model is read.
+  /// Reads one more input, after the model has been read.
   void read_input(const YamlValue& formula, Model& model);
 
   void declare(Declaration& declaration) const override;
@@ -43,7 +43,7 @@ class StateEquation final : public Component, public TimeDependent {
   LinearBlock block_;
   std::optional<MatrixX> rest_;
   std::string about_;
-  References references_;  ///< the unknowns first
+  References references_;  ///< the unknowns are the first
   std::vector<StateFormula> inputs_;
 };
 

@@ -32,7 +32,7 @@ double StateOutput::calc(const LocalState& state, MeasureGradient& gradient) con
   gradient.prepare(state.slots().size());
   gradient.position().segment(state.slots().reference_row(0), c_.size()) = c_;
   double sum = c_.dot(state.of(0).first_order());
-  FormulaGradient of_input;  // a measure may be one of measures: nothing shared
+  FormulaGradient of_input;  // a measure may depend on other measures: the buffer must not be shared
   for (const Through& each : through_) {
     each.input.calc(state, {&t, 1}, of_input);
     sum += each.factor * of_input.value;

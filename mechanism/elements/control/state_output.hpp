@@ -17,8 +17,8 @@ class StateOutput final : public Measure, public TimedMeasure {
     double factor;
     StateFormula input;
   };
-  /// @param references  the unknowns first, then what the inputs refer to
-  /// @param c           over the unknowns
+  /// @param references  the unknowns first, then the references of the inputs
+  /// @param c           row vector over the unknowns
   StateOutput(std::string name, const StateUnknowns& unknowns, References references, VectorX c,
               std::vector<Through> through, std::string units);
   std::string units() const override { return units_; }

@@ -15,16 +15,16 @@
 namespace bielle::mechanism {
 namespace {
 
-/// What the keys of an entry say.
+/// The contents of an entry.
 struct StateSetup {
   std::string type;   ///< "filter"
-  std::string about;  ///< in words, before the inputs: "first-order filter, 0.01 s, of"
+  std::string about;  ///< description, before the inputs: "first-order filter, 0.01 s, of"
   LinearBlock block{};
   std::vector<YamlValue> inputs{};
-  std::vector<std::string> unknowns{};              ///< names, for messages
-  VectorX start{};                                  ///< of the unknowns
-  bool starts_at_rest = false;                      ///< in place of these
-  std::optional<std::vector<std::string>> units{};  ///< of each output, one for all, or as the input
+  std::vector<std::string> unknowns{};              ///< names of the unknowns, for messages
+  VectorX start{};                                  ///< start values of the unknowns
+  bool starts_at_rest = false;                      ///< whether a start at rest is used instead
+  std::optional<std::vector<std::string>> units{};  ///< for each output, one for all, or as the input
   struct Output {
     std::string name;
     VectorX c, d;
@@ -38,7 +38,7 @@ std::vector<std::string> with_common_keys(std::vector<std::string> keys) {
   return keys;
 }
 
-/// `start: equilibrium`.
+/// Whether the value is `start: equilibrium`.
 bool says_equilibrium(const std::optional<YamlValue>& start) {
   return start && start->is_scalar() && !start->is_null() && start->text() == "equilibrium";
 }
@@ -80,7 +80,7 @@ StateSetup read_filter(const std::string& name, const YamlValue& entry) {
   return setup;
 }
 
-/// Coefficients in descending powers, those of higher powers that are zero taken away.
+/// Reads coefficients in descending powers; leading zeros are removed.
 std::vector<double> read_coefficients(const YamlValue& list) {
   const VectorX all = list.vector();
   std::vector<double> coefficients(all.begin(), all.end());
@@ -153,7 +153,7 @@ StateSetup read_state_space(const std::string& name, const YamlValue& entry) {
   return setup;
 }
 
-/// Units as given: one text, or a list of one for each of the outputs that are recorded.
+/// Reads units: one text, or a list with one for each of the recorded outputs.
 void read_units(const YamlValue& entry, StateSetup& setup) {
   const auto units = entry.find("units");
   if (!units) {
@@ -174,7 +174,7 @@ void read_units(const YamlValue& entry, StateSetup& setup) {
 
 std::string per_second(const std::string& units) { return units == "-" ? "1/s" : units + "/s"; }
 
-/// Units of the k-th output.
+/// Returns the units of the k-th output.
 std::string units_of_output(const StateSetup& setup, std::size_t k) {
   if (!setup.units || setup.units->empty()) return "";
   if (!setup.outputs[k].recorded && setup.type == "filter") return per_second(setup.units->front());
@@ -187,7 +187,7 @@ void announce_outputs(const Entry& entry, const StateSetup& setup, const StateUn
   for (std::size_t k = 0; k < setup.outputs.size(); ++k) {
     const StateSetup::Output& output = setup.outputs[k];
     const std::string units = units_of_output(setup, k);
-    // The units of a filter are those of its input, which may itself ask for those of the filter.
+    // The units of a filter are those of its input, which may itself depend on those of the filter.
     const std::optional<YamlValue> as_input = setup.units ? std::nullopt : std::optional(setup.inputs.front());
     model.announce_measure(output.name, [=, &unknowns, &model, inputs = setup.inputs] {
       References references;

@@ -4,7 +4,7 @@
 //     smooth: {filter: main.angle, time_constant: 0.01}      {filter: .., frequency: 20, damping: 0.7}
 //     lead:   {transfer_function: {numerator: [1, 2], denominator: [1, 20]}, input: error}
 //     plant:  {state_space: {A: .., B: .., C: .., D: ..}, inputs: [..]}
-// Every state is a measure of its name, recorded among the measures.
+// Every state is a measure with its name, recorded among the measures.
 #pragma once
 
 #include <string>

@@ -1,7 +1,8 @@
-// The unknowns x of a control block, and their rates: x' in x' - f(x, u, t) = 0. What f is a StateEquation adds.
+// The unknowns x of a control block, and their rates: the term x' of x' - f(x, u, t) = 0. A StateEquation adds the
+// function f.
 //
-// Two components, because a formula may use any state: f refers to the unknowns of other blocks, which refer to nobody,
-// so that blocks may be coupled in a circle.
+// These are two components, because a formula may use any state: f refers to the unknowns of other blocks, which have
+// no references, so that blocks may be coupled in a circle.
 #pragma once
 
 #include <string>
@@ -13,8 +14,9 @@ namespace bielle::mechanism {
 
 class StateUnknowns final : public Component {
  public:
-  /// @param type    what the user calls it: "filter" @param names  of the unknowns, for messages: "value", "x2"
-  /// @param start   of each @param units  of all of them @param scale  their typical size, in their units
+  /// @param type    name of the type for the user: "filter" @param names  names of the unknowns, for messages: "value",
+  ///                "x2"
+  /// @param start   for each @param units  units of all unknowns @param scale  their typical size, in their units
   StateUnknowns(std::string type, std::string name, std::vector<std::string> names, VectorX start, std::string units,
                 double scale);
   Eigen::Index size() const { return start_.size(); }

@@ -15,22 +15,22 @@ namespace bielle::mechanism {
 
 class ForceFormulas {
  public:
-  /// Takes three components of the force [N] or of the moment [N m], once the model is read.
-  /// @param expected    what the list should have held, for the message
-  /// @param references  of the component that owns the formulas
+  /// Reads three components of the force [N] or of the moment [N m], after the model has been read.
+  /// @param expected    description of the expected list, for the message
+  /// @param references  references of the component that owns the formulas
   void read(const YamlValue& components, bool moment, const char* expected, Model& model, References& references);
-  void declare(Declaration& declaration) const;  ///< what formulas of the state make the owner depend on
+  void declare(Declaration& declaration) const;  ///< declares the owner's dependence on the state by the formulas
   void add_break_points(std::vector<double>& times) const;
 
-  /// Those that hold t, as TimeDependent has them.
+  /// Returns the formulas that contain t, as TimeDependent requires.
   std::vector<TimeDependent::Formula> time_formulas() const;
   void calc_time_formulas(const LocalState& state, std::span<double> values) const;
 
   bool has_force() const { return has_force_; }
   bool has_moment() const { return has_moment_; }
-  /// Components with the load factor, along the axes in which they are given.
+  /// Computes the components with the load factor, along the axes in which they are given.
   void evaluate(const LocalState& state, Vector3& force, Vector3& moment) const;
-  /// A component, of the force (0 to 2) or of the moment (3 to 5).
+  /// Returns a component, of the force (0 to 2) or of the moment (3 to 5).
   const StateFormula& component(std::size_t k) const { return components_[k]; }
   std::string force_text() const { return text(0); }  ///< "(0, 5*t, 2)"
   std::string moment_text() const { return text(3); }

@@ -2,8 +2,8 @@
 //
 //   dead (default)  F, m inertial:    residual  -[ F ;  c~ R^T F + R^T m ]
 //   follower        F, m node axes:   residual  -[ R F ;  c~ F + m ]
-// c is the point of application in the node's axes. A dead moment of constant direction is no potential load: its
-// tangent is unsymmetric. Loads are multiplied by the environment's load factor.
+// c is the point of application in the node's axes. A dead moment of constant direction has no potential: its tangent
+// is unsymmetric. Loads are multiplied by the environment's load factor.
 #pragma once
 
 #include <string>
@@ -14,14 +14,15 @@
 
 namespace bielle::mechanism {
 
-/// A force [N] and a moment [N m], formulas of time and measures, at a point of a node, fixed in space or turning with
-/// the node. Its power is counted as input.
+/// A force [N] and a moment [N m], formulas of time and measures, at a point of a node, with directions fixed in space
+/// or on the node. Its power is counted as input.
 class Load : public Component, public TimeDependent {
  public:
   /// @param at        point of application [m], node axes
   /// @param follower  components are along the node's axes, not along the inertial ones
   Load(std::string name, int node, const Vector3& at, bool follower);
-  /// Takes the components, once the model is read: three formulas each. @param moment  of the moment, not of the force
+  /// Reads the components, after the model has been read: three formulas each. @param moment  whether they are those of
+  /// the moment
   void read(const YamlValue& components, bool moment, Model& model);
 
   void declare(Declaration& declaration) const override;
@@ -36,7 +37,8 @@ class Load : public Component, public TimeDependent {
   }
 
  private:
-  /// Generalised direction of a component of the force or moment: its contribution to the residual per unit.
+  /// Returns the generalised direction of a component of the force or moment: its contribution to the residual per
+  /// unit.
   Vector6 direction(const LocalState& state, std::size_t component) const;
 
   int node_;
@@ -46,7 +48,7 @@ class Load : public Component, public TimeDependent {
   bool follower_;
 };
 
-/// `{node, force, moment, at, follower}`
+/// Reads `{node, force, moment, at, follower}`.
 void read_load(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -19,9 +19,9 @@ namespace bielle::mechanism {
 class NodeForce final : public Component, public TimeDependent {
  public:
   enum class Axes { first, second, inertial };
-  /// @param at  where it acts [m], in the axes of the second node
+  /// @param at  point of application [m], in the axes of the second node
   NodeForce(std::string name, std::array<int, 2> nodes, const Vector3& at, Axes axes);
-  /// Takes the components, once the model is read. @param moment  of the moment, not of the force
+  /// Reads the components, after the model has been read. @param moment  whether they are those of the moment
   void read(const YamlValue& components, bool moment, Model& model);
 
   void declare(Declaration& declaration) const override;
@@ -29,7 +29,7 @@ class NodeForce final : public Component, public TimeDependent {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override;
-  /// `force` [N] and `moment` [N m] on the second node, inertial components.
+  /// Outputs `force` [N] and `moment` [N m] on the second node, inertial components.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -40,18 +40,18 @@ class NodeForce final : public Component, public TimeDependent {
 
  private:
   using Map12 = Eigen::Matrix<double, 12, 3>;
-  Matrix3 axes(const LocalState& state) const;  ///< A
-  /// What inertial components of the force, and of the moment, add to the residual.
+  Matrix3 axes(const LocalState& state) const;  ///< the axes A
+  /// Matrices that map inertial components of the force, and of the moment, to the residual.
   Map12 of_force(const LocalState& state) const;
   static Map12 of_moment(const LocalState& state);
   std::array<int, 2> nodes_;
   Vector3 c_;
   Axes axes_;
-  ForceFormulas formulas_;  ///< f and mu
+  ForceFormulas formulas_;  ///< formulas of f and mu
   References references_;
 };
 
-/// `{nodes, force, moment, at, axes: first | second | inertial}`
+/// Reads `{nodes, force, moment, at, axes: first | second | inertial}`.
 void read_node_force(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

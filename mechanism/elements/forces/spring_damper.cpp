@@ -38,7 +38,7 @@ struct SpringDamper::Line {
   Vector3 u, sdot;
 };
 
-/// Below this the direction is made of rounding errors of the positions.
+/// Below this length the direction consists of rounding errors of the positions.
 double SpringDamper::smallest_length(const LocalState& state) const {
   return 1e-12 * (state.node(0).x.cwiseAbs().maxCoeff() + state.node(1).x.cwiseAbs().maxCoeff() +
                   c_a_.cwiseAbs().maxCoeff() + c_b_.cwiseAbs().maxCoeff());
@@ -93,7 +93,7 @@ void SpringDamper::add_tangent(const LocalState& state, LocalTangent& tangent) c
   if (!tangent.wants_K) return;
   const Matrix3 Q = Matrix3::Identity() - L.u * L.u.transpose();
   Eigen::Matrix<double, 12, 1> v_gradient = Eigen::Matrix<double, 12, 1>::Zero();
-  // Where the ends meet (allowed without damper only) the quotient has no meaning and no effect.
+  // If the ends coincide (allowed without damper only) the quotient has no meaning and no effect.
   if (law.N_v != 0) v_gradient = calc_elongation(state).v_gradient;
   const Vector3 f = law.N * L.u;
   const double N_over_l = L.l > smallest_length(state) ? law.N / L.l : law.N_x;
@@ -195,7 +195,7 @@ std::unique_ptr<Measure> SpringDamper::make_measure(const std::string& name, con
 
 namespace {
 
-/// What `stiffness` and `damping` say; a formula `force` is read later.
+/// Reads `stiffness` and `damping`; a formula `force` is read later.
 ForceLaw read_linear(const YamlValue& entry) {
   const auto stiffness = entry.find("stiffness"), damping = entry.find("damping");
   if (entry.has("force")) {

@@ -16,24 +16,24 @@
 
 namespace bielle::mechanism {
 
-/// See the head of this file. The direction is undefined where the points coincide: only a linear spring of free length
-/// zero without damper may pass there, any other throws ComputationError. Exact tangents.
+/// See the head of this file. The direction is undefined if the points coincide: this is only permitted for a linear
+/// spring of free length zero without damper; otherwise a ComputationError is thrown. The tangents are exact.
 ///
-/// Energies: see measures/force_law.hpp.
+/// For energies see laws/force_law.hpp.
 class SpringDamper : public Component, public TimeDependent {
  public:
   /// @param at_a,at_b  attachment points [m], in the axes of their nodes
   /// @param length     free length l_0 [m]
   SpringDamper(std::string name, int node_a, int node_b, const Vector3& at_a, const Vector3& at_b, double length,
                ForceLaw law);
-  /// Adds a formula of e, v, t and measures to the tension, once the model is read.
+  /// Adds a formula of e, v, t and measures to the tension, after the model has been read.
   void read(const YamlValue& formula, Model& model);
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// `length` [m], `rate` [m/s], `force` [N], tension positive.
+  /// Outputs `length` [m], `rate` [m/s], `force` [N], tension positive.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void add_break_points(std::vector<double>& times) const override { law_.add_break_points(times); }
@@ -43,10 +43,10 @@ class SpringDamper : public Component, public TimeDependent {
   std::vector<std::string> measure_names() const override { return {"elongation", "elongation.rate"}; }
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
-  /// Elongation [m] and its rate [m/s].
+  /// Returns the elongation [m] and its rate [m/s].
   std::pair<double, double> elongation(const LocalState& state) const;
-  /// Their gradients over the twelve unknowns of the nodes: of both by positions; by velocities that of the rate is the
-  /// elongation's by positions.
+  /// Gradients of both over the twelve unknowns of the nodes by positions; the gradient of the rate by velocities
+  /// equals that of the elongation by positions.
   struct Gradients {
     double e, v;
     Eigen::Matrix<double, 12, 1> e_gradient, v_gradient;
@@ -55,8 +55,8 @@ class SpringDamper : public Component, public TimeDependent {
 
  private:
   struct Line;
-  Line line(const LocalState& state) const;     ///< without the tension
-  Vector3 span(const LocalState& state) const;  ///< from the first attachment point to the second, inertial
+  Line line(const LocalState& state) const;     ///< does not compute the tension
+  Vector3 span(const LocalState& state) const;  ///< vector from the first attachment point to the second, inertial
   double smallest_length(const LocalState& state) const;
 
   int node_a_, node_b_;
@@ -66,8 +66,8 @@ class SpringDamper : public Component, public TimeDependent {
   References references_;
 };
 
-/// `{type: spring_damper, nodes: [a, b], at, stiffness, damping, length}` or with `force: "N(e, v, t)"` in place of
-/// stiffness and damping.
+/// Reads `{type: spring_damper, nodes: [a, b], at, stiffness, damping, length}`, or the same with `force: "N(e, v, t)"`
+/// instead of stiffness and damping.
 void read_spring_damper(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

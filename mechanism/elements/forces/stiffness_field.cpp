@@ -86,15 +86,15 @@ namespace {
 
 using FieldMap = Eigen::Matrix<double, 12, 6>;
 
-/// q = B e
+/// Returns B of q = B e.
 FieldMap ends_of_deformation() {
   FieldMap B;
   B << -0.5 * Matrix6::Identity(), 0.5 * Matrix6::Identity();
   return B;
 }
 
-/// The forces of unit rigid motions about the middle of the pair, over what they would be if they did not cancel: of
-/// each kind the largest.
+/// Returns the forces due to unit rigid motions about the middle of the pair, relative to their size without
+/// cancellation: the largest of each kind.
 double resistance_to_rigid_motions(const MatrixX& K, const Vector3& way) {
   FieldMap rigid = FieldMap::Zero();
   for (const int node : {0, 1}) {
@@ -114,11 +114,11 @@ double resistance_to_rigid_motions(const MatrixX& K, const Vector3& way) {
   return most;
 }
 
-/// B^T A B of a 12x12 matrix that joins the two nodes and nothing else.
+/// Returns B^T A B of a 12x12 matrix that only connects the two nodes.
 Matrix6 read_field(const YamlValue& value, const Vector3& way, bool symmetric, const char* what) {
   MatrixX A = read_square_matrix(value, 12);
   if (symmetric) make_symmetric(value, A);
-  // Neither do rigid motions make forces, nor have forces a sum.
+  // Rigid motions must cause no forces, and the sum of forces must be zero.
   const double rigid = std::max(resistance_to_rigid_motions(A, way), resistance_to_rigid_motions(A.transpose(), way));
   constexpr double rounding = 1e-6, most = 1e-2;
   if (rigid > most)

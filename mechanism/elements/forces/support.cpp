@@ -32,7 +32,7 @@ void Support::gather(const State& state, const Slots& slots, const Eigen::Ref<co
 }
 
 Vector6 Support::reaction(const LocalState& state) const {
-  // Reactions as reported: where redundancy leaves them open, the smallest.
+  // Reactions are the reported ones: the smallest if redundancy leaves them undetermined.
   const State* reported = &state.global();
   State smallest;
   if (reported->reaction.size() > 0) {
@@ -65,7 +65,7 @@ void Support::write_output(const LocalState& state, double* values) const {
 
 namespace {
 
-/// The nodes of a component and of all that it refers to.
+/// Returns the nodes of a component and of all its references.
 const std::set<int>& nodes_of(const Component& component, std::map<const Component*, std::set<int>>& known) {
   const auto found = known.find(&component);
   if (found != known.end()) return found->second;
@@ -79,7 +79,7 @@ const std::set<int>& nodes_of(const Component& component, std::map<const Compone
   return known.emplace(&component, std::move(nodes)).first->second;
 }
 
-/// Whether a node's rotations alone are held because what stands there has no inertia: there is nothing to bear.
+/// Whether only a node's rotations are held because the parts on it have no inertia: the support then has no reaction.
 bool holds_a_point_mass(const Node& node, const std::vector<const Component*>& acting) {
   const auto& freedom = node.freedom;
   return std::all_of(freedom.begin(), freedom.begin() + 3, [](Freedom f) { return f == Freedom::free; }) &&
@@ -89,7 +89,7 @@ bool holds_a_point_mass(const Node& node, const std::vector<const Component*>& a
 }  // namespace
 
 void add_supports(Model& model) {
-  std::map<int, int> held_by;  // of each node that is held, or carried by one that is
+  std::map<int, int> held_by;  // for each node that is held, or carried by a held one
   const int count = static_cast<int>(model.nodes().size());
   for (int k = 1; k < count; ++k) {
     int top = k;

@@ -1,9 +1,9 @@
-// What holds a node: the force and moment of its support.
+// The support of a node: its force and moment.
 //
-// Nodes that are fixed or moved along a prescribed way are eliminated; what the support does follows from the
-// equilibrium of the node afterwards. Of all that acts on the node, and on nodes that it carries rigidly, the residuals
-// (inertia + internal - external forces, reactions of joints) are added up: the support exerts their sum. Along
-// directions that are free the sum is zero.
+// Directions that are fixed or prescribed are eliminated; the support forces follow from the equilibrium of the node
+// afterwards. The residuals of all components on the node, and on nodes that it carries rigidly (inertia + internal -
+// external forces, reactions of joints), are summed: the support exerts their sum. Along free directions the sum is
+// zero.
 #pragma once
 
 #include "mechanism/model/model.hpp"
@@ -11,11 +11,11 @@
 
 namespace bielle::mechanism {
 
-/// Adds nothing to the equations; records `/supports/<node>/reaction`.
+/// The component adds nothing to the equations; it records `/supports/<node>/reaction`.
 class Support final : public Component, public NodeSupport {
  public:
-  /// @param node    that is held   @param carried  nodes that it carries
-  /// @param acting  whatever has rows on one of them, in itself or in what it refers to
+  /// @param node    supported node   @param carried  nodes that it carries
+  /// @param acting  components that have rows on one of them, directly or through references
   Support(std::string name, int node, std::vector<int> carried, std::vector<const Component*> acting);
   int node() const override { return node_; }
   Vector6 reaction(const LocalState& state) const override;
@@ -26,7 +26,7 @@ class Support final : public Component, public NodeSupport {
   void write_output(const LocalState& state, double* values) const override;
 
  private:
-  /// Adds the rows of the held and carried nodes in a local vector.
+  /// Adds the rows of the held and carried nodes of a local vector to the sum.
   void gather(const State& state, const Slots& slots, const Eigen::Ref<const VectorX>& r, int begin,
               Vector6& sum) const;
   int node_;
@@ -34,8 +34,8 @@ class Support final : public Component, public NodeSupport {
   std::vector<const Component*> acting_;
 };
 
-/// Makes one of each node of the model that is held in some direction (but of a point mass that is held against turning
-/// alone). Call when all components are there.
+/// Creates a support for each node of the model that is held in some direction (except a point mass whose rotation
+/// alone is held). Call it after all components have been created.
 void add_supports(Model& model);
 
 }  // namespace bielle::mechanism

@@ -37,7 +37,7 @@ std::string inertia_fault(const Matrix3& inertia) {
   if (!inertia.allFinite()) return "the inertia tensor about the centre of mass is too large for a number";
   const Vector3 p = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   const std::string found = fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m^2", p[0], p[1], p[2]);
-  // Rounding of a tensor in axes turned against its own.
+  // The limit includes the rounding of a tensor in axes that are not principal axes.
   if (!(p[0] >= -1e-9 * p[2] && p[2] > 0))
     return "the inertia tensor about the centre of mass must be positive definite (one principal moment may be zero: a "
            "line of mass; without any inertia: `point_mass`); " +
@@ -69,7 +69,7 @@ MassProperties tube(double outer, double inner, double length) {
 }
 
 MassProperties cone(double below, double above, double length) {
-  // Moments of the area pi r(z)^2 with r linear, from the lower end.
+  // Moments of the area pi r(z)^2 with linear r, from the lower end.
   const double a = below, b = above;
   const double squares = a * a + a * b + b * b;
   const double mass = pi * length / 3 * squares;

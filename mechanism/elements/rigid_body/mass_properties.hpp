@@ -1,7 +1,7 @@
-// Mass, centre of mass and inertia of rigid bodies: of solids, placed anywhere, and added up.
+// Mass, centre of mass and inertia of rigid bodies, for solids at any position and their sums.
 //
 //   Steiner: J_O = J_C - m c~ c~;     sum of bodies: m c = sum m_k c_k,  J_O = sum J_O,k
-//   turned by R: J -> R J R^T
+//   rotation by R: J -> R J R^T
 // A distribution of positive mass has no negative principal moments, and none exceeds the sum of the two others.
 #pragma once
 
@@ -11,34 +11,34 @@
 
 namespace bielle::mechanism {
 
-/// What a rigid body is made of, in the axes of some frame.
+/// Mass properties of a rigid body, in the axes of some frame.
 struct MassProperties {
-  double mass = 0;                       ///< [kg]
-  Vector3 centre = Vector3::Zero();      ///< of mass [m], from the frame's origin
+  double mass = 0;                       ///< mass [kg]
+  Vector3 centre = Vector3::Zero();      ///< centre of mass [m], from the frame's origin
   Matrix3 inertia = Matrix3::Zero();     ///< about the centre of mass [kg m^2]
   Matrix3 inertia_about_origin() const;  ///< about the frame's origin [kg m^2]
 };
 
-/// The two bodies as one.
+/// Combines two bodies into one.
 MassProperties operator+(const MassProperties& a, const MassProperties& b);
-/// The body with its mass multiplied; a negative factor makes a cut-out of others.
+/// Multiplies the mass of a body; a negative factor makes a cut-out.
 MassProperties operator*(double factor, const MassProperties& body);
-/// The body at a frame: described in A, seen from B. @param H_BA  frame A in B
+/// Transforms a body at a frame: described in A, result in B. @param H_BA  frame A in B
 MassProperties placed(const Frame& H_BA, const MassProperties& body);
 
-/// Why no body of positive mass has this inertia about its centre of mass, with its principal moments; empty when one
-/// has. Moments of thin plates and rods lie on the bound and are rounded in input files: 0.1 % beyond it is accepted.
-/// The moment of a line of mass about itself may be zero.
+/// Explains why no body of positive mass has this inertia about its centre of mass, with its principal moments; empty
+/// if the inertia is valid. Moments of thin plates and rods are exactly at the bound and are rounded in input files: a
+/// violation by 0.1 % is accepted. The moment of a line of mass about itself may be zero.
 std::string inertia_fault(const Matrix3& inertia);
 
-// Homogeneous solids of density 1 kg/m^3 about the middle of their axis. Lengths [m], z the axis.
+// Homogeneous solids of density 1 kg/m^3 about the middle of their axis. Lengths are in [m], and z is the axis.
 MassProperties box(const Vector3& edges);
 MassProperties sphere(double radius);
 MassProperties cylinder(double radius, double length);
 MassProperties tube(double outer, double inner, double length);
-/// Frustum: radius `below` at z = -length/2, `above` at z = length/2; one of them may be zero.
+/// Returns a frustum: radius `below` at z = -length/2, `above` at z = length/2; one of them may be zero.
 MassProperties cone(double below, double above, double length);
-/// Torus: a circle of radius `section` carried around the axis at the distance `radius`.
+/// Returns a torus: a circle of radius `section` rotated about the axis at the distance `radius`.
 MassProperties ring(double radius, double section);
 
 }  // namespace bielle::mechanism

@@ -44,7 +44,7 @@ void RigidBody::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) con
 // clang-format on
 void RigidBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const NodeState& n = state.node(0);
-  const bool centred = c_.isZero(0);  // nothing couples translation and rotation
+  const bool centred = c_.isZero(0);  // no coupling of translation and rotation
   if (tangent.wants_M) {
     tangent.M.add_identity(0, 0, m_);
     tangent.M.add(3, 3, J_);

@@ -19,11 +19,11 @@
 
 namespace bielle::mechanism {
 
-/// Mass, centre and inertia rigidly tied to one node; gravity acts at the centre. Exact tangents.
+/// Mass, centre and inertia rigidly fixed on one node; gravity acts at the centre. The tangents are exact.
 class RigidBody final : public Component {
  public:
-  /// @param type  as in the input file: "rigid_body" or "point_mass"
-  /// @param node_name  for those who read the results
+  /// @param type  type as in the input file: "rigid_body" or "point_mass"
+  /// @param node_name  name of the node, for the results file
   RigidBody(std::string type, std::string name, int node, const MassProperties& properties,
             const std::string& node_name = "");
 
@@ -32,12 +32,12 @@ class RigidBody final : public Component {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// `centre` of mass (3) [m], `momentum` (3) [N s], `angular_momentum` (3) [N m s] about the inertial origin:
-  /// inertial.
+  /// Outputs `centre` of mass (3) [m], `momentum` (3) [N s], `angular_momentum` (3) [N m s] about the inertial origin:
+  /// inertial components.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
-  /// `node`; `mass` [kg], `centre` x y z [m], `inertia` about the centre xx yy zz xy xz yz [kg m^2], in the node's
-  /// axes.
+  /// Attributes `node`; `mass` [kg], `centre` x y z [m], `inertia` about the centre xx yy zz xy xz yz [kg m^2], in the
+  /// node's axes.
   std::vector<std::pair<std::string, std::string>> attributes() const override { return attributes_; }
 
   void describe(const LocalState& state, Description& description) const override;
@@ -54,10 +54,10 @@ class RigidBody final : public Component {
   std::vector<std::pair<std::string, std::string>> attributes_;
 };
 
-/// `{type: rigid_body, node, mass, centre, inertia, inertia_about, inertia_axes, also}`, or with `solid` in place of
-/// mass and inertia.
+/// Reads `{type: rigid_body, node, mass, centre, inertia, inertia_about, inertia_axes, also}`, or the same with `solid`
+/// instead of mass and inertia.
 void read_rigid_body(const std::string& name, const YamlValue& entry, Model& model);
-/// `{type: point_mass, node, mass, centre}`
+/// Reads `{type: point_mass, node, mass, centre}`.
 void read_point_mass(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

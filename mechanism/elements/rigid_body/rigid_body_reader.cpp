@@ -1,4 +1,4 @@
-// Rigid bodies and point masses in the mechanism file.
+// Readers of rigid bodies and point masses in the mechanism file.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -20,7 +20,7 @@ Matrix3 symmetric(double xx, double yy, double zz, double xy, double xz, double 
   return J;
 }
 
-/// Three principal values, six entries of the symmetric tensor, or 3x3.
+/// Reads three principal values, six entries of the symmetric tensor, or 3x3.
 Matrix3 inertia_entries(const YamlValue& value) {
   const std::string expected =
       "expected the inertia tensor as [xx, yy, zz], [xx, yy, zz, xy, xz, yz] or three rows of "
@@ -40,8 +40,8 @@ Matrix3 inertia_entries(const YamlValue& value) {
   return 0.5 * (J + J.transpose());
 }
 
-/// `inertia`, about the centre of mass or, with `inertia_about: node`, about the node; in the node's axes or, with
-/// `inertia_axes: {orientation}`, in axes turned against them.
+/// Reads `inertia`, about the centre of mass or, with `inertia_about: node`, about the node; in the node's axes or,
+/// with `inertia_axes: {orientation}`, in rotated axes.
 Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre) {
   const YamlValue value = entry.at("inertia");
   Matrix3 J = inertia_entries(value);
@@ -62,23 +62,24 @@ Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre)
   return J;
 }
 
-/// Sizes that are far off make masses and moments that no number holds.
+/// Extreme sizes give masses and moments that cannot be represented.
 void check_representable(const YamlValue& entry, const MassProperties& p) {
   if (!(p.mass > 0 && std::isfinite(p.mass) && p.inertia_about_origin().allFinite()))
     entry.fail("the mass or the inertia is too large or too small for a number; lengths are in m, masses in kg");
 }
 
-/// Masses and inertias of another system of units. A compact body of mass m has its radius of gyration k with
-/// m/k^3 about 16 times its density; long and thin ones have less, those with inertias in kg mm^2 1e-9 of it.
+/// Warns of masses and inertias that may belong to another system of units. A compact body of mass m has a radius of
+/// gyration k with m/k^3 about 16 times its density; long and thin bodies have less, inertias in kg mm^2 give 1e-9 of
+/// it.
 void doubt_units(const YamlValue& entry, const MassProperties& p) {
-  constexpr double heaviest = 1e7;   // [kg] as much steel as in the Eiffel tower
+  constexpr double heaviest = 1e7;   // [kg] mass of the steel of the Eiffel tower
   constexpr double lightest = 1e-3;  // m/k^3 [kg/m^3]: 1 kg over 35 m
   const YamlValue mass = entry.at(entry.has("solid") ? "solid" : "mass");
   if (p.mass > heaviest)
     mass.doubt(fmt::format("are {:.3g} kg meant? Lengths are in metres, densities in kg/m^3, masses in kg", p.mass));
   const auto inertia = entry.find("inertia");
   if (!inertia) return;
-  const double gyration = std::sqrt(0.5 * p.inertia.trace() / p.mass);  // of a long body; less of others
+  const double gyration = std::sqrt(0.5 * p.inertia.trace() / p.mass);  // for a long body; smaller for others
   if (p.mass < lightest * gyration * gyration * gyration)
     inertia->doubt(
         fmt::format("is this meant? {:.3g} kg with so much inertia reaches over some {:.3g} m; inertias are in "
@@ -86,7 +87,7 @@ void doubt_units(const YamlValue& entry, const MassProperties& p) {
                     p.mass, 3.5 * gyration));
 }
 
-/// Further nodes that the body carries: they follow its node and must not be held or carried otherwise.
+/// Reads further nodes that the body carries: they follow its node and must not be held or carried otherwise.
 void carry(const YamlValue& also, int carrier, const std::string& body, Model& model) {
   for (const YamlValue& item : also.items()) {
     const int index = node_named_by(item, model);

@@ -13,7 +13,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// A solid of density 1, and where it is.
+/// A solid of density 1, and its position.
 struct UnitSolid {
   MassProperties properties;
   SolidSpace space;
@@ -70,7 +70,7 @@ const std::vector<Shape>& shapes() {
 }
 
 struct Solid {
-  MassProperties properties;  ///< of negative mass where it is cut out
+  MassProperties properties;  ///< negative mass if it is cut out
   double density = 0;         ///< [kg/m^3]
   PlacedSpace space;
 };
@@ -107,14 +107,14 @@ Solid read_solid(const YamlValue& solid) {
   return {placed(frame, signed_density * unit.properties), density, {std::move(unit.space), frame, signed_density}};
 }
 
-/// What is taken out had the density of something that is there.
+/// Checks that a cut has the density of one of the solids.
 void check_cut(const YamlValue& cut, double density, const std::vector<double>& densities) {
   const auto same = [&](double other) { return std::abs(other - density) <= 1e-9 * density; };
   if (std::none_of(densities.begin(), densities.end(), same))
     cut.fail(fmt::format("what is cut out has the density {:.6g} kg/m^3, and none of the solids has it", density));
 }
 
-/// A cut has to lie in material: its mass is subtracted wherever the cut lies.
+/// A cut must be in material: its mass is subtracted at any position.
 void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& solids) {
   constexpr double whole = 0.999;
   for (const EmptyCut& empty : empty_cuts(solids)) {
@@ -142,7 +142,7 @@ MassProperties read_solids(const YamlValue& value) {
   if (value.size() == 0) value.fail("expected at least one solid");
   std::vector<MassProperties> solids;
   std::vector<PlacedSpace> spaces;
-  std::vector<double> densities;  ///< of what has mass
+  std::vector<double> densities;  ///< densities of solids with positive mass
   double mass = 0, solid_mass = 0;
   for (const YamlValue& item : value.items()) {
     auto [properties, density, space] = read_solid(item);
@@ -156,7 +156,7 @@ MassProperties read_solids(const YamlValue& value) {
     value.fail(fmt::format("what is cut out leaves no mass: {:.6g} of {:.6g} kg", mass, solid_mass));
   for (std::size_t k = 0; k < solids.size(); ++k)
     if (solids[k].mass < 0) check_cut(value.at(k), read_solid(value.at(k)).density, densities);
-  // Those with mass first: no partial sum is without mass.
+  // Solids with positive mass are first: no partial sum has zero mass.
   std::stable_partition(solids.begin(), solids.end(), [](const MassProperties& p) { return p.mass > 0; });
   MassProperties sum = solids.front();
   for (std::size_t k = 1; k < solids.size(); ++k) sum = sum + solids[k];

@@ -10,8 +10,8 @@ constexpr int cells = 24;  // along each coordinate
 
 double middle_of(int cell) { return (cell + 0.5) / cells; }
 
-/// @param place   of three coordinates in 0..1
-/// @param weight  of a cell there: volume per unit of the coordinates
+/// @param place   three coordinates in 0..1
+/// @param weight  weight of a cell: volume per unit of the coordinates
 template <class Place, class Weight>
 void sample(const Place& place, const Weight& weight, SolidSpace& space) {
   double sum = 0;
@@ -38,7 +38,7 @@ double density_at(const Vector3& x, const std::vector<PlacedSpace>& solids) {
   return density;
 }
 
-/// The last solid but for `but` that is cut out at a place, before `but` in the list; -1: none.
+/// Returns the last solid before `but` in the list that is cut out at a point; -1: none.
 int earlier_cut_at(const Vector3& x, const std::vector<PlacedSpace>& solids, std::size_t but) {
   for (std::size_t k = but; k-- > 0;)
     if (solids[k].density < 0 && solids[k].space.contains(solids[k].frame.R.transpose() * (x - solids[k].frame.x)))

@@ -64,7 +64,7 @@ void AttachedPoint::add_tangent(int multiplier_row, const Matrix6X& frame, const
   carried.topRightCorner<3, 3>() = -skew(y_);
   const Matrix6X delta = node - carried * frame;
 
-  // Q^T m turns with the frame, the moment with the node as well.
+  // Q^T m rotates with the frame, and the moment also with the node.
   Matrix6X change(6, target.cols());
   change.topRows<3>() = -force * frame.bottomRows<3>();
   change.bottomRows<3>() = (moment + Z) * delta.bottomRows<3>();

@@ -1,4 +1,4 @@
-// The step recorders of a superelement look at its deformation, which is computed once for all of them in each step.
+// The step recorders of a superelement use its deformation, which is computed once in each step for all of them.
 #pragma once
 
 #include <functional>
@@ -10,16 +10,16 @@
 
 namespace bielle::mechanism {
 
-/// A superelement's deformation and what accelerates it, at one state.
+/// Deformation and acceleration of a superelement at one state.
 struct BodyDeformation {
   VectorX eps;         ///< linear coordinates, in the layout of corotated_frame.hpp
   double elastic = 0;  ///< energy [J]
-  /// Acceleration less gravity as a field that is linear in space: (4 i + j), direction i in body axes times 1 [m/s^2],
-  /// x, y, z [1/s^2] from the centre of mass. It belongs to the body's frame, and to points that move rigidly with it.
+  /// Acceleration minus gravity as a linear field in space: (4 i + j), direction i in body axes times 1 [m/s^2], x, y,
+  /// z [1/s^2] from the centre of mass. It is that of the body's frame, and of points that move rigidly with it.
   Eigen::Matrix<double, 12, 1> acceleration = Eigen::Matrix<double, 12, 1>::Zero();
 };
 
-/// First among the step recorders of a body: computes the deformation that the others look at.
+/// The first of the step recorders of a body: it computes the deformation that the others use.
 class DeformationReader final : public StepRecorder {
  public:
   using Read = std::function<void(const LocalState& state, BodyDeformation& deformation)>;

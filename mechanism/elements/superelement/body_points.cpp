@@ -16,7 +16,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The entry of the superelement that a point names.
+/// Returns the entry of the superelement that a point names.
 YamlValue element_of(const YamlValue& point, const std::optional<YamlValue>& elements) {
   const YamlValue value = point.at("element");
   const std::string name = value.text();
@@ -33,7 +33,7 @@ YamlValue element_of(const YamlValue& point, const std::optional<YamlValue>& ele
   value.fail(fmt::format("there is no superelement '{}'{}", name, did_you_mean(name, superelements)));
 }
 
-/// The point of the body's file that an entry names.
+/// Returns the point of the body's file that an entry names.
 PointInFile point_in_file(const YamlValue& value, const YamlValue& element) {
   const YamlValue file = element.at("file");
   const std::string name = value.text();
@@ -51,14 +51,14 @@ PointInFile point_in_file(const YamlValue& value, const YamlValue& element) {
                            : fmt::format("'{}' is no point of {}{}", name, file.text(), did_you_mean(name, names)));
 }
 
-/// A body and how a point moves with it.
+/// A body and the motion of a point in its coordinates.
 struct Attachment {
   SuperelementBody* body = nullptr;
   MatrixX shapes;  ///< (6,n), in the file's coordinates
   std::array<bool, 6> residual{};
 };
 
-/// The body, or the piece of it, that has the named point.
+/// Returns the body, or the piece of it, that has the named point.
 Attachment attach_named(const std::vector<Component*>& pieces, const PointInFile& named) {
   for (Component* component : pieces) {
     auto& body = dynamic_cast<SuperelementBody&>(*component);
@@ -67,7 +67,7 @@ Attachment attach_named(const std::vector<Component*>& pieces, const PointInFile
   throw InputError("its piece of the body is missing");
 }
 
-/// The body, or the piece of it, whose mesh is nearest to the place.
+/// Returns the body, or the piece of it, whose mesh is nearest to the point.
 Attachment attach_at(const std::vector<Component*>& pieces, const Vector3& at) {
   SuperelementBody* nearest = nullptr;
   Superelement best;
@@ -88,12 +88,12 @@ Attachment attach_at(const std::vector<Component*>& pieces, const Vector3& at) {
 struct PointEntry {
   std::string name;
   YamlValue entry;
-  Frame placement;  ///< of its body
-  Vector3 X;        ///< body axes
+  Frame placement;  ///< placement of its body
+  Vector3 X;        ///< in body axes
   std::optional<PointInFile> named;
 };
 
-/// Whether a node's rotation is the body's: one that moves and is held from turning carries forces alone.
+/// Whether a node has the rotation of the body: a moving node with fixed rotations only transmits forces.
 bool tells_rotation(const Node& node) {
   const auto rotations = node.freedom.begin() + 3;
   const bool moves = std::count(node.freedom.begin(), rotations, Freedom::free) > 0;

@@ -1,8 +1,8 @@
-// Points of superelements in the mechanism file: nodes that ride inside a body.
+// Points of superelements in the mechanism file: nodes inside a body.
 //
 //   points:
 //     tip: {element: blade, at: [1.2, 0, 0.03]}     # in the axes of the body's mesh
-//     pad: {element: blade, point: pad}             # one that the body file names
+//     pad: {element: blade, point: pad}             # a point that the body file names
 //
 // A point is a node like any other: the place of a load, a spring's end, a joint, a sensor.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace bielle::mechanism {
 
-/// Makes the nodes; they join their bodies when all entries are read.
+/// Creates the nodes; they are attached to their bodies after all entries have been read.
 /// @param elements  the section of the file
 void read_body_points(const YamlValue& points, const std::optional<YamlValue>& elements, Model& model);
 

@@ -40,7 +40,7 @@ Frame CorotatedFrame::closest_placement(const LocalState& state) const {
   x_mean /= weight;
   X_mean /= weight;
 
-  // R_0 maximises tr(R_0^T M): M = sum of (x - x_mean)(X - X_mean)^T and of the rotations that the interfaces tell.
+  // R_0 maximises tr(R_0^T M), where M is the sum of (x - x_mean)(X - X_mean)^T and of the rotations of the interfaces.
   Matrix3 M = Matrix3::Zero();
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const BodyPoint& point = points_[k];
@@ -128,7 +128,7 @@ void CorotatedFrame::solve(const LocalState& state, CorotatedGeometry& geometry)
     add_product(gap, At_, geometry.q);
     Vector6 step = S_inverse * gap;
     if (!step.allFinite()) break;
-    // Newton converges from anywhere near; a step beyond half a radian is no linear matter any more.
+    // Newton's method converges from any nearby value; the problem is no longer linear for steps beyond half a radian.
     const double angle = step.tail<3>().norm();
     if (angle > 0.5) step *= 0.5 / angle;
     geometry.frame.x += geometry.frame.R * step.head<3>();

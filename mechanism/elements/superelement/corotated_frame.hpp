@@ -1,19 +1,20 @@
-// The frame (x_0, R_0) of a deformed body, tied to its interfaces by six conditions, and the local coordinates q in it.
+// The frame (x_0, R_0) of a deformed body, defined by six conditions on its interfaces, and the local coordinates q in
+// it.
 //
-// q holds for each interface u_i = y_i - X_i, y_i = R_0^T (x_i - x_0), then (where its rotations act) t_i(E_i),
-// E_i = R_0^T R_i R_ref,i^T, see interface_rotation.hpp; after all interfaces the modal amplitudes eta. All of them
-// are vectors in body axes, whatever directions the interface keeps: the matrices of the body are zero where it keeps
-// none.
+// q contains for each interface u_i = y_i - X_i, y_i = R_0^T (x_i - x_0), then (if its rotations act) t_i(E_i), E_i =
+// R_0^T R_i R_ref,i^T, see interface_rotation.hpp; after all interfaces the modal amplitudes eta. All of them are
+// vectors in body axes, for any directions kept by the interface: the matrices of the body are zero in directions that
+// are not kept.
 //
-// Conditions:  A^T q = 0,   A = W U,   U: rows u_i [I, -X_i~], t_i [0, I], eta 0 (rigid motions), W any weights for
-// which A^T U is regular, see frame_conditions.hpp. The frame is a function of the present positions alone (no memory,
-// any number of turns).
+// Conditions:  A^T q = 0,   A = W U,   U: rows u_i [I, -X_i~], t_i [0, I], eta 0 (rigid motions), with any weights W
+// for which A^T U is regular, see frame_conditions.hpp. The frame is a function of the present positions only (no
+// memory, any number of turns).
 //
 // Node motions in body axes ("triads", same layout as q): dz^ = [R_0^T dx_i; R_0^T R_i dTheta_i; deta]. With
 // U_c: rows [I, -y_i~], [0, I], 0;  D = diag(I, D_i, I);  V = D U_c;  Sigma = (A^T V)^-1 A^T:
 //     dnu_0 = [R_0^T dx_0; dphi_0] = Sigma D dz^   (dR_0 = R_0 dphi_0~),
 //     dq = D (dz^ - U_c dnu_0) = (I - V Sigma) D dz^.
-// The same relations hold for velocities. Newton at fixed nodes: dnu_0 = (A^T V)^-1 A^T q, exact.
+// The same relations hold for velocities. Newton's method at fixed nodes uses dnu_0 = (A^T V)^-1 A^T q, which is exact.
 //
 // Reference: floating frames, e.g. M. Geradin, A. Cardona, Flexible Multibody Dynamics (Wiley, 2001), ch. 10; here with
 // rotations of interfaces as coordinates and solved exactly for finite q.
@@ -31,20 +32,20 @@ namespace bielle::mechanism {
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Interfaces closer to each other than this part of the body's radius of gyration coincide.
+/// Interfaces closer to each other than this fraction of the body's radius of gyration coincide.
 inline constexpr double coincident_interfaces = 1e-3;
 
-/// An interface as its body sees it.
+/// An interface as seen from its body.
 struct BodyPoint {
   Vector3 X = Vector3::Zero();          ///< position in the undeformed body [m], body axes
   Matrix3 R_ref = Matrix3::Identity();  ///< node axes -> body axes in the undeformed body
-  InterfaceRotation rotation;           ///< of the node relative to the body
+  InterfaceRotation rotation;           ///< rotation of the node relative to the body
   bool keeps_position = true;           ///< all three translations are kept
-  int u = 0;                            ///< row of q at which its displacement starts
-  int theta = -1;                       ///< row at which its rotation starts; -1: its rotations do not act
+  int u = 0;                            ///< first row of its displacement in q
+  int theta = -1;                       ///< first row of its rotation; -1: its rotations do not act
 };
 
-/// The frame and what derivatives need of it, at given nodes. Reused from one evaluation to the next.
+/// The frame and quantities for its derivatives, at given nodes. The object is reused from one evaluation to the next.
 struct CorotatedGeometry {
   Frame frame;
   VectorX q;               ///< local coordinates
@@ -58,21 +59,21 @@ struct CorotatedGeometry {
 class CorotatedFrame {
  public:
   CorotatedFrame() = default;
-  /// @param points  their rows in q must not overlap
+  /// @param points  points whose rows in q do not overlap
   /// @param A       (n,6); the modal amplitudes are the last rows of q
-  /// @param size    of the body [m], where its interfaces coincide
+  /// @param size    size of the body [m], used if its interfaces coincide
   CorotatedFrame(std::vector<BodyPoint> points, const MatrixX6& A, double size);
 
   const std::vector<BodyPoint>& points() const { return points_; }
   const Matrix6X& A_transposed() const { return At_; }
 
   /// Solves the conditions for the nodes and amplitudes of `state` (node k is point k).
-  /// @throws ComputationError when there is no such frame (the nodes are far from any rigid placement of the body)
+  /// @throws ComputationError if there is no such frame (the nodes are far from any rigid placement of the body)
   void solve(const LocalState& state, CorotatedGeometry& geometry) const;
 
-  /// The rigid placement closest to the nodes in the least-squares sense: where the iteration starts.
+  /// Returns the rigid placement closest to the nodes in the least-squares sense: the initial guess of the iteration.
   Frame closest_placement(const LocalState& state) const;
-  /// Why there is no frame: how far the interfaces are off that placement.
+  /// Explains why there is no frame: the distance of the interfaces from that placement.
   std::string misfit(const LocalState& state, CorotatedGeometry& geometry) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// l^2 of the mean frame [m^2].
+/// Returns l^2 of the mean frame [m^2].
 double rotation_weight(const SuperelementMatrices& body) {
   if (body.points.size() == 1) return 1;
   const auto count = static_cast<double>(body.points.size());

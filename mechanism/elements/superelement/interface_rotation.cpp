@@ -6,8 +6,8 @@
 
 namespace bielle::mechanism {
 
-/// tau = N / W with N = b.Ea - a.Eb, W = 1 + e.Ee, and its derivatives along rotations phi of E (dE = phi~ E):
-/// dN = v_N.phi, d(v_N) = J_N phi, and likewise W; dtau = d.phi, d(d) = J phi.
+/// tau = N / W with N = b.Ea - a.Eb, W = 1 + e.Ee, and its derivatives along rotations phi of E (dE = phi~ E): dN =
+/// v_N.phi, d(v_N) = J_N phi, and the same for W; dtau = d.phi, d(d) = J phi.
 struct InterfaceRotation::Twist {
   Vector3 Ea, Eb, Ee, v_N, v_W, d;
   Matrix3 J_N, J_W, J;

@@ -26,7 +26,7 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
     residual_ = eps_.head(b) - 0.5 * residual_ - q.head(b);
     J_ = MatrixX::Identity(b, b) - gradient_.topRows(b).transpose();
     factors_.compute(J_);
-    // Beyond a zero of the determinant one q belongs to two eps, and this would be the wrong one.
+    // Beyond a zero of the determinant one q belongs to two eps, and this one would be wrong.
     if (!(factors_.determinant() > 0)) break;
     factors_.solve(residual_, step_);
     eps_.head(b) -= step_;

@@ -1,14 +1,14 @@
-// Linear coordinates eps of a deformed body: what its linear elasticity is written in.
+// Linear coordinates eps of a deformed body, in which its linear elasticity is formulated.
 //
-// The coordinates q of corotated_frame.hpp say where the interfaces are. A body that bends also moves its interfaces to
-// second order (a bent rod is shorter than its length): the coordinates of the linear theory are larger by what that
-// takes,
+// The coordinates q of corotated_frame.hpp are the positions of the interfaces. Bending also moves the interfaces of a
+// body to second order (the ends of a bent rod are closer than its length): the coordinates of the linear theory are
+// larger by this amount,
 //     q = eps - g(eps),   g_r = eps^T K_r eps / 2 for each interface row r,   0 for the modes,
 // with K_r the geometric stiffness of the free body under a unit load along row r. The elastic energy
 //     V = eps^T K~ eps / 2
-// is a function of the present positions alone, complete to third order in the deformation: its forces phi = dV/dq
-// fulfil K~ eps + phi_r K_r eps = phi, the theory of second order under the present forces, and nothing needs to be
-// remembered. With G(x): rows r (K_r x)^T, zero for the modes,
+// is a function of the present positions only, complete to third order in the deformation: its forces phi = dV/dq
+// satisfy K~ eps + phi_r K_r eps = phi, the theory of second order under the present forces, and no memory is required.
+// With G(x): rows r (K_r x)^T, zero for the modes,
 //     deps = J dq,   J = (I - G(eps))^-1,   phi = J^T K~ eps,   dphi = J^T (K~ + phi_r K_r) J dq,
 //     epsdot = J qdot,   eps'' = J (qddot + G(epsdot) epsdot).
 #pragma once
@@ -20,17 +20,17 @@ namespace bielle::mechanism {
 
 class LinearCoordinates {
  public:
-  /// Solves q = eps - g(eps) by Newton's method from eps = q. Only the first call allocates.
-  /// @throws ComputationError when there is no solution near q: the body is deformed beyond the theory of second order
+  /// Solves q = eps - g(eps) by Newton's method from eps = q. Only the first call allocates memory.
+  /// @throws ComputationError if there is no solution near q: the body is deformed beyond the theory of second order
   void solve(const SuperelementMatrices& body, const VectorX& q);
 
   const VectorX& eps() const { return eps_; }
-  /// The rows of interfaces; 0 for a body without geometric stiffness, whose eps is q.
+  /// Number of rows of interfaces; 0 for a body without geometric stiffness, whose eps is q.
   Eigen::Index rows() const { return J_.rows(); }
-  /// The rows of J - I that are not zero (rows, n). Valid after set_excess.
+  /// The nonzero rows of J - I (rows, n). They are valid after set_excess.
   const MatrixX& excess() const { return excess_; }
   void set_excess();
-  /// The rows of J G(x) that are not zero. @param gradient  G(x)^T (n, rows); @param product  (rows, n)
+  /// Computes the nonzero rows of J G(x). @param gradient  G(x)^T (n, rows); @param product  (rows, n)
   void multiply_gradient(const MatrixX& gradient, MatrixX& product) const;
   /// v <- J v
   void multiply(VectorX& v);
@@ -41,7 +41,7 @@ class LinearCoordinates {
   VectorX eps_, step_, residual_;
   MatrixX gradient_;  ///< G(eps)^T (n, rows)
   LUFactors factors_;
-  MatrixX J_;  ///< its block of the interfaces
+  MatrixX J_;  ///< its block for the interfaces
   MatrixX excess_;
 };
 

@@ -1,4 +1,4 @@
-// The motion of a point of a superelement's mesh in terms of the body's coordinates.
+// The motion of a point of a superelement's mesh as a function of the body's coordinates.
 #pragma once
 
 #include "mechanism/math/types.hpp"
@@ -6,10 +6,10 @@
 
 namespace bielle::mechanism {
 
-/// Displacement and rotation (6,n), body axes, at a point, by the mesh nodes around it
+/// Returns displacement and rotation (6,n), body axes, at a point, from the mesh nodes around it
 /// (reduce/superelement/point_weights.hpp).
-/// @param point  body axes
-/// @throws InputError when the body keeps no displacements, or the point is away from the mesh
+/// @param point  in body axes
+/// @throws InputError if the body file contains no displacements, or the point is outside of the mesh
 MatrixX point_shapes(const Superelement& body, const Vector3& point);
 
 }  // namespace bielle::mechanism

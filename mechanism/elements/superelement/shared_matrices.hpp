@@ -7,8 +7,8 @@
 
 namespace bielle::mechanism {
 
-/// The matrices of a superelement that was read from a file, in memory once for as long as a body uses them. A file
-/// that was written again since has matrices of its own.
+/// Returns the matrices of a superelement that was read from a file; they exist once in memory as long as a body uses
+/// them. A file that was written again in between has its own matrices.
 /// @throws InputError as the matrices do
 std::shared_ptr<const SuperelementMatrices> shared_matrices(const SuperelementPlace& place, const Superelement& body);
 

@@ -9,8 +9,8 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double worth_a_word = 0.05;      // of the stress
-constexpr double enough_of_answer = 0.95;  // that modes have of the held body's answer
+constexpr double worth_a_word = 0.05;      // fraction of the stress above which the summary mentions it
+constexpr double enough_of_answer = 0.95;  // fraction of the modes in the held body's response
 
 }  // namespace
 

@@ -25,7 +25,8 @@ struct SuperelementBody::Workspace {
   FrameBlock frames;
 };
 
-/// One for each thread that has evaluated the body at the same time; kept, so that only first evaluations allocate.
+/// One workspace for each thread that has evaluated the body at the same time; they are kept, so that only first
+/// evaluations allocate memory.
 class SuperelementBody::Workspaces {
  public:
   std::unique_ptr<Workspace> take() {
@@ -61,7 +62,7 @@ class SuperelementBody::Loan {
 
 namespace {
 
-/// The interfaces with their nodes of the mechanism.
+/// Returns the interfaces with their nodes of the mechanism.
 std::vector<BodyPoint> placed_points(const SuperelementMatrices& matrices, const SuperelementPlacement& placement) {
   std::vector<BodyPoint> points = matrices.points;
   for (std::size_t k = 0; k < points.size(); ++k) {

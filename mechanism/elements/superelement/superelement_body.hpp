@@ -9,16 +9,17 @@
 // corotated_frame.hpp; coordinates: linear_coordinates.hpp; matrices: superelement_body_matrices.hpp; forces:
 // superelement_body_motion.hpp.
 //
-// Prestress. Linear elasticity lacks the stiffening of a body under tension and the shortening of one that bends. The
-// file's geometric stiffness brings both back: that of the centrifugal field inside H, that of interface loads in the
-// relation of eps to the positions of the interfaces, which makes V a potential of third order with no memory.
+// Prestress: Linear elasticity lacks the stiffening of a body under tension and the shortening of a bent body. The
+// file's geometric stiffness provides both: that of the centrifugal field inside H, that of interface loads in the
+// relation of eps to the positions of the interfaces, which makes V a potential of third order without memory.
 //
-// Limits: strains and rotations within the body are small (to about 0.2 rad from the mean of its interfaces; what bends
-// more wants several superelements); load patterns do not prestress it; the membrane forces of a plate that bends by
-// more than its thickness are missing; damping acts on eps alone.
+// Limits: strains and rotations within the body are small (to about 0.2 rad from the mean of its interfaces; larger
+// bending requires several superelements); load patterns do not prestress it; the membrane forces of a plate that bends
+// by more than its thickness are missing; damping acts only on eps.
 //
 // Reference: A. Cardona, M. Geradin, Modelling of superelements in mechanism analysis, IJNME 32 (1991) 1565, for the
-// place of a superelement among nodes; the inertia is not theirs (their nodal velocities are not Galilean invariant).
+// role of a superelement among nodes; the inertia is a different one (their nodal velocities are not Galilean
+// invariant).
 #pragma once
 
 #include <array>
@@ -39,45 +40,45 @@
 
 namespace bielle::mechanism {
 
-/// What a body's frame is tied to, see frame_conditions.hpp.
+/// Conditions of a body's frame, see frame_conditions.hpp.
 enum class BodyFrame { mean, mean_axes, carried };
 
-/// How a superelement stands in a mechanism.
+/// Position of a superelement in a mechanism.
 struct SuperelementPlacement {
-  std::vector<int> nodes;                    ///< model's node of each interface
-  std::vector<Vector3> reference_positions;  ///< of these nodes in the undeformed body [m], body axes
+  std::vector<int> nodes;                    ///< node of the model for each interface
+  std::vector<Vector3> reference_positions;  ///< positions of these nodes in the undeformed body [m], body axes
   std::vector<Matrix3> reference_rotations;  ///< node axes -> body axes of the undeformed body
 
   struct Load {
-    std::string pattern;  ///< name in the file
-    Expression factor;    ///< of t
-    bool follows = true;  ///< turns with the body (a pressure); else its directions stay fixed in space
+    std::string pattern;  ///< name of the pattern in the file
+    Expression factor;    ///< factor as a function of t
+    bool follows = true;  ///< directions rotate with the body (a pressure); otherwise they are fixed in space
   };
   std::vector<Load> loads;
-  std::vector<std::string> node_names;  ///< for the results file
+  std::vector<std::string> node_names;  ///< names for the results file
   BodyFrame frame = BodyFrame::mean;
-  std::size_t frame_interface = 0;                       ///< of BodyFrame::carried
-  MatrixX damping;                                       ///< in the file's coordinates, in place of its own; or empty
-  std::shared_ptr<const SuperelementMatrices> matrices;  ///< shared by bodies of one file; made here when null
-  SuperelementPlace file;                                ///< where the superelement was read from
-  std::optional<double> largest_error;  ///< of its deformation, relative: a run fails beyond (validity.hpp)
+  std::size_t frame_interface = 0;                       ///< interface for BodyFrame::carried
+  MatrixX damping;                                       ///< in the file's coordinates, instead of the file's; or empty
+  std::shared_ptr<const SuperelementMatrices> matrices;  ///< shared by bodies of one file; created if null
+  SuperelementPlace file;                                ///< file of the superelement
+  std::optional<double> largest_error;  ///< relative error of its deformation beyond which a run fails (validity.hpp)
 };
 
 class SuperelementBody : public Component, public TimeDependent, public MeshFields {
  public:
-  /// A point inside that carries a node of its own.
+  /// A point inside the body that carries its own node.
   struct Point {
     std::string name;
-    int node = 0;  ///< the model's
+    int node = 0;  ///< node of the model
     PointPlace place;
-    std::array<bool, 6> residual{};  ///< forces and moments on it, body axes, whose static answer the basis has exactly
+    std::array<bool, 6> residual{};  ///< forces and moments on it, body axes, whose static response the basis contains
   };
-  /// @throws InputError when arrays of the superelement do not fit each other or a pattern does not exist
+  /// @throws InputError if arrays of the superelement are inconsistent or a pattern does not exist
   SuperelementBody(std::string name, const Superelement& superelement, SuperelementPlacement placement);
 
   ~SuperelementBody() override;
 
-  /// Carries one more node. Called while the model is read.
+  /// Carries one more node. It is called while the model is read.
   void attach(Point point) { points_.push_back(std::move(point)); }
 
   void declare(Declaration& declaration) const override;
@@ -102,30 +103,30 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   bool outputs_together() const override { return recovered_.large(); }
   void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const override;
   std::unique_ptr<StepRecorder> make_step_recorder() const override;
-  /// File, mass, modes with the range of their frequencies, interfaces with their nodes, loads.
+  /// Describes file, mass, modes with the range of their frequencies, interfaces with their nodes, loads.
   void describe(const LocalState& state, Description& description) const override;
 
   const SuperelementMatrices& matrices() const { return *matrices_; }
   const MatrixX& damping() const { return damping_.size() > 0 ? damping_ : matrices_->C; }  ///< C~ of this body
   const CorotatedFrame& frame() const { return frame_; }
   const SuperelementPlace& file() const { return file_; }
-  const std::vector<int>& nodes() const { return nodes_; }  ///< the model's, of the interfaces
+  const std::vector<int>& nodes() const { return nodes_; }  ///< interface nodes in the model
 
  private:
   struct Workspace;
   class Workspaces;
   class Loan;
-  /// Working memory with the motion, or with motion and forces, at a state.
+  /// Returns working memory with the motion, or with motion and forces, at a state.
   Loan evaluate_motion(const LocalState& state) const;
   Loan evaluate(const LocalState& state) const;
   void read_deformation(const LocalState& state, BodyDeformation& deformation) const;
   Eigen::Index coordinates() const;  ///< number of local coordinates in the file's order
-  /// What is recorded without the mesh. @returns the local coordinates among the values
+  /// Writes the outputs that do not require the mesh. @returns the local coordinates among the values
   const double* write_small_outputs(const LocalState& state, double* values) const;
 
-  /// What `describe` says of one piece of a cut body, which stands among others in its entry.
+  /// Describes one piece of a cut body, which is one of several in its entry.
   void describe_piece(Description& description) const;
-  void describe_attachments(Description& description) const;  ///< interfaces with their nodes, loads
+  void describe_attachments(Description& description) const;  ///< describes interfaces with their nodes, and loads
   std::string describe_modes() const;
 
   struct Load {
@@ -142,13 +143,13 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   std::vector<std::pair<std::string, std::string>> attributes_;
   SuperelementPlace file_;
   std::optional<double> largest_error_;
-  std::vector<std::string> interfaces_;  ///< names, in the order of the nodes
-  VectorX frequencies_;                  ///< of the fixed-boundary modes [Hz]
-  Eigen::Index residual_vectors_ = 0;    ///< so many modes more
+  std::vector<std::string> interfaces_;  ///< names of interfaces, in the order of the nodes
+  VectorX frequencies_;                  ///< frequencies of the fixed-boundary modes [Hz]
+  Eigen::Index residual_vectors_ = 0;    ///< number of additional modes that are residual vectors
   MatrixX mode_turns_;                   ///< as in Superelement
-  InertiaAnswer inertia_answer_;         ///< likewise
+  InertiaAnswer inertia_answer_;         ///< as in Superelement
   RecoveredOutputs recovered_;
-  std::vector<std::string> peaks_;  ///< that are wanted
+  std::vector<std::string> peaks_;  ///< requested peaks
   std::unique_ptr<Workspaces> workspaces_;
 };
 

@@ -126,7 +126,7 @@ void SuperelementMatrices::set_load_stiffness(const Superelement& body, const Ma
 }
 
 void SuperelementMatrices::multiply_load_stiffness(const VectorX& x, MatrixX& product) const {
-  // Row (r, i) of the transposed product is row i of K_r x, K_r being symmetric.
+  // Row (r, i) of the transposed product is row i of K_r x, because K_r is symmetric.
   product.setZero();
   add_transposed_product(Eigen::Map<VectorX>(product.data(), product.size()), load_stiffness, x);
 }

@@ -1,20 +1,20 @@
 // The constant matrices of a superelement in the layout of corotated_frame.hpp: three rows per interface displacement
 // and (where rotations act) three per rotation, all in body axes, then the modes.
 //
-// With q_file = P q (P takes the kept directions in the interface's axes), each matrix of the file becomes P^T (.) P:
+// With q_file = P q (P extracts the kept directions in the interface's axes), each matrix of the file becomes P^T (.)
+// P:
 //     K~, C~, M~,  U (rigid motions), MU = M~ U,
-//     K_r: geometric stiffness per unit load along row r, the sum over the directions of the load's components in them,
+//     K_r: geometric stiffness per unit load along row r, summed over the kept directions by the load's components,
 //     G_1 = S_32 - S_23, G_2 = S_13 - S_31, G_3 = S_21 - S_12                     (antisymmetric),
 //     H_kl = sym(delta_kl sum_j S_jj - S_lk)                                      (symmetric),
-// so that a body whose frame moves with nu_0 = (v_0, Om_0) (body components) has, s = U nu_0 + epsdot,
+// so that a body whose frame moves with nu_0 = (v_0, Om_0) (body components) has, with s = U nu_0 + epsdot,
 //     T = s^T M~ s / 2 + s^T G(Om_0) eps + eps^T H(Om_0) eps / 2,   G(Om) = Om_k G_k,   H(Om) = Om_k Om_l H_kl:
-// the exact kinetic energy of the reduced displacement field. The inertia of foreshortening, which that field lacks,
-// takes
+// the exact kinetic energy of the reduced displacement field. The inertia of foreshortening, which that field lacks, is
 //     - eps^T K_sigma(Om_m) eps / 2,   K_sigma(Om) = Om_k Om_l K_sigma,kl,   Om_m = Lambda s,
-// from it: geometric stiffness of the free body under the centrifugal field of unit Om_k Om_l (the sum runs over all
-// nine pairs k, l). Lambda, the last three rows of (U^T M~ U)^-1 U^T M~, gives the mean angular velocity of the body;
-// that of the frame would do only where fast motions of the interfaces do not turn it: their small mass would become
-// negative. Nothing here depends on where the body is placed: bodies of one file share it.
+// subtracted from it: geometric stiffness of the free body under the centrifugal field of unit Om_k Om_l (the sum is
+// over all nine pairs k, l). Lambda, the last three rows of (U^T M~ U)^-1 U^T M~, gives the mean angular velocity of
+// the body; that of the frame would only be correct if fast motions of the interfaces did not rotate it: their small
+// mass would become negative. These matrices do not depend on the position of the body: bodies of one file share them.
 #pragma once
 
 #include <array>
@@ -35,21 +35,21 @@ struct SuperelementMatrices {
     int row;
     Vector3 axis;
   };
-  /// Column l + 3 k: generalised force of component k of the pattern acting along body axis l.
+  /// Column l + 3 k: generalised force of component k of the pattern along body axis l.
   using Pattern = Eigen::Matrix<double, Eigen::Dynamic, 9>;
 
-  /// @throws InputError when the superelement's arrays do not fit each other or its mass is not positive
+  /// @throws InputError if the superelement's arrays are inconsistent or its mass is not positive
   explicit SuperelementMatrices(const Superelement& superelement);
 
   int size() const { return static_cast<int>(K.rows()); }
   int modes = 0;
   double gyration = 0;                ///< radius of gyration [m]
-  double mass = 0;                    ///< [kg] of the displacement field
-  Vector3 centre = Vector3::Zero();   ///< of mass, body axes
-  Matrix3 inertia = Matrix3::Zero();  ///< about the centre
-  /// Interfaces as the file has them: X, and R_ref of nodes with the body's axes.
+  double mass = 0;                    ///< mass of the displacement field [kg]
+  Vector3 centre = Vector3::Zero();   ///< centre of mass, body axes
+  Matrix3 inertia = Matrix3::Zero();  ///< inertia about the centre
+  /// Interfaces as in the file: X, and R_ref of nodes with the body's axes.
   std::vector<BodyPoint> points;
-  std::vector<Direction> directions;  ///< of the file's interface coordinates
+  std::vector<Direction> directions;  ///< directions of the file's interface coordinates
   MatrixX kept;                       ///< projector of the interface rows on the kept directions (rows, rows)
   VectorX interface_scale;            ///< by interface row: 1 for translations, radius of gyration [m] for rotations
 
@@ -58,30 +58,30 @@ struct SuperelementMatrices {
   std::array<MatrixX, 3> G;
   std::array<MatrixX6, 3> GU;  ///< G_k U
   std::array<MatrixX, 6> H;
-  std::array<MatrixX, 6> spin;                            ///< K_sigma; empty when the file has none
+  std::array<MatrixX, 6> spin;                            ///< K_sigma; empty if the file has none
   Eigen::Matrix<double, 3, Eigen::Dynamic> mean_turning;  ///< Lambda
-  MatrixX load_stiffness;                                 ///< [K_1 K_2 ..] (n, n rows); empty when the file has none
+  MatrixX load_stiffness;                                 ///< [K_1 K_2 ..] (n, n rows); empty if the file has none
   MatrixX strains;  ///< (6 (q + 1), n) strain at places, then its mean, see Superelement; may be empty
   std::vector<std::string> pattern_names;
   std::vector<Pattern> patterns;
 
   bool stiffened_by_spin() const { return spin[0].size() > 0; }
   Eigen::Index interface_rows() const { return kept.rows(); }
-  /// Interface rows with a geometric stiffness: all or none.
+  /// Number of interface rows with a geometric stiffness: all or none.
   Eigen::Index prestress_rows() const { return load_stiffness.size() > 0 ? interface_rows() : 0; }
   /// product.col(r) = K_r x; (n, prestress_rows)
   void multiply_load_stiffness(const VectorX& x, MatrixX& product) const;
   /// X += sum over r of weights_r K_r
   void add_load_stiffness(const Eigen::Ref<const VectorX>& weights, MatrixX& X) const;
-  /// A matrix with columns of the file's coordinates in the present layout.
+  /// Transforms a matrix with columns of the file's coordinates to the present layout.
   MatrixX columns_in_rows(const MatrixX& file_matrix) const;
-  /// A symmetric matrix of the file's coordinates in the present layout.
+  /// Transforms a symmetric matrix of the file's coordinates to the present layout.
   MatrixX in_rows(const MatrixX& file_matrix) const;
-  /// The file's coordinates of a vector in the present layout.
+  /// Transforms a vector in the present layout to the file's coordinates.
   void to_file(const Eigen::Ref<const VectorX>& q, Eigen::Ref<VectorX> q_file) const;
 
  private:
-  int add_points(const Superelement& body);  ///< makes points and directions. @returns the rows of all points
+  int add_points(const Superelement& body);  ///< creates points, directions. @returns the rows of all points
   void set_inertia(const Superelement& body, const MatrixX& P);         ///< G, GU, H from the inertia components
   void set_load_stiffness(const Superelement& body, const MatrixX& P);  ///< K_r from those of the kept directions
   MatrixX file_rows(int n) const;                                       ///< P

@@ -24,7 +24,7 @@ void SuperelementMotion::set_node_motion(const CorotatedFrame& body_frame, const
   const Matrix3 R_0t = geometry.frame.R.transpose();
   for (VectorX* vector : {&w, &w_rel, &a, &a_rel, &eps_rate, &eps_acceleration}) vector->resize(n);
 
-  // They first hold D w and b, then qdot and qddot.
+  // They first contain D w and b, then qdot and qddot.
   VectorX &q_rate = eps_rate, &q_acceleration = eps_acceleration;
   w.tail(modes) = state.amplitude_rate();
   a.tail(modes) = state.amplitude_acceleration();

@@ -1,19 +1,18 @@
-// Motion and generalised forces of a superelement in its frame: what residual, tangent and energies share.
+// Motion and generalised forces of a superelement in its frame: common part of residual, tangent and energies.
 //
 // Velocities and accelerations of the nodes in body axes, w = Q zdot and a = Q zddot - R_0^T g (gravity is an
 // acceleration of the frame of reference), Q = diag(R_0^T, R_0^T R_i, I), give with the geometry of corotated_frame.hpp
 //     nu_0 = Sigma D w,       w_rel = w - U_c nu_0,                               qdot  = D w_rel,
 //     b = D (a + h) + D' w_rel,  h: rows u -Om_0 x (w + w_rel), theta -Om_0 x w,  eta 0,
 //     nu_0' = Sigma b,        a_rel = a + h - U_c nu_0',                          qddot = b - V nu_0'.
-// The body's linear coordinates, linear_coordinates.hpp, follow: epsdot = J qdot, eps'' = J (qddot + G(epsdot) epsdot).
-// Lagrange's equations in quasi-velocities nu_0 = (v_0, Om_0) and eps, s = U nu_0 + epsdot, Om_m = Lambda s,
-// kappa_kl = eps.K_sigma,kl eps:
+// The body's linear coordinates follow from linear_coordinates.hpp: epsdot = J qdot, eps'' = J (qddot + G(epsdot)
+// epsdot). Lagrange's equations in quasi-velocities nu_0 = (v_0, Om_0) and eps, with s = U nu_0 + epsdot, Om_m = Lambda
+// s, kappa_kl = eps.K_sigma,kl eps, are
 //     p = M~ s + G(Om_0) eps - Lambda^T kappa Om_m,
 //     pi = U^T p + [0; pi_0],   pi_0,k = s.G_k eps + Om_l eps.H_kl eps,
 //     r = p' + G(Om_0) s - H(Om_0) eps + K_sigma(Om_m) eps + K~ eps + C~ epsdot - f,
 //     e = pi' + [Om_0 x pi_v; Om_0 x pi_O + v_0 x pi_v] - [U^T f + [0; m]],
-// f, m: load patterns. With phi = J^T r, the force on q that both make together, and its image on the nodes' triads,
-// are
+// with the load patterns f, m. With phi = J^T r, the total force on q, and its image on the nodes' triads, are
 //     force = phi + Sigma^T (e - V^T phi),     node_force = D^T force,     F = Q^T node_force.
 #pragma once
 
@@ -26,14 +25,14 @@ namespace bielle::mechanism {
 using Matrix3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 using MatrixX3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// A load pattern at work.
+/// An active load pattern.
 struct ActingLoad {
   const SuperelementMatrices::Pattern* pattern = nullptr;
   double factor = 0;
-  bool follows = true;  ///< turns with the body's frame; else its directions stay fixed in space
+  bool follows = true;  ///< directions rotate with the body's frame; otherwise they are fixed in space
 };
 
-/// Working memory of one body, kept from one evaluation to the next: only the first one allocates.
+/// Working memory of one body, kept from one evaluation to the next: only the first one allocates memory.
 struct SuperelementMotion {
   CorotatedGeometry geometry;
   VectorX w, w_rel, a, a_rel;  ///< node triads in body axes
@@ -52,8 +51,8 @@ struct SuperelementMotion {
   VectorX r, load, elastic_force, phi, force, node_force;
   Vector6 rigid_load;  ///< U^T f + [0; m]
   std::vector<ActingLoad> loads;
-  VectorX attached_force;   ///< on eps by nodes attached to points (n); empty: there are none
-  Vector6 attached_wrench;  ///< theirs on the frame
+  VectorX attached_force;   ///< force on eps due to nodes attached to points (n); empty: there are none
+  Vector6 attached_wrench;  ///< their force on the frame
 
   /// Solves for the frame and the linear coordinates and computes the motion. @throws ComputationError
   void set_motion(const SuperelementMatrices& body, const CorotatedFrame& frame, const LocalState& state);
@@ -61,18 +60,18 @@ struct SuperelementMotion {
   /// @param damping  C~
   void set_forces(const SuperelementMatrices& body, const MatrixX& damping);
 
-  double kinetic_energy(const SuperelementMatrices& body) const;  ///< set_forces must have been called
+  double kinetic_energy(const SuperelementMatrices& body) const;  ///< call it after set_forces
 
  private:
   void set_node_motion(const CorotatedFrame& frame, const LocalState& state);  ///< w .. nu_rate; qdot, qddot
   void set_coordinates(const SuperelementMatrices& body);                      ///< eps and its derivatives
-  void set_products(const SuperelementMatrices& body);       ///< s and its rate; those of G and H with eps, s, eps_rate
-  void add_spin_momentum(const SuperelementMatrices& body);  ///< what K_sigma adds to p and its rate
+  void set_products(const SuperelementMatrices& body);  ///< s and its rate; products of G and H with eps, s, eps_rate
+  void add_spin_momentum(const SuperelementMatrices& body);  ///< terms of K_sigma in p and its rate
   void set_loads(const SuperelementMatrices& body);          ///< load, rigid_load
   void set_node_force(const SuperelementMatrices& body);     ///< phi, force, node_force from r and e
 };
 
-/// Direction of component k of a load in body axes.
+/// Returns the direction of component k of a load in body axes.
 Vector3 load_direction(const ActingLoad& load, const Matrix3& R_0, int k);
 
 }  // namespace bielle::mechanism

@@ -1,10 +1,10 @@
-// Superelements in the mechanism file.
+// Reader of superelements in the mechanism file.
 //
 //   rod: {type: superelement, file: conrod.h5, nodes: {big_end: pin, small_end: wrist},
-//         position: [..], rotation_vector: [..],     # of the mesh's origin and axes; default: as meshed
+//         position: [..], rotation_vector: [..],     # of the mesh's origin and axes; default: as in the mesh
 //         frame: mean,                               # of the interfaces; or mean_axes, {interface: big_end}
-//         largest_error: 0.02,                       # of its deformation: fails beyond
-//         damping: {ratio: 0.01},                    # or {ratio: [..]}, {rayleigh: [alpha, beta]}: in place of the
+//         largest_error: 0.02,                       # of its deformation: the run fails beyond
+//         damping: {ratio: 0.01},                    # or {ratio: [..]}, {rayleigh: [alpha, beta]}: instead of the
 //                                                    # file's
 //         loads: {pressure: "1e5*t", wind: {factor: 2, follower: false}}}
 #include <filesystem>

@@ -11,7 +11,7 @@ struct SuperelementTangent::View {
   const MatrixX& damping;
   const SuperelementMotion& motion;
   const VectorX& eps;
-  const MatrixX& excess;  // the rows of J - I that are not zero
+  const MatrixX& excess;  // nonzero rows of J - I
   const CorotatedGeometry& geometry;
   const LocalState& state;
   Eigen::Index n;
@@ -76,7 +76,7 @@ void SuperelementTangent::add(const SuperelementMatrices& body, const MatrixX& d
   if (!points.empty()) add_points(v, points, tangent.K.dense());
 }
 
-/// Columns of the body's triads and modes as columns of the local unknowns.
+/// Converts columns of the body's triads and modes to columns of the local unknowns.
 void SuperelementTangent::set_local_columns(const View& v, const Matrix6X& X, Matrix6X& local) {
   const auto& points = v.body.points;
   const Matrix3 R_0t = v.geometry.frame.R.transpose();
@@ -208,7 +208,7 @@ void SuperelementTangent::reduce_both_sides(const View& v, const Matrix6& X_nn, 
   add_transposed_product(X_qq, Sigma, rows_);
 }
 
-// What K_sigma adds to the forms. All of it depends on nu_0 through s, and Lambda U = [0, I].
+// Adds the terms of K_sigma to the forms. All of them depend on nu_0 through s, and Lambda U = [0, I].
 
 /// M~ <- M~ - Lambda^T kappa Lambda
 void SuperelementTangent::add_spin_to_mass_form(const View& v) {
@@ -231,7 +231,7 @@ void SuperelementTangent::add_spin_to_rate_form(const View& v, Matrix6& X_nn) {
   add_product(CQ_, Phi, Lambda, 2);
 }
 
-/// To KQ_ and K_nq_, and to d pi / d eps in rows_.
+/// Adds to KQ_ and K_nq_, and to d pi / d eps in rows_.
 void SuperelementTangent::add_spin_to_position_form(const View& v) {
   const SuperelementMotion& m = v.motion;
   turning_.setZero(3, v.n);  // Om_m,l K_sigma,kl epsdot + Om_m,l' K_sigma,kl eps
@@ -265,7 +265,7 @@ void SuperelementTangent::set_mass_form(const View& v) {
   reduce_both_sides(v, M_nn_, M_nq_, six_, MQ_);
 }
 
-/// J G(epsdot) and J G(eps'').
+/// Computes J G(epsdot) and J G(eps'').
 void SuperelementTangent::set_coordinate_changes(const View& v) {
   const Eigen::Index b = v.excess.rows();
   rate_change_.resize(b, v.n);
@@ -277,7 +277,8 @@ void SuperelementTangent::set_coordinate_changes(const View& v) {
   v.motion.coordinates.multiply_gradient(acceleration_gradient_, acceleration_change_);
 }
 
-/// What the change of J adds to the forms of the rates (CQ_, more_rows_) and, with it, of the coordinates (KQ_, K_nq_).
+/// Adds the terms due to the change of J to the forms of the rates (CQ_, more_rows_) and of the coordinates (KQ_,
+/// K_nq_).
 void SuperelementTangent::add_rate_changes(const View& v) {
   const Eigen::Index b = v.excess.rows();
   KQ_.setZero(v.n, v.n);
@@ -342,7 +343,7 @@ void SuperelementTangent::set_position_form(const View& v) {
   add_transposed_product(KQ_, v.geometry.Sigma, K_nq_);
 }
 
-/// KQ_ += what of it does not depend on the rest of the state
+/// Adds to KQ_ the terms that do not depend on the rest of the state.
 void SuperelementTangent::add_stiffnesses(const View& v) {
   const Vector3& Om_mean = v.motion.Om_mean;
   std::array<WeightedMatrix, 16> terms;
@@ -386,7 +387,7 @@ void SuperelementTangent::add_momentum_changes(const View& v) {
   K_nq_.noalias() += v.ad * rows_;
 }
 
-/// Loads fixed in space turn relative to the body with its frame: columns dphi_0 of L^T d(e; r).
+/// Loads fixed in space rotate relative to the body with its frame: columns dphi_0 of L^T d(e; r).
 void SuperelementTangent::add_load_turning(const View& v) {
   for (const ActingLoad& load : v.motion.loads) {
     if (load.follows) continue;
@@ -465,7 +466,7 @@ void SuperelementTangent::multiply_by_D_transposed(const View& v) {
     }
 }
 
-/// target += Q^T result Q, with the component's rows and columns.
+/// Adds Q^T result Q to target, with the component's rows and columns.
 void SuperelementTangent::add_to(const View& v, Eigen::Ref<MatrixX> target) {
   const auto& points = v.body.points;
   const Eigen::Index modes = v.body.modes, amplitudes = v.state.slots().amplitude_row();

@@ -1,19 +1,19 @@
-// The exact tangent of a superelement; used by superelement_body.cpp alone.
+// The exact tangent of a superelement; only superelement_body.cpp uses it.
 //
 // Increments dz^ of the node triads (body axes) move the frame by dnu = Sigma D dz^ and the nodes relative to it by
-// delta = dz^ - U_c dnu; dphi_0 is the rotation in dnu, L = [Sigma; I - V Sigma]. What changes in F = Q^T D^T force is
+// delta = dz^ - U_c dnu; dphi_0 is the rotation in dnu, L = [Sigma; I - V Sigma]. The changes in F = Q^T D^T force are
 //   the map:      K^ = -[F^] dphi_0 + diag(0, F^_theta~) + Z delta - B_0^T Y delta,    F^ = D^T force,
 //                 Z: theta blocks d(D^T force)/dphi,  Y: u blocks -F^_u~, theta blocks those of Z,  B_0: rotation rows
 //                 of Sigma D;
 //   the forces:   D^T L^T [de; J^T (dr + phi_r K_r deps)] = D^T (KQ dq + CQ (rates) + MQ (accelerations)); with the
 //   forms
 //                 X of e and r in (nu_0, eps), their rates or accelerations, L^T [X_nn, X_nq J; J^T X_qn, J^T X_qq J]
-//                 L. Since J itself changes, dJ qdot = J G(epsdot) deps and likewise for accelerations, CQ also has 2
-//                 X_M J G(epsdot), KQ also X_C J G(epsdot) + X_M J G(eps'') (in columns of eps).
+//                 L. Since J itself changes, dJ qdot = J G(epsdot) deps, with a similar term for accelerations, CQ also
+//                 has 2 X_M J G(epsdot), KQ also X_C J G(epsdot) + X_M J G(eps'') (in columns of eps).
 // Rates and accelerations change with positions and with velocities by a block on each triad and six columns on dnu:
 //   d(nu_0, qdot)   = L (A_v dz^ + B_v dnu)                                     | L D dw^
 //   d(nu_0', qddot) = L (A_a dz^ + B_a dnu + H_0 Sigma (A_v dz^ + B_v dnu))     | L (H_w + H_0 Sigma D) dw^.
-// Hence
+// Therefore
 //   K = Q^T [K^ + D^T (KQ (I - V Sigma) D + CQ (A_v + B_v Sigma D)
 //                      + MQ (A_a + B_a Sigma D + H_0 Sigma (A_v + B_v Sigma D)))] Q,
 //   C = Q^T  D^T [CQ D + MQ (H_w + H_0 Sigma D)]  Q,
@@ -28,11 +28,11 @@
 
 namespace bielle::mechanism {
 
-/// Computes the tangent of one evaluation. Working memory, kept like SuperelementMotion.
+/// Computes the tangent of one evaluation. The working memory is kept like SuperelementMotion.
 class SuperelementTangent {
  public:
   /// @param damping  C~
-  /// @param motion   with its forces set
+  /// @param motion   motion with its forces set
   void add(const SuperelementMatrices& body, const MatrixX& damping, SuperelementMotion& motion,
            const LocalState& state, const std::vector<AttachedPoint>& points, LocalTangent& tangent);
 
@@ -40,7 +40,7 @@ class SuperelementTangent {
   struct RotationBlocks {
     Matrix3 D, A_v, A_a, H_w, Z;
   };
-  struct View;  // what the functions below share
+  struct View;  // arguments of the functions below
   void set_rate_blocks(const View& v);
   void set_mass_form(const View& v);
   void add_spin_to_mass_form(const View& v);
@@ -72,7 +72,7 @@ class SuperelementTangent {
   Matrix6 M_nn_;                               // d pi / d nu_0
   Matrix6X M_nq_;                              // d pi / d epsdot
   Matrix6X K_nq_;                              // d e / d eps
-  MatrixX rate_change_, acceleration_change_;  // rows of J G(epsdot), J G(eps'') that are not zero
+  MatrixX rate_change_, acceleration_change_;  // nonzero rows of J G(epsdot), J G(eps'')
   MatrixX acceleration_gradient_;
   Matrix6X six_left_, point_rows_, frame_motion_, node_motion_, shape_motion_;
   MatrixX6 six_top_;

@@ -1,8 +1,8 @@
-// Bodies that bend too much for one superelement: their pieces (`pieces` in the body file), placed by one entry.
+// Bodies that bend too much for one superelement: their pieces (`pieces` in the body file) are placed by one entry.
 //
 //   blade: {type: superelement, file: blade.h5, nodes: {root: hub, tip: tip}}
 //
-// makes a superelement `blade.1`, `blade.2` ... of each piece, all made of the entry `blade`. Pieces share the nodes of
+// creates a superelement `blade.1`, `blade.2` ... for each piece, all from the entry `blade`. Pieces share the nodes of
 // the cuts, `blade.cut_1` ..., unless `nodes` names others.
 #include <algorithm>
 #include <filesystem>
@@ -37,7 +37,7 @@ MatrixX read_damping(const YamlValue& damping, const Superelement& piece, const 
   return damping_of_piece(piece, ratio->non_negative_number(), body.free_frequencies[0]);
 }
 
-/// All interfaces, each once, the patterns of all pieces, and the mass properties: what a reader needs to know.
+/// Returns all interfaces, each once, the patterns of all pieces, and the mass properties, for the readers.
 Superelement whole_of(const CutBody& body) {
   Superelement whole = assembled(body.pieces);
   whole.name = body.name;
@@ -46,7 +46,7 @@ Superelement whole_of(const CutBody& body) {
   return whole;
 }
 
-/// Nodes of a piece out of those of the whole.
+/// Returns the nodes of a piece, selected from those of the whole.
 std::vector<int> nodes_of(const Superelement& piece, const Superelement& whole, const std::vector<int>& nodes) {
   std::vector<int> result;
   for (const Interface& interface : piece.interfaces) {
@@ -57,7 +57,7 @@ std::vector<int> nodes_of(const Superelement& piece, const Superelement& whole, 
   return result;
 }
 
-/// Results of pieces stand under their own names, which no other entry may have.
+/// Results of pieces are stored under their own names, which no other entry may have.
 void check_name_later(const Entry& piece, const YamlValue& entry, Model& model) {
   model.when_read(Model::Stage::connections, [piece, entry, &model] {
     if (model.members_of(piece).size() > 1)

@@ -16,8 +16,8 @@
 namespace bielle::mechanism {
 namespace {
 
-/// How far a node may be from its interface, relative to the body's size: positions are typed with a few digits. What
-/// is left becomes part of the undeformed body, so that it starts without stress.
+/// Permitted distance of a node from its interface, relative to the body's size: positions in input files have a few
+/// digits. The remaining distance becomes part of the undeformed body, so that it starts without stress.
 constexpr double position_tolerance = 1e-5;
 
 std::string text_of(const Vector3& x) { return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", x.x(), x.y(), x.z()); }
@@ -32,7 +32,7 @@ int kept_rotations(const Interface& interface) {
   return static_cast<int>(std::count(interface.kept.begin() + 3, interface.kept.end(), true));
 }
 
-/// Named nodes must lie where their interfaces are.
+/// Checks that named nodes are at their interfaces.
 void check_position(const YamlValue& value, const Node& node, const Interface& interface, const Superelement& body,
                     const Vector3& expected, bool placed) {
   const double distance = (node.frame.x - expected).norm();
@@ -45,7 +45,7 @@ void check_position(const YamlValue& value, const Node& node, const Interface& i
   value.fail(message);
 }
 
-/// A node for an interface that the file names none for.
+/// Creates a node for an interface for which the file names none.
 int create_node(const std::string& name, const YamlValue& entry, const Interface& interface, const Frame& placement,
                 Model& model) {
   const auto kept = std::count(interface.kept.begin(), interface.kept.begin() + 3, true);
@@ -59,12 +59,12 @@ int create_node(const std::string& name, const YamlValue& entry, const Interface
   node.name = name + "." + interface.name;
   if (model.find_node(node.name)) entry.fail(fmt::format("there is already a node '{}'", node.name));
   node.frame = placement * Frame{interface.position, interface.rotation};
-  // Nothing turns a node that carries forces alone.
+  // A node that only transmits forces must not rotate.
   if (rotations == 0) std::fill(node.freedom.begin() + 3, node.freedom.end(), Freedom::fixed);
   return model.add_node(std::move(node));
 }
 
-/// The rigid motion, at a place, that is nearest to that of nodes.
+/// Returns the rigid motion, at a place, that is closest to that of nodes.
 StartMotion rigid_motion_of(const Model& model, const RigidlyFollowed& followed, const Vector3& place) {
   Matrix6 normal = Matrix6::Zero();
   Vector6 right = Vector6::Zero();
@@ -79,7 +79,8 @@ StartMotion rigid_motion_of(const Model& model, const RigidlyFollowed& followed,
     normal.bottomRightCorner<3, 3>() += area * Matrix3::Identity();
     right.tail<3>() += area * node.omega;
   }
-  // About an axis that no node tells of (a line of points) it does not turn; all else is refined to rounding.
+  // About an axis that no node determines (a line of points) the rotation is zero; everything else is refined to
+  // rounding.
   constexpr double little = 1e-12;
   Matrix6 regular = normal;
   regular.bottomRightCorner<3, 3>() += little * area * Matrix3::Identity();

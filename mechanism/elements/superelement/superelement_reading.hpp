@@ -1,4 +1,4 @@
-// What the readers of whole superelements and of bodies in pieces share.
+// Common functions of the readers of whole superelements and of bodies in pieces.
 #pragma once
 
 #include <string>
@@ -11,39 +11,39 @@ namespace bielle::mechanism {
 /// Checks the keys of `name: {type: superelement, ...}`.
 void check_superelement_keys(const YamlValue& entry);
 
-/// C~ of `damping: {ratio: ..}` or `{rayleigh: ..}`, in place of the file's.
+/// Reads C~ from `damping: {ratio: ..}` or `{rayleigh: ..}`, instead of the file's.
 MatrixX read_superelement_damping(const YamlValue& damping, const Superelement& body);
 
-/// `frame: mean`, `frame: mean_axes` or `frame: {interface: name}`.
+/// Reads `frame: mean`, `frame: mean_axes` or `frame: {interface: name}`.
 void read_body_frame(const YamlValue& frame, const Superelement& body, SuperelementPlacement& setup);
 
-/// `loads: {pattern: factor}`, of the patterns that the body has.
+/// Reads `loads: {pattern: factor}`, for the patterns that the body has.
 std::vector<SuperelementPlacement::Load> read_superelement_loads(const YamlValue& loads, const Superelement& body);
 
-/// Nodes of a body that others of it follow where a motion begins.
+/// Nodes of a body that others of it follow at the start of a motion.
 struct RigidlyFollowed {
   std::vector<int> nodes;
-  std::vector<bool> turns;  ///< of each, whether its rotation is the body's: it is not where it carries forces alone
-  double size = 0;          ///< of the body [m]: rotations count at this arm
+  std::vector<bool> turns;  ///< for each node, whether it rotates with the body: false if it only transmits forces
+  double size = 0;          ///< size of the body [m]: lever arm for rotations
   void add(int node, bool rotation) {
     nodes.push_back(node);
     turns.push_back(rotation);
   }
 };
 
-/// A node starts with the rigid motion that is nearest to those of others; where there are none, as it is.
+/// Starts a node with the rigid motion that is closest to those of others; without any, it is not changed.
 void follow_rigidly(int node, const RigidlyFollowed& followed, Model& model);
 
-/// The model's node of each interface: those under `nodes`, which must stand where the interfaces are, and new ones
+/// Returns the model's node of each interface: those under `nodes`, which must be at the interfaces, and new ones
 /// `<name>.<interface>` for the others, which start with the rigid motion of the named ones.
 std::vector<int> read_interface_nodes(const std::string& name, const YamlValue& entry, const Superelement& body,
                                       const Frame& placement, Model& model);
 
-/// How the body stands on its nodes, without loads.
-/// @param nodes  of its interfaces @param placement  of the mesh's origin and axes
+/// Returns the placement of the body on its nodes, without loads.
+/// @param nodes  nodes of its interfaces @param placement  frame of the mesh's origin and axes
 SuperelementPlacement place_superelement(std::vector<int> nodes, const Frame& placement, const Model& model);
 
-/// A body that is cut into pieces, in one entry; see superelement_pieces_reader.cpp.
+/// Reads a body that is cut into pieces, in one entry; see superelement_pieces_reader.cpp.
 void read_superelement_pieces(const std::string& name, const YamlValue& entry, const std::string& path, Model& model);
 
 }  // namespace bielle::mechanism

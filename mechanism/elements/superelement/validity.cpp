@@ -10,34 +10,36 @@
 namespace bielle::mechanism {
 namespace {
 
-// Of displacements over theta^2, bent by interfaces; where the turn is told by lines alone, since rotations do not act.
+// Error of displacements divided by theta^2, for bending by interfaces; the second is for rotations determined by lines
+// only, since rotations do not act.
 constexpr double error_per_square = 0.006, error_of_lines = 0.05;
-constexpr double error_of_free_end = 0.4, error_between = 0.03;  // over theta, bent in the modes
+constexpr double error_of_free_end = 0.4, error_between = 0.03;  // divided by theta, bent in the modes
 constexpr double worth_a_line = 1e-3, worth_a_warning = 5e-3;
 constexpr double much_strain = 0.02;
-constexpr double turn_over_chord = 1.5;  // of a bar under a force at its end: theta L / deflection
-constexpr std::size_t most_chords = 12;  // points among which chords are compared
+constexpr double turn_over_chord = 1.5;  // for a bar under a force at its end: theta L / deflection
+constexpr std::size_t most_chords = 12;  // largest number of points between which chords are compared
 
 bool turns(const BodyPoint& point) { return point.rotation.kind() == InterfaceRotation::Kind::vector; }
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-/// The angle of a rotation without its axis.
+/// Returns the angle of a rotation without its axis.
 double angle_of(const Matrix3& R) { return std::acos(std::clamp((R.trace() - 1) / 2, -1.0, 1.0)); }
 
-/// Body axes -> inertial ones, as the interface has them.
+/// Rotation from body axes to inertial ones, as given by the interface.
 Matrix3 axes_of(const BodyPoint& point, const LocalState& state, std::size_t k) {
   return state.node(static_cast<int>(k)).R * point.R_ref.transpose();
 }
 
-/// Turn of the line from an interface to one whose rotations do not all act, as the first one sees it.
+/// Returns the rotation of the line from an interface to one whose rotations do not all act, as seen from the first
+/// one.
 double turn_of_chord(const std::vector<BodyPoint>& points, const LocalState& state, std::size_t from, std::size_t to) {
   const Vector3 drawn = points[to].X - points[from].X;
   const Vector3 now = state.node(static_cast<int>(to)).x - state.node(static_cast<int>(from)).x;
   return angle_between(drawn, axes_of(points[from], state, from).transpose() * now);
 }
 
-/// How much more or less the lines to two interfaces enclose than they did.
+/// Returns the change of the angle between the lines to two interfaces.
 double turn_of_chords(const std::vector<BodyPoint>& points, const LocalState& state, std::size_t at, std::size_t a,
                       std::size_t b) {
   const auto now = [&](std::size_t k) -> Vector3 {
@@ -47,7 +49,7 @@ double turn_of_chords(const std::vector<BodyPoint>& points, const LocalState& st
                   angle_between(points[a].X - points[at].X, points[b].X - points[at].X));
 }
 
-/// Where no interface has a rotation that another one could be compared with.
+/// This is used if no interface has a rotation that can be compared with another one.
 double largest_turn_of_chords(const std::vector<BodyPoint>& points, const LocalState& state) {
   const std::size_t count = std::min(points.size(), most_chords);
   double largest = 0;

@@ -1,23 +1,23 @@
-// How far a superelement can be trusted where it is: an estimate of the error that its linear elasticity leaves.
+// Validity of a superelement in its present state: an estimate of the error of its linear elasticity.
 //
-// Bent by its interfaces the element is exact to the third order of the deformation, so that the relative error of
-// displacements grows with the square of the angle theta by which interfaces are turned relative to each other. For
-// bars, straight and curved by up to 46 degrees, bent by forces until they are off by 5 to 45 % of their length, it is
-// 0.002 to 0.0075 theta^2, and less under moments and twist (tests/benchmarks/superelement/test_validity.cpp). The
-// estimate is 0.006 theta^2. The turn of an interface whose rotations do not all act is that of the line to it, half as
-// much again: what it is for a bar under a force there. Such a bar is off by
-// 0.05 theta^2.
+// If it is bent by its interfaces, the element is exact to the third order of the deformation, so that the relative
+// error of displacements grows with the square of the angle theta by which interfaces are rotated relative to each
+// other. For bars, straight and curved by up to 46 degrees, bent by forces until they are displaced by 5 to 45 % of
+// their length, it is 0.002 to 0.0075 theta^2, and less under moments and twist
+// (tests/benchmarks/superelement/test_validity.cpp). The estimate is 0.006 theta^2. If not all rotations of an
+// interface act, its rotation is that of the line to it, times one and a half: the value for a bar under a force there.
+// Such a bar has an error of 0.05 theta^2.
 //
-// Bent in its modes (by its own inertia, load patterns, loads at points inside) the body does not become shorter where
-// it bends, as it should by the square of the deformation: the error is of the first order in the angle theta by which
-// places of the body are turned relative to each other. For a bar that is held at one end it is 0.4 theta (shortening
-// of the free end under a force there: 4/15 theta^2 L, deflection 2/3 theta L; under its weight 0.43 theta). Between
-// interfaces, whose distance does become smaller, 0.03 theta is left (bar with clamped ends that approach each other,
-// places at the quarters).
+// If it is bent in its modes (by its own inertia, load patterns, loads at points inside), the body does not become
+// shorter by bending, as it should by the square of the deformation: the error is of first order in the angle theta by
+// which places of the body are rotated relative to each other. For a bar that is fixed at one end it is 0.4 theta
+// (shortening of the free end under a force there: 4/15 theta^2 L, deflection 2/3 theta L; under its weight 0.43
+// theta). Between interfaces, whose distance does become smaller, 0.03 theta remains (bar with clamped ends that
+// approach each other, places at the quarters).
 //
-// Strained in the mean by e (stretched, sheared) it is wrong by about e, since elasticity is linear (a material whose
+// If its mean strain is e (stretch, shear) it has an error of about e, since elasticity is linear (a material whose
 // true stress is linear in the strain per present length differs by 1.1 e, one of Green's strain by 1.5 e). Strains of
-// 2 % anywhere are told too, whatever their mean: bending and twist of stout bodies strain far before they turn.
+// 2 % anywhere give a warning too, for any mean: bending and twist strain stout bodies long before they rotate.
 #pragma once
 
 #include <memory>
@@ -31,17 +31,17 @@
 
 namespace bielle::mechanism {
 
-/// Angles of interfaces relative to each other, the largest of all [rad].
+/// Largest angles of interfaces relative to each other [rad].
 struct BodyTurn {
-  double of_interfaces = 0;  ///< whose rotations act
-  double of_lines = 0;       ///< to and between those whose rotations do not all act, as of a bar under a force there
+  double of_interfaces = 0;  ///< interfaces whose rotations act
+  double of_lines = 0;       ///< lines to interfaces whose rotations do not all act, e.g. of a bar under a force there
 };
 BodyTurn largest_turn(const std::vector<BodyPoint>& points, const LocalState& state);
-/// The largest angle of a place relative to another in the modes, at the state's amplitudes [rad].
+/// Returns the largest rotation of a place relative to another in the modes, at the state's amplitudes [rad].
 /// @param mode_turns  (3 q, amplitudes), see Superelement
 double largest_turn_of_modes(const MatrixX& mode_turns, const LocalState& state);
 
-/// Validity judges a body by these measures, besides its interfaces.
+/// Quantities for the validity of a body, in addition to its interfaces.
 struct ValidityMeasures {
   double gyration = 0;        ///< radius of gyration of the body [m]
   const MatrixX& mode_turns;  ///< as above; may be empty
@@ -49,17 +49,17 @@ struct ValidityMeasures {
   std::optional<double> most;  ///< relative error beyond which a run fails; or none
 };
 
-/// The largest estimate over all steps of an analysis, and when it was reached.
+/// Records the largest estimate over all steps of an analysis, and its time.
 class Validity final : public StepRecorder {
  public:
   /// @param body         name of the element
-  /// @param points       its interfaces, node k of the state being point k
-  /// @param deformation  renewed before each `add`
+  /// @param points       its interfaces; node k of the state is point k
+  /// @param deformation  updated before each `add`
   Validity(std::string body, const std::vector<BodyPoint>& points, ValidityMeasures measures,
            std::shared_ptr<const BodyDeformation> deformation);
 
   void begin() override;
-  /// @throws ComputationError where the estimate is beyond `most`
+  /// @throws ComputationError if the estimate exceeds `most`
   void add(const LocalState& state) override;
   void exchange(Archive& archive) override;
   std::vector<ResultArray> results() override;
@@ -78,7 +78,7 @@ class Validity final : public StepRecorder {
   std::shared_ptr<const BodyDeformation> deformation_;
   double error_per_mode_turn_;
   double error_ = 0, turn_ = 0, time_ = 0;
-  Cause cause_ = Cause::bends;              ///< of the error
+  Cause cause_ = Cause::bends;              ///< cause of the error
   double strain_ = 0, time_of_strain_ = 0;  ///< the largest anywhere
   bool statics_ = false;                    ///< times are load factors
 };

@@ -7,7 +7,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double transition = 0.02;  // of the shorter stage on either side, half before its end
+constexpr double transition = 0.02;  // relative to the shorter neighbouring stage, half of it before its end
 
 }  // namespace
 

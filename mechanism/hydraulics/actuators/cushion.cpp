@@ -21,7 +21,7 @@ void Cushion::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDeriv
   const Opening cushion = data_.length > 0 ? poppet_opening(data_.side * (l.value - data_.end) / data_.length)
                                            : Opening{1, 0},
                 check = poppet_opening(-D / check_range);
-  // Closed by the share that neither leaves open.
+  // The fraction of the port that neither the cushion nor the check valve opens.
   const double closed = (1 - cushion.value) * (1 - check.value);
   const OrificeLaw::Flow law = law_.calc(data_.port_area - rest * closed, D);
   flow.Q = law.Q;

@@ -1,7 +1,7 @@
-// Cushion: the way out of a cylinder's chamber becomes narrow near the end of its stroke.
+// Cushion: the outlet of a cylinder's chamber becomes narrow near the end of its stroke.
 //
-//     A = A_c + (A_port - A_c) s(x/x_c),     x the way that is left until the end, x_c the length of the cushion
-// with s = 10 u^3 - 15 u^4 + 6 u^5. Fluid that comes in opens a check valve of the area of the port, over 0.5 bar.
+//     A = A_c + (A_port - A_c) s(x/x_c),     x: remaining distance to the end, x_c: length of the cushion
+// with s = 10 u^3 - 15 u^4 + 6 u^5. Fluid that flows in opens a check valve with the area of the port, over 0.5 bar.
 #pragma once
 
 #include "mechanism/hydraulics/actuators/cylinder.hpp"
@@ -15,10 +15,10 @@ class Cushion final : public Line {
   struct Data {
     double port_area, area;  ///< A_port, A_c [m^2]
     double length;           ///< x_c [m]; 0: none
-    double end;              ///< length of the cylinder where the chamber is smallest [m]
-    double side;             ///< +1: the way left is l - end, -1: end - l
+    double end;              ///< length of the cylinder with the smallest chamber [m]
+    double side;             ///< +1: the remaining distance is l - end, -1: end - l
   };
-  /// @param chamber,port  the flow is counted out of the chamber
+  /// @param chamber,port  positive flow is out of the chamber
   Cushion(std::string name, const Cylinder& cylinder, const PressureNode& chamber, const PressureNode& port,
           const OrificeLaw& law, const Data& data);
   void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
@@ -26,7 +26,7 @@ class Cushion final : public Line {
  private:
   std::string describe_law() const override;
   const Cylinder& cylinder_;
-  int reference_;  ///< of the cylinder
+  int reference_;  ///< index of the reference to the cylinder
   OrificeLaw law_;
   Data data_;
 };

@@ -14,11 +14,11 @@ namespace bielle::mechanism {
 
 namespace {
 
-constexpr double unknown = -1;  ///< pressure where the search for one begins, see Volume [Pa]
-/// A cylinder whose pressures follow from the load gives way by this much in the tangent alone ([m/N] in statics,
-/// [1/kg] in motion, far below the compliance of machines). If several cylinders hold the same length, their forces are
-/// not unique: each step of Newton's method then takes the change of smallest norm (a proximal step), the first one
-/// from no force.
+constexpr double unknown = -1;  ///< initial value in the search for a pressure, see Volume [Pa]
+/// A cylinder whose pressures follow from the load has this compliance in the tangent only ([m/N] in statics, [1/kg] in
+/// motion, far below the compliance of machines). If several cylinders hold the same length, their forces are not
+/// unique: each step of Newton's method is then the change of smallest norm (a proximal step), and the first one starts
+/// from zero force.
 constexpr double give = 1e-11;
 
 }  // namespace
@@ -87,11 +87,11 @@ void Cylinder::declare(Declaration& declaration) const {
   references_.declare(declaration);
   declaration.stiffness = true;
   declaration.damping = geometry_.friction || geometry_.stop_damping > 0;
-  declaration.mass = tank_.has_value();  // the row of a start that follows from the load
+  declaration.mass = tank_.has_value();  // for the row of a start that follows from the load
   declaration.starts_by_state = tank_.has_value();
   declaration.memory = {0, 0};
   if (geometry_.stop_stiffness == 0) return;
-  declaration.kinks = true;  // where the damper of a stop lets go
+  declaration.kinks = true;  // at zero total force of a stop
   declaration.event_functions = {{"the long end of its stroke is reached"}, {"the short end of its stroke is reached"}};
 }
 
@@ -155,8 +155,8 @@ void Cylinder::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) cons
   for (std::size_t k = 0; k < chambers_.size(); ++k)
     if (const int row = space_row(state, k); row >= 0) r[row] -= chambers_[k].space.at(l.value).V;
   if (!waits(state)) return;
-  // The first chamber's pressure is the one for which the length has no acceleration; in statics, where all are zero,
-  // the one for which it stays.
+  // The first chamber's pressure is determined by zero acceleration of the length; in statics, where all accelerations
+  // are zero, by an unchanged length.
   double& row = r[ports_.pressure_row(state, 0)];
   row += l.acceleration(v, pair_acceleration(state.node(0), state.node(1)));
   if (state.environment().statics) row += l.value - state.memory()[memory_length];
@@ -197,7 +197,7 @@ void Cylinder::add_energy(const LocalState& state, Energy& energy) const {
       energy.input += (chamber_pressure(state, k) - ambient_) * chambers_[k].space.at(l.value).V_l * rate;
   const Stop end = stop(state, l.value, rate);
   if (end.side == 0) return;
-  // A spring that the damper keeps from pushing gives its energy to the damper.
+  // The energy of a spring that the damper keeps from pushing is dissipated by the damper.
   energy.elastic += 0.5 * geometry_.stop_stiffness * end.way * end.way;
   energy.dissipation += (end.push - geometry_.stop_stiffness * end.way) * end.side * rate;
 }
@@ -210,7 +210,7 @@ void Cylinder::add_start_values(const LocalState& state, Eigen::Ref<VectorX> cha
   std::vector<double> p(chambers_.size(), *tank_);
   p[0] = chamber_pressure(state, 0);
   if (p[0] < *tank_ && chambers_.size() > 1) {
-    // The load pulls: the other chamber holds it.
+    // The load pulls: the other chamber carries it.
     const double ratio = -chambers_[0].space.at(l).V_l / chambers_[1].space.at(l).V_l;
     p[1] += (*tank_ - p[0]) * ratio;
     p[0] = *tank_;
@@ -242,7 +242,7 @@ void Cylinder::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX>
   values[1] = geometry_.shortest - l;
 }
 
-// As stops of joints do (joints/actions/joint_stop.cpp).
+// This is the same as for stops of joints (joints/actions/joint_stop.cpp).
 void Cylinder::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                             Eigen::Ref<VectorX> memory) const {
   if (geometry_.stop_stiffness == 0) return;
@@ -256,7 +256,7 @@ void Cylinder::begin_branch(const LocalState& state, std::span<const int> /*cros
 
 bool Cylinder::leaves_branch(const LocalState& state) const { return stop(state, length(state).value, 0).way < 0; }
 
-// -- what it tells
+// -- results
 
 std::vector<OutputField> Cylinder::output_fields() const {
   const std::size_t n = chambers_.size();

@@ -1,14 +1,15 @@
-// Hydraulic cylinder between two points of two nodes: chambers of a circuit push its ends apart and pull them together.
+// Hydraulic cylinder between two points of two nodes: the pressures in the chambers of a circuit push or pull its ends.
 //
-// With l the distance of the points, chambers k of the space V_k(l) (chamber_space.hpp) and the pressure p_k,
+// With the distance l of the points, chambers k of the volume V_k(l) (chamber_space.hpp) and the pressures p_k, the
+// force
 //     F = sum (p_k - p_a) dV_k/dl - F_f(ldot) + F_s(l, ldot)
-// pushes the points apart: chamber 1 extends it, dV_1/dl = A_1, chamber 2 draws it in, dV_2/dl = -A_2; the atmosphere
-// acts on the rod. F_f is the friction of the seals (laws/friction_law.hpp with N = 1), F_s that of the stops
-// at the ends of the stroke: k x + d xdot while it pushes, x the way beyond the end, as of stops in joints. The spaces
-// belong to the volumes into which the chambers open.
+// pushes the points apart: chamber 1 extends the cylinder, dV_1/dl = A_1, chamber 2 retracts it, dV_2/dl = -A_2; the
+// ambient pressure acts on the rod. F_f is the friction of the seals (laws/friction_law.hpp with N = 1), F_s that of
+// the stops at the ends of the stroke: k x + d xdot while it pushes, with the distance x beyond the end, like stops in
+// joints. The chamber volumes belong to the volumes of fluid into which the chambers open.
 //
-// Pressures at the start that are not given follow from the load: the cylinder begins without acceleration of its
-// length, and the chamber that carries less is at the tank's pressure.
+// Start pressures that are not given follow from the load: the initial acceleration of the cylinder's length is zero,
+// and the chamber with the smaller force is at the tank's pressure.
 #pragma once
 
 #include <optional>
@@ -27,15 +28,15 @@ class Cylinder final : public Component {
   struct Geometry {
     int node_a, node_b;
     Vector3 at_a, at_b;         ///< attachment points [m], in the axes of their nodes
-    double shortest, longest;   ///< stroke [m]
+    double shortest, longest;   ///< smallest and largest length of the stroke [m]
     double stop_stiffness = 0;  ///< [N/m]; 0: no stops
     double stop_damping = 0;    ///< [N s/m]
     std::optional<FrictionLaw> friction;
   };
   Cylinder(std::string name, Geometry geometry, double fluid_ambient);
-  /// A chamber that opens into a place with space, or with a given pressure.
+  /// Adds a chamber that opens into a place with a volume, or with a given pressure.
   void add_chamber(const PressureNode& place, ChamberSpace space);
-  /// Its pressures at the start follow from the load; the chambers are volumes of its own.
+  /// Lets the start pressures follow from the load; the chambers are volumes of their own.
   void balance(double tank_pressure) { tank_ = tank_pressure; }
 
   void declare(Declaration& declaration) const override;
@@ -47,28 +48,28 @@ class Cylinder final : public Component {
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
-  /// `pressure` (of the chambers), `flow`, `length`, `rate`, `force`, `friction_force`, `stop_force`.
+  /// Outputs: `pressure` (of the chambers), `flow`, `length`, `rate`, `force`, `friction_force`, `stop_force`.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   std::unique_ptr<StepRecorder> make_step_recorder() const override;
   const Geometry& geometry() const { return geometry_; }
-  /// length, length.rate, force, pressure_1, pressure_2
+  /// The names are length, length.rate, force, pressure_1, pressure_2.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
-  /// The distance of the points with its derivatives over the twelve unknowns of the nodes.
+  /// Returns the distance of the points with its derivatives over the twelve unknowns of the nodes.
   PairMeasure length(const LocalState& state) const;
 
  private:
   friend class CylinderMeasure;
-  enum { memory_side, memory_length };  ///< of a stop; of the length at which it begins
+  enum { memory_side, memory_length };  ///< side of a stop; length, after that of the stop
   struct Chamber {
     ChamberSpace space;
   };
   struct Stop {
     double side = 0;  ///< +1 at the long end, -1 at the short one
-    double way = 0;   ///< x [m]
+    double way = 0;   ///< distance x beyond the end [m]
     double push = 0;  ///< magnitude of F_s [N]
   };
   bool waits(const LocalState& state) const;
@@ -88,7 +89,7 @@ class Cylinder final : public Component {
   Geometry geometry_;
   double ambient_;
   std::vector<Chamber> chambers_;
-  std::vector<const Volume*> volumes_;  ///< of the chambers; nullptr where the pressure is given
+  std::vector<const Volume*> volumes_;  ///< volume of each chamber; nullptr if the pressure is given
   Ports ports_;
   References references_;
   std::optional<double> tank_;

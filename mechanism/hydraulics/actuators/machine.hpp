@@ -1,12 +1,12 @@
-// Rotary machine: a pump or motor that a shaft turns, or that turns it. Its shaft is a coordinate of a joint.
+// Rotary machine: a pump driven by a shaft, or a motor that drives it. Its shaft is a coordinate of a joint.
 //
 //     Q = x D rate + G (p_a - p_b)         from port a to port b [m^3/s]
 //     T = x D (e_a - e_b) - d rate         on the coordinate [N m]
-// D displacement [m^3/rad], x(t, measures) its setting (1: full; a variable machine has -1 to 1), G leakage, d drag.
-// With the heads e of the fluid in place of pressures (fluid.hpp; they are larger by p/(2 B) where volumes are
-// conserved, smaller by as much where mass is) the machine itself loses nothing. As a pump it moves fluid from a to b
-// while it turns in the positive sense; as a motor it is turned so where p_a > p_b. Along a displacement (a prismatic
-// joint) D is an area.
+// The symbols are the displacement D [m^3/rad], the setting x(t, measures) (1: full; a variable machine has -1 to 1),
+// the leakage G and the drag d. With the heads e of the fluid instead of pressures (fluid.hpp; they are larger by p/(2
+// B) if volumes are conserved, smaller by the same amount if mass is) the machine itself has no losses. As a pump it
+// moves fluid from a to b if it rotates in the positive sense; as a motor it is driven in this sense if p_a > p_b.
+// Along a displacement (a prismatic joint) D is an area.
 #pragma once
 
 #include <optional>
@@ -42,15 +42,15 @@ class Machine final : public CoordinateAction, public TimeDependent {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
-  /// flow, torque, power
+  /// The names are flow, torque, power.
   std::vector<std::string> measure_names() const override { return {"flow", "torque", "power"}; }
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
  private:
   friend class MachineMeasure;
-  /// What the derivatives of flow and torque are made of.
+  /// Terms of the derivatives of flow and torque.
   struct Turn {
-    CoordinateDerivatives& jet;  ///< of the shaft
+    CoordinateDerivatives& jet;  ///< coordinate of the shaft
     const VectorX& slope;        ///< derivatives of its rate by positions
     FormulaGradient& setting;
   };

@@ -18,7 +18,7 @@ void StrokeWatch::exchange(Archive& archive) {
 }
 
 std::string StrokeWatch::summary() {
-  constexpr double rounding = 1e-6;  // of the stroke
+  constexpr double rounding = 1e-6;  // relative to the stroke
   const Cylinder::Geometry& stroke = cylinder_.geometry();
   if (most_.way <= rounding * (stroke.longest - stroke.shortest)) return {};
   return fmt::format(

@@ -1,4 +1,4 @@
-// Says when a cylinder without stops has left its stroke.
+// Reports if a cylinder without stops has left its stroke.
 #pragma once
 
 #include "mechanism/hydraulics/actuators/cylinder.hpp"
@@ -17,9 +17,9 @@ class StrokeWatch final : public StepRecorder {
   std::string what() const override;
 
  private:
-  /// Where it was farthest beyond an end.
+  /// The state with the largest distance beyond an end.
   struct Beyond {
-    double way = 0, length = 0, time = 0;  ///< [m], [m], [s]
+    double way = 0, length = 0, time = 0;  ///< distance beyond the end [m], length [m], time [s]
   };
   const Cylinder& cylinder_;
   Beyond most_;

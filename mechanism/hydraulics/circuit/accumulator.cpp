@@ -38,7 +38,7 @@ Accumulator::Accumulator(std::string name, Volume& volume, double gas_volume, do
 void Accumulator::declare(Declaration& declaration) const {
   references_.declare(declaration);
   declaration.stiffness = true;
-  declaration.kinks = true;  // at the precharge
+  declaration.kinks = true;  // at the precharge pressure
 }
 
 Accumulator::Space Accumulator::space(double p) const {
@@ -62,7 +62,7 @@ void Accumulator::add_pattern(const Slots& slots, LocalPattern& pattern) const {
   pattern.add_block(row + Volume::space_row, row + Volume::pressure_row, 1, 1);
 }
 
-// The work of the gas from its precharge on, less that of the atmosphere.
+// The work of the gas from its precharge on, minus that of the ambient pressure.
 void Accumulator::add_energy(const LocalState& state, Energy& energy) const {
   const double p = volume_.pressure(state.of(0));
   if (p <= precharge_) return;

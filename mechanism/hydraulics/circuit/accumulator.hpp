@@ -1,7 +1,8 @@
 // Accumulator: gas behind a bladder or piston in a volume of the circuit.
 //
-// The gas fills V_g = V_0 (p_0/p)^(1/n) above its precharge p_0 (absolute), n = 1 slowly to 1.4 quickly (adiabatic);
-// below it the bladder fills the shell, V_g = V_0. What is left of the shell belongs to the space of the volume:
+// The gas volume is V_g = V_0 (p_0/p)^(1/n) above its precharge pressure p_0 (absolute), with n = 1 (slow) to 1.4
+// (fast, adiabatic); below p_0 the bladder fills the shell, V_g = V_0. The rest of the shell belongs to the space of
+// the volume:
 //     V_acc(p) = V_0 - V_g(p),       energy = integral of (p - p_a) dV_acc.
 // V_acc has a kink at the precharge.
 #pragma once
@@ -14,7 +15,7 @@ namespace bielle::mechanism {
 
 class Accumulator final : public Component {
  public:
-  /// @param gas_volume  V_0 [m^3] @param precharge  p_0 [Pa] as the user's pressures @param exponent  n
+  /// @param gas_volume  V_0 [m^3] @param precharge  p_0 [Pa], like the user's pressures @param exponent  n
   Accumulator(std::string name, Volume& volume, double gas_volume, double precharge, double exponent);
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;

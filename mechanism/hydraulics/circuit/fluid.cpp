@@ -12,7 +12,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double least = 1e-6;  // absolute pressure [Pa] down to which the work is computed
+constexpr double least = 1e-6;  // smallest absolute pressure [Pa] at which the work is computed
 constexpr PlausibleRange plausible_bulk_modulus{1e8, 1e10, "Oils have 1.2e9 to 2e9 Pa, water 2.2e9"};
 constexpr PlausibleRange plausible_viscosity{1e-4, 10, "Dynamic, in Pa s: water has 0.001, hydraulic oil 0.01 to 0.1"};
 constexpr PlausibleRange plausible_fluid_density{500, 2000, "Oils have 850 kg/m^3, water 1000"};
@@ -33,7 +33,7 @@ Fluid::Ratio Fluid::ratio(double p) const {
   return {E + cavity, -E / bulk_modulus - cavity * (0.5 / P + 1 / p_v)};
 }
 
-// Newton's method on ln v, which is straight in p for oil, and in ln p for air; kept between bounds on either side.
+// Newton's method for ln v, which is linear in p for oil, and in ln p for air; bounds on both sides are maintained.
 double Fluid::pressure_of(double v, double guess) const {
   const double shift = ambient == 0 ? atmosphere : 0, wanted = std::log(v);
   const auto excess = [&](double P, double& slope) {
@@ -53,14 +53,14 @@ double Fluid::pressure_of(double v, double guess) const {
     if (!(next >= low && next <= high)) next = high > 2 * low ? std::sqrt(low * high) : 0.5 * (low + high);
     const double step = next - P;
     P = next;
-    // What is left is the square of the step, or the rounding of ln v.
+    // The remaining error is the square of the step, or the rounding of ln v.
     if (std::abs(step) <= 1e-15 * P || std::abs(f) < 1e-16) break;
   }
   return P - shift;
 }
 
 double Fluid::work(double p) const {
-  // Pressures of trial states and of junctions may be negative: no fluid is there that could do more work.
+  // Pressures of trial states and of junctions may be negative: there is no fluid that could do more work.
   const double P_a = absolute(ambient), away = std::max(p - ambient, least - P_a), B = bulk_modulus;
   double h = -(1 - air_fraction) * B * std::exp(-(P_a - atmosphere) / B) * std::expm1(-away / B);
   if (air_fraction > 0) {
@@ -126,7 +126,7 @@ void read_fluid(const YamlValue& entry, Fluid& fluid) {
   }
   if (const auto vapour = entry.find("vapour_pressure")) {
     fluid.vapour_pressure = vapour->non_negative_number();
-    constexpr double most = 3500;  // beyond, vapour would be felt at the atmosphere's pressure
+    constexpr double most = 3500;  // beyond, vapour would be significant at atmospheric pressure
     if (fluid.vapour_pressure > most)
       vapour->fail("expected an absolute pressure up to 3500 Pa; oils have less than 100, water at 20 degrees 2340");
   }

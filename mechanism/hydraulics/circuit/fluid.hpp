@@ -1,20 +1,20 @@
-// The fluid of a hydraulic circuit: how a given amount of it fills space, by pressure.
+// The fluid of a hydraulic circuit: the volume of a given amount of it, as a function of pressure.
 //
-// An amount of fluid is counted by the volume W that it has at the reference pressure p_0 = 101325 Pa (a measure of its
-// mass). At a pressure p it fills W v(p), with air that is entrained but not dissolved (share a of the volume at p_0):
+// An amount of fluid is measured by its volume W at the reference pressure p_0 = 101325 Pa (proportional to its mass).
+// At a pressure p its volume is W v(p), with air that is entrained but not dissolved (fraction a of the volume at p_0):
 //     v(p) = (1 - a) exp(-(p - p_0)/B) + a (p_0/p)^(1/k),       B_eff = -v/v'
-// (H. E. Merritt, Hydraulic Control Systems, Wiley 1967, 2.2, for the share of air; k = 1 isothermal to 1.4 adiabatic).
-// Without air (a = 0) B is constant, and vapour fills the space that oil leaves:
-//     v(p) = exp(-(p - p_0)/B) + sqrt(p_v/p) exp(-p/p_v),       p_v the vapour pressure.
-// p_v = 0 means none: a cavity then has next to no pressure, that of least_vapour.
-// Either grows beyond all bounds as p goes to 0: whatever space a volume has, there is one pressure, and it is
-// positive. Cavitation needs no case of its own.
+// (H. E. Merritt, Hydraulic Control Systems, Wiley 1967, 2.2, for the fraction of air; k = 1 isothermal to 1.4
+// adiabatic). Without air (a = 0) B is constant, and vapour fills cavities in the oil:
+//     v(p) = exp(-(p - p_0)/B) + sqrt(p_v/p) exp(-p/p_v),       p_v: the vapour pressure.
+// p_v = 0 means no vapour: a cavity then has almost no pressure, that of least_vapour.
+// Both functions tend to infinity for p -> 0: for any volume there is exactly one pressure, and it is positive.
+// Cavitation is therefore no special case.
 //
-// Work that an amount of fluid brings to where the pressure is p, per W:   h(p) = integral of v from p_a to p
-// (p_a the ambient pressure). What it stores, per W:                       u(p) = h - (p - p_a) v.
+// The work of an amount of fluid at the pressure p, per W, is   h(p) = integral of v from p_a to p (p_a the ambient
+// pressure). Its stored energy per W is                    u(p) = h - (p - p_a) v.
 //
-// Pressures in these formulas are absolute. So are those of the user, unless the ambient pressure is 0: then they are
-// relative to an atmosphere of 101325 Pa (gauge).
+// Pressures in these formulas are absolute. The user's pressures are absolute too, unless the ambient pressure is 0:
+// then they are relative to an atmosphere of 101325 Pa (gauge).
 #pragma once
 
 #include <string>
@@ -26,39 +26,40 @@ namespace bielle::mechanism {
 class Fluid {
  public:
   static constexpr double atmosphere = 101325;  ///< p_0 [Pa]
-  static constexpr double least_vapour = 1e-3;  ///< p_v of a fluid that is said to have none [Pa]
-  /// What flows between two places conserve. `volume`: the volume that leaves the one enters the other, each at its own
-  /// pressure: V pdot/B = Q - Vdot, as textbooks have it. `mass`: flows are volumes at the reference pressure.
+  static constexpr double least_vapour = 1e-3;  ///< p_v of a fluid without vapour [Pa]
+  /// The quantity that flows between two places conserve. `volume`: the volume that leaves one place enters the other,
+  /// each at its own pressure: V pdot/B = Q - Vdot, as in textbooks. `mass`: flows are volumes at the reference
+  /// pressure.
   enum class Conserves { volume, mass };
 
   double density = 850;           ///< [kg/m^3]
-  double viscosity = 0.04;        ///< dynamic [Pa s]
+  double viscosity = 0.04;        ///< dynamic viscosity [Pa s]
   double bulk_modulus = 1.4e9;    ///< B [Pa]
-  double air_fraction = 0;        ///< a
-  double air_exponent = 1.2;      ///< k
+  double air_fraction = 0;        ///< air fraction a
+  double air_exponent = 1.2;      ///< air exponent k
   double vapour_pressure = 1000;  ///< p_v [Pa], absolute; 0: none
   double ambient = atmosphere;    ///< p_a [Pa]; 0: pressures are gauge
   Conserves conserves = Conserves::volume;
 
-  /// v and dv/dp. @param p  the user's [Pa]; positive when absolute
+  /// The ratio v and its derivative dv/dp. @param p  the user's pressure [Pa]; positive if absolute
   struct Ratio {
     double v, v_p;
   };
   Ratio ratio(double p) const;
-  /// The pressure [Pa] at which v(p) is `v` > 0. @param guess  where the search begins
+  /// Returns the pressure [Pa] at which v(p) is `v` > 0. @param guess  initial value of the search
   double pressure_of(double v, double guess) const;
   double work(double p) const;                                                    ///< h [Pa]
   double stored(double p) const { return work(p) - (p - ambient) * ratio(p).v; }  ///< u [Pa]
-  /// How much fluid a volume that flows at a pressure is, and the derivative: 1/v where volume is conserved, 1 where
-  /// mass is. Towards a vacuum (from 0.5 to 0.1 atmospheres) it becomes 1 as well: what flows into a cavity is no
-  /// vapour.
+  /// Returns the amount of fluid per volume that flows at a pressure, and the derivative: 1/v if volume is conserved, 1
+  /// if mass is. Near vacuum (from 0.5 to 0.1 atmospheres) it becomes 1 as well: the fluid that flows into a cavity is
+  /// no vapour.
   struct Content {
     double f, f_p;
   };
   Content content(double p) const;
   /// Work per volume that flows at a pressure, [Pa], and its derivative: h f. For oil, at d above the ambient pressure
-  /// p_0, it is B (exp(d/B) - 1) if volume is conserved, B (1 - exp(-d/B)) if mass is. The energy that a volume stores
-  /// grows by Q e less the work of its walls, however much comes and goes.
+  /// p_0, it is B (exp(d/B) - 1) if volume is conserved, B (1 - exp(-d/B)) if mass is. The energy stored in a volume
+  /// grows by Q e minus the work of its walls, for any flows.
   struct Head {
     double e, e_p;
   };
@@ -67,7 +68,7 @@ class Fluid {
     const Ratio r = ratio(p);
     return -r.v / r.v_p;
   }
-  double vacuum() const { return ambient == 0 ? -atmosphere : 0; }  ///< the user's pressure of an absolute zero [Pa]
+  double vacuum() const { return ambient == 0 ? -atmosphere : 0; }  ///< pressure of a vacuum, like the user's [Pa]
   std::string describe() const;
 
  private:
@@ -75,16 +76,17 @@ class Fluid {
   double vapour() const { return vapour_pressure > least_vapour ? vapour_pressure : least_vapour; }
 };
 
-/// Keys of a fluid: density, viscosity, bulk_modulus, air_fraction, air_exponent, vapour_pressure, conserves.
+/// Returns the keys of a fluid: density, viscosity, bulk_modulus, air_fraction, air_exponent, vapour_pressure,
+/// conserves.
 const std::vector<std::string>& fluid_keys();
-/// Reads those that are there over what `fluid` holds; other keys are the caller's to check. @throws InputError
+/// Reads the given keys into `fluid`; the caller must check for other keys. @throws InputError
 void read_fluid(const YamlValue& entry, Fluid& fluid);
-/// Notes a doubt about a pressure of a place that is nearly vacuum, or nearly none: one that is given in bar.
-/// @param p  [Pa], as the user's pressures
+/// Warns of a pressure at a place that is almost vacuum, or almost zero, because it may be given in bar.
+/// @param p  [Pa], like the user's pressures
 void doubt_pressure(const YamlValue& place, double p, const Fluid& fluid);
-/// Notes a doubt about a setting, a difference of pressures: one that is given in bar. @param p  [Pa]
+/// Warns of a setting, a pressure difference, that may be given in bar. @param p  [Pa]
 void doubt_setting(const YamlValue& place, double p);
-/// `ambient_pressure` of a map, if it is there. @throws InputError
+/// Reads `ambient_pressure` of a map, if it is given. @throws InputError
 void read_ambient_pressure(const YamlValue& entry, Fluid& fluid);
 
 }  // namespace bielle::mechanism

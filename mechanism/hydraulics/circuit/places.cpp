@@ -17,8 +17,8 @@ Declaration::Scalar pressure_unknown(double start) {
   return pressure;
 }
 
-constexpr double highest_pressure = 1e12;  // of a junction [Pa]: no fluid comes near it
-constexpr double below_vacuum = 1e3;       // that a junction may be [Pa]
+constexpr double highest_pressure = 1e12;  // largest pressure of a junction [Pa]: far above that of any fluid
+constexpr double below_vacuum = 1e3;       // permitted pressure of a junction below vacuum [Pa]
 constexpr const char *pumped_in =
                          "more fluid is pumped in than its lines let out, whatever its pressure; give it a way out (a "
                          "relief valve, a line that is open), or list it under `volumes`, where fluid is compressed",
@@ -55,7 +55,7 @@ void Junction::add_tangent(const LocalState& /*state*/, LocalTangent& tangent) c
 void Junction::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   const double p = pressure(state);
   const Range range = balance_range();
-  if (p < range.least || p > range.most)  // its net flow out grows with its pressure
+  if (p < range.least || p > range.most)  // its net outflow grows with its pressure
     throw ComputationError(fmt::format("t = {:.6g} s: the junction '{}' has no pressure: {}", state.time(), name(),
                                        p < range.least ? range.when_below : range.when_beyond));
   memory[0] = p;

@@ -10,9 +10,9 @@
 
 namespace bielle::mechanism {
 
-/// Lines meet, nothing is stored: the sum of flows is zero. Its pressure is an algebraic unknown. While all lines are
-/// closed it keeps its pressure p_0 of the last step: the sum of flows is g (p - p_0) in fact, with g too small to
-/// matter (1e-22 m^3/(s Pa): a drop in a year under 100 bar).
+/// Junction of lines without storage: the sum of flows is zero. Its pressure is an algebraic unknown. If all lines are
+/// closed it keeps its pressure p_0 of the last step: the sum of flows is actually g (p - p_0), with a negligible g
+/// (1e-22 m^3/(s Pa): a drop in a year under 100 bar).
 class Junction final : public PressureNode, public FlowBalance {
  public:
   Junction(std::string name, const Fluid& fluid, double pressure)
@@ -32,15 +32,15 @@ class Junction final : public PressureNode, public FlowBalance {
   double start_;
 };
 
-/// A given pressure, p = p_s(t, measures), whatever flows: a tank, a supply that a pump keeps at its pressure. Its
+/// A given pressure, p = p_s(t, measures), for any flow: a tank, or a supply with a pressure-controlled pump. Its
 /// second unknown is the flow into it [m^3/s].
 class PressureSource final : public PressureNode, public TimeDependent {
  public:
   PressureSource(std::string name, const Fluid& fluid)
       : PressureNode("pressure_source", std::move(name), fluid, {0, 1, -1}) {}
-  /// Takes the formula of p, once the model is read.
+  /// Reads the formula of p, after the model has been read.
   void read(const YamlValue& formula, Model& model);
-  void keep(double pressure) { formula_ = StateFormula(pressure); }  ///< a constant in place of it
+  void keep(double pressure) { formula_ = StateFormula(pressure); }  ///< sets a constant pressure instead
   bool is_given() const override { return true; }
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;

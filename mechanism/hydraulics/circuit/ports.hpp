@@ -1,8 +1,8 @@
-// The ports of something through which fluid flows: how its flows enter the balances of the places that they join.
+// The ports of a component with flows: they add its flows to the balances of the connected places.
 //
-// A flow Q [m^3/s] from a place a to a place b takes f_a Q from the one and gives f_b Q to the other (the factor f of
-// each, PressureNode::exchange). The power that it loses on the way is Q (e_a - e_b), e the head of the fluid
-// (fluid.hpp): no law in which Q has the sign of p_a - p_b can gain any.
+// A flow Q [m^3/s] from a place a to a place b removes f_a Q from a and adds f_b Q to b (with the factor f of each,
+// PressureNode::exchange). The power dissipated between them is Q (e_a - e_b), with the head e of the fluid
+// (fluid.hpp): a law in which Q has the sign of p_a - p_b cannot create energy.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace bielle::mechanism {
 
-/// A flow with its derivatives over the local layout of who has it. Reused from call to call.
+/// A flow with its derivatives over the local layout of its component. The object is reused from call to call.
 struct FlowDerivatives {
   double Q = 0;  ///< [m^3/s]
   MeasureGradient by;
@@ -26,24 +26,25 @@ struct FlowDerivatives {
 
 class Ports {
  public:
-  static constexpr int outside = -1;  ///< in place of a port: what flows there leaves the model
+  static constexpr int outside = -1;  ///< instead of a port: the fluid leaves the model
   /// @returns the number of the port
   int add(const PressureNode& node, References& references);
   int count() const { return static_cast<int>(ports_.size()); }
   const PressureNode& node(int port) const { return *ports_[static_cast<std::size_t>(port)].node; }
 
   double pressure(const LocalState& state, int port) const;
-  /// Local row and column of its pressure.
+  /// Returns the local row and column of its pressure.
   int pressure_row(const LocalState& state, int port) const;
   /// Adds a flow to the balances of two ports.
   void add_flow(const LocalState& state, int from, int to, double Q, Eigen::Ref<VectorX> r) const;
   void add_tangent(const LocalState& state, int from, int to, FlowDerivatives& flow, LocalTangent& tangent) const;
-  /// The rows of all balances, over all columns.
+  /// Adds the rows of all balances, over all columns.
   void add_pattern(const Slots& slots, LocalPattern& pattern) const;
-  /// Power that a flow brings from one port to the other [W]: Q (e_from - e_to), where `outside` has no head.
+  /// Returns the power that a flow transfers from one port to the other [W]: Q (e_from - e_to), where `outside` has no
+  /// head.
   double power(const LocalState& state, int from, int to, double Q) const;
   double head(const LocalState& state, int port) const;
-  /// "from 'pump' to 'tank'"
+  /// Returns "from 'pump' to 'tank'".
   std::string describe(int from, int to) const;
 
  private:

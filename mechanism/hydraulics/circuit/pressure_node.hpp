@@ -1,8 +1,8 @@
-// A place of a circuit that has a pressure: what lines and chambers are joined to.
+// A place of a circuit with a pressure, to which lines and chambers are connected.
 //
-// Its pressure p is a first-order unknown. What flows in is added to one of its equations, its balance; who has space
-// in it (a chamber, an accumulator) adds to another, if it has one. Nobody needs to know what stands behind: a volume,
-// a junction without volume, a given pressure.
+// Its pressure p is a first-order unknown. Flows are added to one of its equations, its balance; components with a
+// volume in it (a chamber, an accumulator) add to another equation, if it has one. Connected components do not depend
+// on the kind of place: a volume, a junction without volume, a given pressure.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace bielle::mechanism {
 
 class PressureNode : public Component {
  public:
-  /// Where its unknown pressure and its equations stand among its first-order unknowns. `space`: -1 where it has none.
+  /// Indices of its pressure and its equations among its first-order unknowns. `space`: -1 if it has none.
   struct Rows {
     int pressure, balance, space;
   };
@@ -27,14 +27,14 @@ class PressureNode : public Component {
 
   /// @param own  its own local state
   double pressure(const LocalState& own) const { return own.first_order()[rows_.pressure]; }
-  /// Whether its pressure is given, whatever flows: what flows in or out is then work of a source.
+  /// Whether its pressure is given, for any flow: the power of flows is then that of a source.
   virtual bool is_given() const { return false; }
-  /// Whether it is a part of something, and no place that the user can name.
+  /// Whether it is a part of a component, and cannot be named by the user.
   virtual bool is_part() const { return false; }
-  /// Whether flows have a part in its balance. A static analysis holds the fluid of volumes: time stands.
+  /// Whether flows contribute to its balance. A static analysis keeps the fluid of volumes constant, because time does
+  /// not advance.
   virtual bool balances(const LocalState& /*own*/) const { return true; }
-  /// The factor by which a flow counts in its balance, and its derivatives by its own first-order unknowns. (See
-  /// Fluid::content.)
+  /// The factor of a flow in its balance, and its derivatives by its own first-order unknowns. (See Fluid::content.)
   struct Exchange {
     double factor = 1;
     double by[3] = {0, 0, 0};

@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double typical_pressure = 1e5;  // [Pa]: what is much smaller does not matter
+constexpr double typical_pressure = 1e5;  // [Pa]: much smaller values do not matter
 
 }  // namespace
 
@@ -29,7 +29,7 @@ double Volume::room_at(double pressure) const {
 double Volume::drawn() const { return drawn_ + room_at(start_.value_or(fluid().ambient)); }
 
 void Volume::declare(Declaration& declaration) const {
-  // Where the pressure follows from the load a negative value says that the fluid is not known yet.
+  // If the pressure follows from the load, a negative value means that the fluid is not known yet.
   const double drawn = this->drawn(), begin = start_ ? fluid_at(*start_, drawn) : -drawn;
   Declaration::Scalar fluid_content{"fluid", "m^3", begin};
   fluid_content.scale = drawn * typical_pressure / fluid().bulk_modulus;
@@ -82,7 +82,7 @@ void Volume::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (tangent.wants_C) tangent.C.dense()(fluid_row, fluid_row) += 1;
   if (!tangent.wants_K) return;
   auto K = tangent.K.dense();
-  if (!balances(state)) K(fluid_row, fluid_row) += 1;  // it stays as it is
+  if (!balances(state)) K(fluid_row, fluid_row) += 1;  // the fluid is constant
   if (!waits(state)) {
     const double W = state.first_order()[fluid_row], V = state.first_order()[space_row];
     const double p_v = 1 / fluid().ratio(pressure_by_state(state)).v_p;
@@ -94,8 +94,8 @@ void Volume::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   K(space_row, pressure_row) -= compliance_;
 }
 
-// The space is that of the present pressure, or will be once the equations are solved: what depends on it is exchanged
-// for what it is at the given one. Pressure and space follow then by their equations.
+// The space is that of the present pressure, or will be when the equations are solved: its pressure-dependent part is
+// replaced by that at the given pressure. Pressure and space then follow from their equations.
 void Volume::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
   if (!start_ || state.memory()[0] != 0) return;
   const double at_start = space(state) - room_at(pressure(state)) + room_at(*start_);

@@ -1,14 +1,14 @@
 // A volume of fluid at one pressure: a hose, a manifold, the chambers that open into it.
 //
-// Unknowns: W, the fluid that it holds, counted by its volume at the reference pressure (fluid.hpp); its pressure p;
-// the space V that it has.
+// Unknowns: the amount of fluid W, measured by its volume at the reference pressure (fluid.hpp); its pressure p; its
+// space V.
 //     Wdot = sum of f Q        f = 1/v where flows conserve volume, 1 where they conserve mass (Fluid::content)
 //     p = p(v = W/V)           by the equation of state
-//     V = V_0 + c (p - p_a) + chambers + accumulators        c: the compliance of its walls [m^3/Pa]
+//     V = V_0 + c (p - p_a) + chambers + accumulators        c: compliance of its walls [m^3/Pa]
 //
-// Flows, chambers and accumulators add to these equations themselves. With W in place of p as what is integrated, oil
-// that is trapped is a spring in the stiffness matrix, mass is conserved to rounding, and a pressure never falls to
-// zero: V pdot/B_eff = Q - Vdot follows.
+// Flows, chambers and accumulators add to these equations themselves. Because W is integrated instead of p, trapped oil
+// is a spring in the stiffness matrix, mass is conserved to rounding, and a pressure never falls to zero: V pdot/B_eff
+// = Q - Vdot follows.
 #pragma once
 
 #include <functional>
@@ -20,51 +20,53 @@
 
 namespace bielle::mechanism {
 
-/// The type of a volume that is a part of a pipe.
+/// Type of a volume that is a part of a pipe.
 inline constexpr const char* pipe_cell = "pipe";
-/// The type of a volume that is nothing but an end of pipes, and is made of halves of their cells.
+/// Type of a volume that is only an end of pipes, and consists of halves of their cells.
 inline constexpr const char* pipe_junction = "junction of pipes";
 
 class Volume final : public PressureNode {
  public:
   enum { fluid_row, pressure_row, space_row };
-  /// @param volume      V_0 [m^3]; 0 where chambers alone make it
-  /// @param pressure    at the start [Pa]; none: it follows from the load of the actuator whose chamber it is
+  /// @param volume      V_0 [m^3]; 0 if it consists only of chambers
+  /// @param pressure    start pressure [Pa]; no value: it follows from the load of the actuator whose chamber it is
   /// @param compliance  [m^3/Pa]
-  /// @param type        what the user calls it
+  /// @param type        type as named by the user
   Volume(std::string name, const Fluid& fluid, double volume, std::optional<double> pressure, double compliance,
          std::string type = "volume");
 
-  /// While the model is read: a chamber that opens into it, with its space as drawn [m^3].
+  /// While the model is read: adds a chamber that opens into it, with its initial volume [m^3].
   void add_room(double space) { drawn_ += space; }
-  /// The same of what has a space that depends on the pressure alone [m^3]: an accumulator.
+  /// While the model is read: adds a volume that depends only on the pressure [m^3]: an accumulator.
   void add_room(std::function<double(double)> space) { rooms_.push_back(std::move(space)); }
-  /// Likewise: fluid that belongs to it, and by how much its walls give [m^3/Pa] (half a cell of a pipe that ends
-  /// there).
+  /// While the model is read: adds fluid that belongs to it, and compliance of its walls [m^3/Pa] (half a cell of a
+  /// pipe that ends there).
   void add_volume(double volume, double compliance) {
     volume_ += volume;
     drawn_ += volume;
     compliance_ += compliance;
   }
-  double drawn() const;  ///< V as drawn [m^3], at the pressure of the start
-  /// Likewise: nobody gives its pressure at the start. Where it is the chamber of one cylinder alone, the load decides.
+  double drawn() const;  ///< initial V [m^3], at the start pressure
+  /// While the model is read: no start pressure is given. If it is the chamber of exactly one cylinder, the load
+  /// determines it.
   void let_load_decide() { load_decides_ = true; }
   bool load_decides() const { return load_decides_; }
-  /// A cylinder decides.
+  /// The load of a cylinder determines the start pressure.
   void start_by_load() {
     start_.reset();
     load_decides_ = false;
   }
-  std::optional<double> start() const { return start_; }  ///< its pressure at the start, if it is given [Pa]
+  std::optional<double> start() const { return start_; }  ///< its start pressure, if it is given [Pa]
 
-  /// Whether its fluid is not known yet: a motion begins, and its pressure follows from the load.
+  /// Whether its fluid is not known yet, because at the start of a motion its pressure follows from the load.
   bool waits(const LocalState& own) const {
     return !start_ && own.memory()[0] == 0 && own.first_order()[fluid_row] < 0;
   }
   double space(const LocalState& own) const { return own.first_order()[space_row]; }
-  /// The fluid that fills it at a pressure: W.
+  /// Returns the amount of fluid W that fills it at a pressure.
   double fluid_at(double pressure, double space) const { return space / fluid().ratio(pressure).v; }
-  /// The flow that changes its fluid [m^3/s], at its pressure or the reference pressure, as flows are counted.
+  /// Returns the flow that changes its fluid [m^3/s], at its pressure or the reference pressure, depending on the
+  /// conserved quantity.
   double net_flow(const LocalState& own) const;
 
   bool is_part() const override { return type() == pipe_cell; }
@@ -82,15 +84,15 @@ class Volume final : public PressureNode {
   void describe(const LocalState& state, Description& description) const override;
 
  private:
-  /// What of the space depends on the pressure alone.
+  /// Returns the part of the volume that depends only on the pressure.
   double room_at(double pressure) const;
-  /// p(W/V). @throws ComputationError  nothing is left of the space or of the fluid
+  /// Returns p(W/V). @throws ComputationError  if the space or the fluid is not positive
   double pressure_by_state(const LocalState& own) const;
   double volume_;
   std::optional<double> start_;
   double compliance_;
   bool load_decides_ = false;
-  double drawn_;  ///< without what depends on the pressure
+  double drawn_;  ///< without the part that depends on the pressure
   std::vector<std::function<double(double)>> rooms_;
 };
 

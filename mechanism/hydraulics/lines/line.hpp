@@ -1,7 +1,7 @@
-// A line: fluid flows through it from one place of a circuit to another, by the pressures there.
+// A line: fluid flows through it from one place of a circuit to another, depending on the pressures there.
 //
-// A type of line says what flows (calc_flow) and may have unknowns of its own (a spool); the rest is done here. A valve
-// with more than two ports has several paths.
+// A type of line defines the flow (calc_flow) and may have unknowns of its own (a spool); everything else is done here.
+// A valve with more than two ports has several paths.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ class Line : public Component {
  public:
   struct Path {
     int from, to;
-    std::string name;  ///< "P to A"; empty where there is one alone
+    std::string name;  ///< "P to A"; empty if there is only one
   };
   Line(std::string type, std::string name) : Component(std::move(type), std::move(name)) {}
 
@@ -27,15 +27,15 @@ class Line : public Component {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// `flow` and `power` (lost), of each path, then own_fields.
+  /// Outputs: `flow` and `power` (dissipated) of each path, then own_fields.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
-  /// "flow" of the first path, and what the type adds
+  /// The names are "flow" of the first path, and those of the type.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
-  /// The flow of a path with its derivatives. @param flow  prepared, zero
+  /// Computes the flow of a path with its derivatives. @param flow  prepared, zero on entry
   virtual void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const = 0;
   double flow(const LocalState& state, std::size_t path) const;
 
@@ -54,7 +54,7 @@ class Line : public Component {
   virtual std::vector<OutputField> own_fields() const { return {}; }
   virtual void write_own(const LocalState& /*state*/, double* /*values*/) const {}
   virtual std::string describe_law() const = 0;
-  /// Opening of a valve with its derivatives, by name; only types that list it in own_measures are asked.
+  /// Opening of a valve with its derivatives, by name; only called for types that list it in own_measures.
   virtual std::vector<std::string> own_measures() const { return {}; }
   virtual double calc_own_measure(const LocalState& /*state*/, const std::string& /*measure*/,
                                   MeasureGradient& /*gradient*/) const;
@@ -66,7 +66,7 @@ class Line : public Component {
   std::vector<Path> paths_;
 };
 
-/// The place of a circuit that a value names. @throws InputError with the nearest name
+/// Returns the place of a circuit that a value names. @throws InputError naming the nearest name
 const PressureNode& place_named_by(const YamlValue& value, const Model& model);
 
 }  // namespace bielle::mechanism

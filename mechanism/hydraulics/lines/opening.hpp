@@ -9,7 +9,7 @@ struct Opening {
   double value, slope;
 };
 
-/// 0 for x <= 0, x for x >= width, between them x (6 u - 8 u^2 + 3 u^3) u, u = x/width: an edge that opens.
+/// 0 for x <= 0, x for x >= width, between them x (6 u - 8 u^2 + 3 u^3) u, u = x/width: opening of an edge.
 inline Opening edge_opening(double x, double width) {
   if (x <= 0) return {0, 0};
   if (x >= width) return {x, 1};
@@ -17,7 +17,7 @@ inline Opening edge_opening(double x, double width) {
   return {width * u * u * u * (6 - u * (8 - 3 * u)), u * u * (18 - u * (32 - 15 * u))};
 }
 
-/// 0 for x <= 0, 1 for x >= 1, between them 10 x^3 - 15 x^4 + 6 x^5: a poppet from its seat to its end.
+/// 0 for x <= 0, 1 for x >= 1, between them 10 x^3 - 15 x^4 + 6 x^5: opening of a poppet from its seat to its end.
 inline Opening poppet_opening(double x) {
   const SmoothStep step = smooth_step(x);
   return {step.value, step.slope};

@@ -64,7 +64,7 @@ void Leakage::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDeriv
 
 std::string Leakage::describe_law() const { return fmt::format("laminar, {:.6g} m^3/(s Pa)", conductance_); }
 
-// -- source of flow
+// -- flow source
 
 FlowSource::FlowSource(std::string name, const PressureNode* from, const PressureNode& to)
     : Line("flow_source", std::move(name)) {

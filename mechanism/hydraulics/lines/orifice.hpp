@@ -1,4 +1,4 @@
-// Lines without moving parts that decide: orifices whose area is given, narrow gaps, and sources of flow.
+// Lines without controlling parts: orifices of given area, narrow gaps, and flow sources.
 #pragma once
 
 #include "mechanism/hydraulics/lines/line.hpp"
@@ -11,7 +11,7 @@ namespace bielle::mechanism {
 class Orifice final : public Line, public TimeDependent {
  public:
   Orifice(std::string name, const PressureNode& from, const PressureNode& to, const OrificeLaw& law, double area);
-  /// A formula in place of the area, once the model is read.
+  /// Reads a formula that replaces the area, after the model has been read.
   void read_area_formula(const YamlValue& formula, Model& model);
   void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
   void add_break_points(std::vector<double>& times) const override { area_.add_break_points(0, times); }
@@ -41,10 +41,10 @@ class Leakage final : public Line {
   double conductance_;
 };
 
-/// A pump of constant or given flow Q(t, measures) [m^3/s], from a place or from outside. Its power is input.
+/// A pump with a constant or given flow Q(t, measures) [m^3/s], from a place or from outside. Its power is input.
 class FlowSource final : public Line, public TimeDependent {
  public:
-  /// @param from  nullptr: from outside, where the fluid has the ambient pressure
+  /// @param from  nullptr: from outside, at the ambient pressure
   FlowSource(std::string name, const PressureNode* from, const PressureNode& to);
   void read(const YamlValue& formula, Model& model);
   void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;

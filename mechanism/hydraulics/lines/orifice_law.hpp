@@ -1,9 +1,10 @@
 // Flow through an orifice, turbulent at large and laminar at small pressure differences.
 //
 //     Q = C_d A sqrt(2/rho) D / (D^2 + D_t^2)^(1/4),      D = p_a - p_b
-// goes over from C_d A sqrt(2 |D|/rho) to a straight line at |D| ~ D_t, with all derivatives, and stays below the
-// turbulent law by (D_t/D)^2/4. By default D_t is where the Reynolds number of a round hole of the area A is Re_t:
-//     D_t = (rho/2) (Re_t nu/(C_d D_h))^2,    D_h = sqrt(4 A/pi),     hence D_t = kappa/A.
+// is a smooth transition from C_d A sqrt(2 |D|/rho) to a straight line at |D| ~ D_t, with all derivatives, and is below
+// the turbulent law by (D_t/D)^2/4. By default D_t is the pressure difference at which the Reynolds number of a round
+// hole of the area A is Re_t:
+//     D_t = (rho/2) (Re_t nu/(C_d D_h))^2,    D_h = sqrt(4 A/pi),     therefore D_t = kappa/A.
 // Reference of the transition: W. Borutzky, B. Barnard, J. Thoma, An orifice flow model for laminar and turbulent
 // conditions, Simulation Modelling Practice and Theory 10 (2002) 141-152, which has the same slope at D = 0.
 #pragma once
@@ -19,26 +20,26 @@ namespace bielle::mechanism {
 struct OrificeLaw {
   double discharge = 0.7;   ///< C_d
   double density = 850;     ///< rho [kg/m^3]
-  double transition = 0;    ///< D_t [Pa]; 0: by Reynolds number
+  double transition = 0;    ///< D_t [Pa]; 0: computed from the Reynolds number
   double reynolds = 150;    ///< Re_t
-  double viscosity = 0.04;  ///< dynamic [Pa s]
+  double viscosity = 0.04;  ///< dynamic viscosity [Pa s]
 
   struct Flow {
-    double Q;    ///< [m^3/s]
-    double Q_A;  ///< by the area [m/s]
-    double Q_D;  ///< by the pressure difference [m^3/(s Pa)]
+    double Q;    ///< flow [m^3/s]
+    double Q_A;  ///< derivative by the area [m/s]
+    double Q_D;  ///< derivative by the pressure difference [m^3/(s Pa)]
   };
   /// @param A  area [m^2], not negative @param D  pressure difference [Pa]
   Flow calc(double A, double D) const;
   std::string describe() const;
 };
 
-/// `coefficient`, `density`, `transition_pressure`, `transition_reynolds`
+/// Returns `coefficient`, `density`, `transition_pressure`, `transition_reynolds`.
 const std::vector<std::string>& orifice_law_keys();
-/// @param fluid  whose density and viscosity are the default
-/// @throws InputError  other keys are the caller's to check
+/// @param fluid  its density and viscosity are the defaults
+/// @throws InputError the caller must check for other keys
 OrificeLaw read_orifice_law(const YamlValue& entry, const Fluid& fluid);
-/// `area` [m^2] or `diameter` [m]: a number; 0: nothing flows. @throws InputError
+/// Reads `area` [m^2] or `diameter` [m]: a number; 0: no flow. @throws InputError
 double read_area(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

@@ -70,7 +70,7 @@ void PipeSegment::calc_flow(const LocalState& state, std::size_t /*path*/, FlowD
   flow.by.position()[state.slots().first_order_row()] = 1;
 }
 
-// In a static analysis time stands: the flow stays what it is.
+// In a static analysis time does not advance: the flow is constant.
 void PipeSegment::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   Line::add_residual(state, r);
   const int row = state.slots().first_order_row();

@@ -1,17 +1,17 @@
-// A length of pipe whose fluid has inertia: one flow q, driven by what the heads at its ends differ by.
+// A length of pipe whose fluid has inertia: one flow q, driven by the difference of the heads at its ends.
 //
 //     m (rho L/S) qdot = e_a - e_b - R(q),     S = pi d^2/4
 //     R = f(Re) (L/d) (rho/2) w |w|,         w = q/S,  Re = rho |w| d/mu
 // with S. W. Churchill's friction factor for all regimes (Friction-factor equation spans all fluid-flow regimes,
 // Chemical Engineering 84 (1977) 91-92):
 //     f = 8 ((8/Re)^12 + (A + B)^(-3/2))^(1/12),  A = (2.457 ln 1/((7/Re)^0.9 + 0.27 k/d))^16,  B = (37530/Re)^16.
-// Segments between volumes of fluid make a pipe. About a pressure p a cell of the volume V follows
+// Segments between volumes of fluid form a pipe. Near a pressure p a cell of the volume V follows
 //     pdot = B_eff f v (q_in - q_out)/V     (f the factor of the balance, Fluid::content)
 // and heads differ by e' dp, so that waves travel at sqrt(B_eff f v e'/(m rho)). With the constant
-//     m = f v e'     at the pressure that the pipe begins with
-// (1 but for p/B) that is sqrt(B_eff/rho) there, and a sudden change dw of the velocity makes Joukowsky's rho c dw,
-// whatever flows conserve. At other pressures both are off by half of what p/B has changed by, volumes conserved; mass
-// conserved, by the whole of it.
+//     m = f v e'     at the start pressure of the pipe
+// (1 except for p/B) this is sqrt(B_eff/rho) there, and a sudden change dw of the velocity gives Joukowsky's rho c dw,
+// for both conserved quantities. At other pressures both have a relative error of half of the change of p/B if volumes
+// are conserved, and of the whole change if mass is.
 #pragma once
 
 #include "mechanism/hydraulics/lines/line.hpp"
@@ -28,7 +28,7 @@ struct PipeData {
 struct PipeLoss {
   double R, R_q;
 };
-/// m of a pipe that begins with a pressure [Pa]; of a cavity, that of the atmosphere.
+/// Returns m of a pipe with a start pressure [Pa]; for a cavity, that of the atmosphere.
 double inertia_factor(const Fluid& fluid, double pressure);
 PipeLoss pipe_loss(const PipeData& pipe, double density, double viscosity, double q);
 

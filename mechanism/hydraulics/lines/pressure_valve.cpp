@@ -47,8 +47,8 @@ double PoppetValve::wanted(const LocalState& state, MeasureGradient& gradient) c
   return open.value;
 }
 
-// A valve that follows its pressures has come to where they want it when a motion begins and in statics, which both
-// look for pressures and opening at once.
+// At the start of a motion and in statics, which both determine pressures and opening together, a valve with a time
+// constant has the opening that corresponds to its pressures.
 double PoppetValve::opening(const LocalState& state, MeasureGradient& gradient) const {
   if (!follows() || state.environment().statics || state.memory()[0] == 0) return wanted(state, gradient);
   gradient.position()[state.slots().first_order_row()] += 1;
@@ -67,7 +67,7 @@ void PoppetValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowD
     of_opening.position()[ports().pressure_row(state, 0)] -= back.slope / setting_.range;
     of_opening.position()[ports().pressure_row(state, 1)] += back.slope / setting_.range;
   }
-  if (!(open > 0)) return;  // an opening that follows may undershoot by its error
+  if (!(open > 0)) return;  // an opening with a time constant may become negative by its error
   const OrificeLaw::Flow law = law_.calc(setting_.area * open, D);
   flow.Q = law.Q;
   flow.by.position() += law.Q_A * setting_.area * of_opening.position();
@@ -157,7 +157,7 @@ void FlowValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowDer
                     "exchange `from` and `to`",
                     t, name(), set->value));
   const double x = (ports().pressure(state, 0) - ports().pressure(state, 1)) / pressure_;
-  // The orifice g = x/(x^2 + e^2)^(1/4) with a narrow laminar range, its pressure limited for x > 0.
+  // The orifice law g = x/(x^2 + e^2)^(1/4) with a narrow laminar range, with a limited pressure for x > 0.
   constexpr double e = 0.01;
   double limited = x, slope = 1;
   if (x > 0) {

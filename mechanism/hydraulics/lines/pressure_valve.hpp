@@ -1,15 +1,15 @@
-// Valves that pressures open: check, relief and counterbalance valves; and the flow valve that pressures hold constant.
+// Valves operated by pressures: check, relief and counterbalance valves; and the pressure-compensated flow valve.
 //
 // A poppet opens over a range of pressures above its setting:
 //     x = (p_a - s p_b + r p_x - p_set)/range,    A = A_full (10 x^3 - 15 x^4 + 6 x^5), 0 <= x <= 1,
-// pressures relative to the ambient one, which acts on springs' rooms.
+// Pressures are relative to the ambient one, which acts in the spring chambers.
 // check valve:           s = 1; r = 0; only from a to b
-// relief valve:          s = 1 (or 0, where its spring room is vented), r = 0
-// counterbalance valve:  a the load, x the pilot, r its ratio; and a check valve lets the fluid back from b to a
-// With a time constant T the opening follows: T ydot = y(x) - y. A motion begins where y = y(x); statics find it there.
+// relief valve:          s = 1 (or 0, if its spring chamber is vented), r = 0
+// counterbalance valve:  a is the load, x the pilot, r its ratio; a check valve lets the fluid back from b to a
+// With a time constant T the opening follows T ydot = y(x) - y. A motion begins with y = y(x), which statics find too.
 //
-// A flow valve with compensator passes Q_set as long as D = p_a - p_b is larger than D_min; below it is an orifice. The
-// way back is an orifice of the same area:
+// A flow valve with compensator passes Q_set if D = p_a - p_b is larger than D_min; below it is an orifice. The reverse
+// flow is through an orifice of the same area:
 //     Q = Q_set sign(D) sqrt(D_e/D_min),   D_e = |D|/(1 + (|D|/D_min)^8)^(1/8) for D > 0, |D| for D < 0, both smooth at
 //     0.
 #pragma once
@@ -23,13 +23,13 @@ namespace bielle::mechanism {
 class PoppetValve final : public Line {
  public:
   struct Setting {
-    double pressure = 0;         ///< p_set [Pa], where it begins to open
-    double range = 0;            ///< [Pa] until it is open
+    double pressure = 0;         ///< pressure p_set [Pa], at which it begins to open
+    double range = 0;            ///< pressure range [Pa] in which it opens
     double back = 1;             ///< s
     double pilot_ratio = 0;      ///< r
     double area = 0;             ///< A_full [m^2]
     double time_constant = 0;    ///< T [s]; 0: none
-    double check_pressure = -1;  ///< of the way back [Pa]; negative: there is none
+    double check_pressure = -1;  ///< setting for reverse flow [Pa]; negative: none
   };
   /// @param pilot  nullptr: none
   PoppetValve(std::string type, std::string name, const PressureNode& from, const PressureNode& to,
@@ -44,7 +44,7 @@ class PoppetValve final : public Line {
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
 
  private:
-  /// The opening that the pressures ask for, with its derivatives.
+  /// Returns the opening that corresponds to the pressures, with its derivatives.
   double wanted(const LocalState& state, MeasureGradient& gradient) const;
   double opening(const LocalState& state, MeasureGradient& gradient) const;
   std::vector<OutputField> own_fields() const override;
@@ -60,7 +60,7 @@ class PoppetValve final : public Line {
 
 class FlowValve final : public Line, public TimeDependent {
  public:
-  /// @param pressure  D_min [Pa]
+  /// @param pressure  minimum pressure difference D_min [Pa]
   FlowValve(std::string name, const PressureNode& from, const PressureNode& to, double pressure);
   void read(const YamlValue& formula, Model& model);  ///< Q_set(t, measures) [m^3/s]
   void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;

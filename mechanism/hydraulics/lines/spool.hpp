@@ -1,10 +1,10 @@
-// The spool of a valve: how its opening y follows the command u(t, measures).
+// The spool of a valve: dynamics of its opening y for the command u(t, measures).
 //
 //   none:           y = u
 //   first order:    T ydot = u - y
 //   second order:   ydot = w,   wdot = omega^2 (u - y) - 2 zeta omega w
-// y and w are first-order unknowns of the valve whose spool it is, from its first one on. The spool starts at its
-// command, and a static analysis finds it there.
+// y and w are first-order unknowns of the valve of the spool, beginning with its first one. The spool starts at its
+// command; in a static analysis it is at its command, too.
 #pragma once
 
 #include "mechanism/measures/state_formula.hpp"
@@ -16,25 +16,25 @@ namespace bielle::mechanism {
 
 class Spool {
  public:
-  /// @param least  smallest opening: -1 of a valve with two directions, 0 of one that only opens
+  /// @param least  smallest opening: -1 for a valve with two directions, 0 for one that only opens
   explicit Spool(double least) : least_(least) {}
-  /// Reads `time_constant`, or `frequency` [Hz] and `damping`; keys are the caller's to check. @throws InputError
+  /// Reads `time_constant`, or `frequency` [Hz] and `damping`; the caller must check the keys. @throws InputError
   void read_dynamics(const YamlValue& entry);
-  /// Reads `command`. Call within Model::when_read(Stage::formulas).
+  /// Reads `command`. Call it within Model::when_read(Stage::formulas).
   void read_command(const YamlValue& command, Model& model, References& references);
 
   int order() const { return order_; }
   bool reads_state() const { return command_.reads_state(); }
   bool reads_reactions() const { return command_.reads_reactions(); }
   void declare(Declaration& declaration) const;
-  /// The opening, with its derivatives over the owner's local layout. @param gradient  prepared, zero
+  /// Returns the opening, with its derivatives over the owner's local layout. @param gradient  prepared, zero on entry
   double opening(const LocalState& state, MeasureGradient& gradient) const;
   double opening(const LocalState& state) const;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const;
-  /// @throws ComputationError  the command is beyond the spool's ends. @param name  of the valve
+  /// @throws ComputationError if the command is beyond the spool's ends. @param name  name of the valve
   void check(const LocalState& state, const std::string& name) const;
   void add_break_points(std::vector<double>& times) const { command_.add_break_points(0, times); }
   const StateFormula& command_formula() const { return command_; }
@@ -49,7 +49,7 @@ class Spool {
   StateFormula command_;
 };
 
-/// `command`, `time_constant`, `frequency`, `damping`
+/// Returns `command`, `time_constant`, `frequency`, `damping`.
 const std::vector<std::string>& spool_keys();
 
 }  // namespace bielle::mechanism

@@ -59,7 +59,7 @@ void SpoolValve::calc_flow(const LocalState& state, std::size_t path, FlowDeriva
   of_opening->prepare(state.slots().size());
   const double y = edge.direction * spool_.opening(state, *of_opening), range = 1 - overlap_;
   Opening open = edge_opening((y - overlap_) / range, smoothing);
-  // A spool that swings beyond its full opening opens no more.
+  // A spool that oscillates beyond its full opening does not open more.
   const Opening beyond = edge_opening((y - overlap_) / range - 1, smoothing);
   open = {open.value - beyond.value, open.slope - beyond.slope};
   if (open.value == 0) return;

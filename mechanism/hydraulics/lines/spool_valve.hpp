@@ -1,10 +1,10 @@
 // Valves whose opening is commanded: with two ports, and with four (servo-valve).
 //
-// Four ports P (supply), T (tank), A, B. A positive opening y joins P to A and B to T, a negative one P to B and A to
-// T. Each of the four edges opens by
-//     A_edge(y) = A_full s((|y| - overlap)/(1 - overlap)),   A_full its own area,
-// s the identity above `smoothing` and zero below 0 (lines/opening.hpp). A negative overlap leaves all edges open in
-// the middle. Flows by the orifice law.
+// There are four ports P (supply), T (tank), A, B. A positive opening y connects P to A and B to T, a negative one P to
+// B and A to T. Each of the four edges opens by
+//     A_edge(y) = A_full s((|y| - overlap)/(1 - overlap)),   A_full: area of the edge,
+// Here s is the identity above `smoothing` and zero below 0 (lines/opening.hpp). With a negative overlap all edges are
+// open in the middle. Flows follow the orifice law.
 #pragma once
 
 #include <array>
@@ -18,17 +18,18 @@ namespace bielle::mechanism {
 
 class SpoolValve final : public Line, public TimeDependent {
  public:
-  static constexpr double smoothing = 1e-3;  ///< share of the full opening
+  static constexpr double smoothing = 1e-3;  ///< fraction of the full opening
   struct Edge {
     std::string name;
     int from, to;      ///< ports
     double direction;  ///< +1: opens with y > 0, -1: with y < 0
-    double area;       ///< at full opening [m^2]
+    double area;       ///< area at full opening [m^2]
   };
-  /// Two ports, y from 0 to 1.
+  /// Constructs a valve with two ports, y from 0 to 1.
   SpoolValve(std::string name, const PressureNode& from, const PressureNode& to, const OrificeLaw& law, double area,
              double overlap);
-  /// Four ports. @param places  P, T, A, B; B nullptr: three ports @param areas  of P-A, B-T, P-B, A-T
+  /// Constructs a valve with four ports. @param places  P, T, A, B; B nullptr: three ports @param areas  areas of P-A,
+  /// B-T, P-B, A-T
   SpoolValve(std::string name, const std::array<const PressureNode*, 4>& places, const OrificeLaw& law,
              const std::array<double, 4>& areas, double overlap);
   Spool& spool() { return spool_; }

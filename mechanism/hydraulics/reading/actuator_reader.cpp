@@ -23,7 +23,7 @@ namespace {
 
 constexpr PlausibleRange plausible_piston{0, 10, "Areas are in m^2: a piston of 100 mm has 7.85e-3"};
 
-/// One list of stages for each chamber.
+/// Lists of stages, one for each chamber.
 struct Pistons {
   std::vector<ChamberSpace::Stage> of[2];
   bool double_acting() const {
@@ -106,7 +106,7 @@ class ActuatorReader {
     return geometry;
   }
 
-  /// In newtons: a law with the normal force 1.
+  /// Reads a friction force in newtons: a law with the normal force 1.
   static FrictionLaw read_friction(const YamlValue& entry) {
     entry.check_keys({"viscous", "coulomb", "static", "stribeck_velocity", "velocity"}, "the friction of an actuator");
     FrictionLaw law;
@@ -122,7 +122,7 @@ class ActuatorReader {
     if (law.sticking > law.kinetic && !speed)
       entry.at("static").fail("needs a `stribeck_velocity` over which it falls");
     law.stribeck_velocity = speed ? speed->non_negative_number() : 0;
-    if (speed && law.sticking > law.kinetic) speed->positive_number();  // over which it falls
+    if (speed && law.sticking > law.kinetic) speed->positive_number();  // speed range over which it decreases
     constexpr double usual_velocity = 1e-3;                             // [m/s]
     const auto velocity = entry.find("velocity");
     law.velocity = velocity ? velocity->positive_number() : usual_velocity;
@@ -160,7 +160,7 @@ class ActuatorReader {
     return pistons;
   }
 
-  /// A list of one number for each chamber, not negative; zeros where the key is missing.
+  /// Reads a list of one number for each chamber, not negative; zeros if the key is missing.
   std::array<double, 2> read_two(const char* key) {
     std::array<double, 2> numbers{0, 0};
     const auto list = entry_.find(key);
@@ -189,7 +189,7 @@ class ActuatorReader {
     return added;
   }
 
-  /// A volume of its own, its space yet to come.
+  /// Adds a volume whose space is added later.
   Volume& add_volume(const std::string& name, std::optional<double> pressure, double compliance) {
     return add(std::make_unique<Volume>(name, fluid_, 0, pressure, compliance), name);
   }
@@ -202,7 +202,7 @@ class ActuatorReader {
 
   YamlValue place_of_space() const { return entry_.find("dead_volumes") ? entry_.at("dead_volumes") : entry_; }
 
-  /// The cylinder itself, with its chambers, and what leaks.
+  /// Adds the cylinder itself, with its chambers, and the leakage.
   Cylinder& add_cylinder(const std::array<const PressureNode*, 2>& places) {
     auto cylinder = std::make_unique<Cylinder>(name_, geometry_, fluid_.ambient);
     for (std::size_t k = 0; k < chambers_; ++k) cylinder->add_chamber(*places[k], space(k));
@@ -226,8 +226,9 @@ class ActuatorReader {
 
   // -- cushions
 
-  /// Where chambers open into the rest: through their cushions, or at once. A cushion's port is a junction of its own.
-  /// @param ports  of the circuit; nullptr: none
+  /// Connects the chambers with the rest of the circuit, through their cushions or directly. A cushion's port is a
+  /// junction of its own.
+  /// @param ports  ports of the circuit; nullptr: none
   std::array<const PressureNode*, 2> add_cushions(const Cylinder& cylinder, const std::array<Volume*, 2>& chambers,
                                                   const std::array<const PressureNode*, 2>& ports = {}) {
     std::array<const PressureNode*, 2> ends{chambers[0], chambers[1]};
@@ -260,7 +261,7 @@ class ActuatorReader {
     return ends;
   }
 
-  // -- with a circuit that it shares
+  // -- with a shared circuit
 
   void read_joined() {
     const YamlValue ports = entry_.at("ports");
@@ -294,7 +295,7 @@ class ActuatorReader {
     cylinder.balance(fluid_.ambient);
   }
 
-  /// Between its chambers and the places of the circuit lie its cushions.
+  /// The cushions are between its chambers and the places of the circuit.
   void read_cushioned(const std::array<const PressureNode*, 2>& places) {
     const std::array<Volume*, 2> volumes = add_chambers();
     Cylinder& cylinder = add_cylinder({volumes[0], volumes[1]});
@@ -302,7 +303,7 @@ class ActuatorReader {
     if (!entry_.has("pressures")) cylinder.balance(fluid_.ambient);
   }
 
-  // -- with a circuit of its own
+  // -- with its own circuit
 
   void read_lone() {
     const std::array<Volume*, 2> volumes = add_chambers();
@@ -311,7 +312,7 @@ class ActuatorReader {
     if (!entry_.has("pressures")) cylinder.balance(tank);
   }
 
-  /// Its chambers as volumes of their own, with the pressures of the start.
+  /// Adds its chambers as volumes of their own, with the start pressures.
   std::array<Volume*, 2> add_chambers() {
     const auto pressures = entry_.find("pressures");
     std::array<std::optional<double>, 2> start;
@@ -337,7 +338,7 @@ class ActuatorReader {
     return volumes;
   }
 
-  /// Supply, tank, valve, accumulator and relief valves. @returns the pressure of the tank
+  /// Adds supply, tank, valve, accumulator and relief valves. @returns the pressure of the tank
   double add_supply(const std::array<Volume*, 2>& volumes, const std::array<const PressureNode*, 2>& ends) {
     const auto supply = entry_.find("supply"), valve = entry_.find("valve"), relief = entry_.find("relief"),
                accumulator = entry_.find("accumulator");
@@ -377,7 +378,7 @@ class ActuatorReader {
       supply->fail("leads nowhere: give a `valve`");
     }
     if (relief) {
-      // What a pump of constant flow fills is limited there; else the chambers are.
+      // The pressure of a volume filled by a pump of constant flow is limited there; otherwise that of the chambers is.
       if (pump_volume)
         add_relief(part("relief"), *relief, *pump, *tank, fluid_, circuit(part("relief")), model_);
       else
@@ -419,7 +420,7 @@ class ActuatorReader {
   Pistons pistons_;
   std::size_t chambers_ = 2;
   std::array<double, 2> dead_{0, 0};
-  double drawn_ = 0;  ///< length as drawn [m]
+  double drawn_ = 0;  ///< initial length [m]
 };
 
 }  // namespace

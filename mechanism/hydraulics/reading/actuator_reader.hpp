@@ -1,4 +1,4 @@
-// Hydraulic actuators in input files: a cylinder that joins places of a circuit, or one with a circuit of its own.
+// Readers of hydraulic actuators: a cylinder connected to places of a circuit, or one with its own circuit.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace bielle::mechanism {
 
-/// `{type: hydraulic_actuator, nodes, at, piston_areas | stages, dead_volumes, stroke, ports | pressures, ..}`.
-/// A lone one makes its own chambers, and `supply` and `valve` where they are given; they stand in the results under
-/// `/hydraulics/<name>.chamber_1`, `.valve`, ...
+/// Reads `{type: hydraulic_actuator, nodes, at, piston_areas | stages, dead_volumes, stroke, ports | pressures, ..}`.
+/// An actuator without a circuit creates its own chambers, and `supply` and `valve` if they are given; their results
+/// are under `/hydraulics/<name>.chamber_1`, `.valve`, ...
 void read_hydraulic_actuator(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

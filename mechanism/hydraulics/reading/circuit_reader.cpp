@@ -38,7 +38,7 @@ class CircuitReader {
     each("volumes", [&](const std::string& name, const YamlValue& entry) { read_volume(name, entry); });
     if (const auto junctions = section_.find("junctions"))
       for (const YamlValue& item : junctions->items()) read_junction(item);
-    // Pumps may draw from places that supplies of pressure make.
+    // Pumps may draw from places that are created by pressure supplies.
     each("supplies", [&](const std::string& name, const YamlValue& entry) {
       if (!entry.has("flow")) read_supply(name, entry);
     });
@@ -55,7 +55,7 @@ class CircuitReader {
  private:
   Entry own(const std::string& name) const { return {Section::hydraulics, name}; }
 
-  /// Names are those of results: one entry each in all of the hydraulics.
+  /// Names are those of results: each may only occur once in all of the hydraulics.
   template <class Read>
   void each(const char* key, const Read& read) {
     const auto entries = section_.find(key);
@@ -72,14 +72,15 @@ class CircuitReader {
       place.fail(fmt::format("'{}' is the name of another entry of the hydraulics: {}", name, found->second));
   }
 
-  /// Supplies of pressure: their places have it, whatever flows.
+  /// Records pressure supplies: their places have a given pressure, for any flow.
   void note_given_pressures() {
     if (const auto supplies = section_.find("supplies"))
       for (const auto& [name, entry] : supplies->entries())
         if (entry.has("pressure") && entry.has("to")) given_.emplace(entry.at("to").text(), name);
   }
 
-  /// Junctions that pipes lead to hold the ends of their fluid, whose inertia a junction without volume could not stop.
+  /// Junctions at the end of pipes contain the ends of their fluid, whose inertia a junction without volume could not
+  /// stop.
   void note_ends_of_pipes() {
     const auto lines = section_.find("lines");
     if (!lines) return;
@@ -105,7 +106,7 @@ class CircuitReader {
     if (const auto given = given_.find(name); given != given_.end()) {
       entry.doubt(fmt::format("the supply '{}' keeps the pressure of this place: its volume and start do not matter",
                               given->second));
-      return;  // made by the supply
+      return;  // created by the supply
     }
     auto place = std::make_unique<Volume>(name, fluid_, V, p, c);
     model_.when_read(Model::Stage::connections, [place = place.get(), entry] {
@@ -196,13 +197,13 @@ class CircuitReader {
   Model& model_;
   Fluid fluid_;
   std::map<std::string, std::string> taken_;     ///< path of each name
-  std::map<std::string, std::string> given_;     ///< places of given pressure, and the supply of each
-  std::map<std::string, std::string> supplied_;  ///< those that are made
-  /// A place that pipes lead to.
+  std::map<std::string, std::string> given_;     ///< places of given pressure, with their supplies
+  std::map<std::string, std::string> supplied_;  ///< those that have been created
+  /// A place at the end of pipes.
   struct EndOfPipes {
-    std::string pipe;   ///< the first of them
-    double pressure;    ///< of its fluid at the start [Pa]
-    std::string other;  ///< one of another pressure; empty: there is none
+    std::string pipe;   ///< name of the first pipe
+    double pressure;    ///< start pressure of its fluid [Pa]
+    std::string other;  ///< a pipe with another pressure; empty: there is none
     double other_pressure;
   };
   std::map<std::string, EndOfPipes> ends_of_pipes_;  ///< by name

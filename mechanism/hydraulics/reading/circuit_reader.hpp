@@ -1,4 +1,4 @@
-// The section `hydraulics` of a mechanism file: circuits that actuators share.
+// Reader of the section `hydraulics` of a mechanism file: circuits that actuators share.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace bielle::mechanism {
 
-/// Reads places (volumes, junctions, supplies) and what joins them (lines, accumulators, machines). Call before
-/// elements are read: actuators name places.
+/// Reads places (volumes, junctions, supplies) and the components that connect them (lines, accumulators, machines).
+/// Call it before elements are read: actuators name places.
 /// @throws InputError
 void read_hydraulics(const YamlValue& section, Model& model);
 
-/// Types of entries: volume, supply, accumulator, machine, and those of lines.
+/// Returns the types of entries: volume, supply, accumulator, machine, and those of lines.
 std::vector<std::string> circuit_types();
 
 }  // namespace bielle::mechanism

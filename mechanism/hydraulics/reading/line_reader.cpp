@@ -15,10 +15,10 @@
 namespace bielle::mechanism {
 namespace {
 
-/// What a reader of a type of line is given.
+/// Arguments of a reader of a type of line.
 struct LineEntry {
   const std::string& name;
-  const YamlValue& data;  ///< of the type's key
+  const YamlValue& data;  ///< value of the type's key
   const PressureNode &from, &to;
   const Fluid& fluid;
   Model& model;
@@ -54,14 +54,14 @@ void read_laminar(const LineEntry& line) {
     for (const char* key : {"length", "diameter"})
       if (const auto other = line.data.find(key)) other->fail("give `conductance`, or `length` and `diameter`");
     conductance = given->non_negative_number();
-  } else {  // Hagen and Poiseuille
+  } else {  // law of Hagen and Poiseuille
     const double d = line.data.at("diameter").non_negative_number();
     conductance = M_PI * d * d * d * d / (128 * line.fluid.viscosity * line.data.at("length").positive_number());
   }
   line.model.add(std::make_unique<Leakage>(line.name, line.from, &line.to, conductance), line.own());
 }
 
-constexpr double usual_range = 0.1;  // of a setting: from where a valve opens until it is open
+constexpr double usual_range = 0.1;  // opening range relative to the setting
 
 double read_range(const YamlValue& entry, double setting) {
   const auto range = entry.find("range");
@@ -132,7 +132,7 @@ double read_overlap(const YamlValue& entry) {
   return share;
 }
 
-/// Reads the command once the model is read, and adds the valve.
+/// Reads the command after the model has been read, and adds the valve.
 SpoolValve& add_spool_valve(std::unique_ptr<SpoolValve> valve, const YamlValue& entry, const Entry& own, Model& model) {
   SpoolValve& added = *valve;
   added.spool().read_dynamics(entry);
@@ -150,8 +150,8 @@ void read_valve(const LineEntry& line) {
                   line.data, line.own(), line.model);
 }
 
-// Volumes of fluid along the pipe, and segments between them. A place of its own pressure stands at the end of the
-// first cell, half a segment from its middle; one that is nothing but an end of pipes (a junction) holds half a cell
+// Adds volumes of fluid along the pipe, and segments between them. A place with its own pressure is at the end of the
+// first cell, half a segment from its middle; a place that is only an end of pipes (a junction) contains half a cell
 // itself.
 void read_pipe(const LineEntry& line) {
   const YamlValue& data = line.data;
@@ -172,7 +172,7 @@ void read_pipe(const LineEntry& line) {
   const double cell = length / (n + 0.5 * holds[0] + 0.5 * holds[1]);
   const double space = 0.25 * M_PI * diameter * diameter * cell;
   double compliance = 0;
-  if (wall) {  // a thin tube that is free to lengthen: dV/V = dp d/(E s)
+  if (wall) {  // a thin tube that is free to extend: dV/V = dp d/(E s)
     wall->check_keys({"thickness", "young"}, "the wall of a pipe");
     compliance = space * diameter / (wall->at("young").positive_number() * wall->at("thickness").positive_number());
   }

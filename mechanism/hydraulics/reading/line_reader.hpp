@@ -1,4 +1,4 @@
-// Lines of a circuit in input files: `name: {from, to, <type>: {...}}`.
+// Readers of lines of a circuit in input files: `name: {from, to, <type>: {...}}`.
 #pragma once
 
 #include <array>
@@ -11,27 +11,28 @@
 
 namespace bielle::mechanism {
 
-/// Types of lines, each the key that makes it: orifice, laminar, check, relief, ...
+/// Returns the types of lines, each the key that creates it: orifice, laminar, check, relief, ...
 std::vector<std::string> line_types();
 
-/// Reads one line. Its places are looked up when all entries are there. @throws InputError
+/// Reads one line. Its places are looked up after all entries have been read. @throws InputError
 void read_line(const std::string& name, const YamlValue& entry, const Fluid& fluid, Model& model);
 
 class PressureNode;
 class SpoolValve;
 class Volume;
 
-/// The place as a volume that a chamber or accumulator may be joined to; nullptr: it is none.
+/// Returns the place as a volume to which a chamber or accumulator can be connected; nullptr if it is none.
 Volume* volume_of(const PressureNode& place, const Model& model);
 
-/// The four-port valve of `servo_valve` or of an actuator: coefficient, area or areas, overlap, command, its dynamics.
-/// @param places  P, T, A, B
+/// Adds the four-port valve of `servo_valve` or of an actuator: coefficient, area or areas, overlap, command, its
+/// dynamics.
+/// @param places  places P, T, A, B
 SpoolValve& add_servo_valve(const std::string& name, const YamlValue& entry,
                             const std::array<const PressureNode*, 4>& places, const Fluid& fluid, const Entry& own,
                             Model& model);
-/// Its keys.
+/// Returns its keys.
 std::vector<std::string> servo_valve_keys();
-/// A relief valve: `pressure`, `range`, `area`, ...
+/// Adds a relief valve: `pressure`, `range`, `area`, ...
 void add_relief(const std::string& name, const YamlValue& entry, const PressureNode& from, const PressureNode& to,
                 const Fluid& fluid, const Entry& own, Model& model);
 

@@ -4,8 +4,7 @@
 //     e = target - controlled,     u = kp e + ki z + kd D,     Q = min(max(u, lower), upper)
 //     z' = e + (Q - u)/(ki T_w)                         integral; with anti-windup by back-calculation at a limit
 //     d' = (e - d)/T_f,  D = (e - d)/T_f                derivative, with a filter of time constant T_f
-//     D = d(target)/dt - cdot                           derivative without filter, for targets that are functions of
-//     time
+//     D = d(target)/dt - cdot                           derivative without filter, if the target is a function of time
 //
 // z and d are first-order unknowns. z begins at zero, d at e, so that the derivative term has no initial peak. At a
 // limit z moves to the value at which u is at the limit, within T_w (`tracking_time`, by default kp/ki). After its

@@ -2,8 +2,7 @@
 //
 // The tension is constant along a section. With the lengths l of its spans (rope_span.hpp), the wraps theta of the
 // touched pulleys of radius rho in between (rope_course.hpp), and the angles alpha + gamma by which its ends are wound,
-//     L = sum of l + sum of rho theta,   E = L + rho_0 (alpha_0 + gamma_0) - rho_n (alpha_n + gamma_n) - (initial
-//     value)
+//     L = sum of l + sum of rho theta,   E = L + rho_0 (alpha_0 + gamma_0) - rho_n (alpha_n + gamma_n) - (initially)
 // are its length and its elongation, and
 //     T = max(0, EA (E + tau Edot)/(L - E)) while E > 0, and 0 otherwise;   L - E: unloaded length of that piece.
 // Steps end when the rope leaves a pulley or touches it: the memory contains the touched ones. Drums wind and unwind

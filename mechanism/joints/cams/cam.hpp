@@ -2,9 +2,8 @@
 //
 //   roller   the centre of a roller of the follower's node moves on the pitch curve of the contour: PointOnCurve in the
 //            plane of the cam
-//   flat     a flat face of the follower touches the contour: m . (p_F - x_A) - H(psi) = 0, with the direction m from
-//   the
-//            cam to the face, a point p_F of the face, and the angle psi of m in the cam's frame. The face slides on
+//   flat     a flat face of the follower touches the contour: m . (p_F - x_A) - H(psi) = 0, m the direction from the
+//            cam towards the face, p_F a point of the face, psi the angle of m in the cam's frame. The face slides on
 //            the contour at sdot = t . (p_F - x_A)' + H psidot, t = z x m
 //   lift     the follower's coordinate is a periodic function of the camshaft's angle, c_2 = f(c_1)
 // The contour and f are fixed on the second node of the camshaft's joint, about its axis (z of its frame), with angles

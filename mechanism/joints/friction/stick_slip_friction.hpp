@@ -1,6 +1,5 @@
 // Coulomb's law without regularisation on one coordinate (FrictionLaw::Model::stick_slip), with two branches:
-//     sticks           the coordinate is held by a constraint, whose multiplier is the friction, until it reaches mu_s
-//     N
+//     sticks           the coordinate is held by a constraint, whose multiplier is the friction, up to mu_s N
 //     slips, dir = +-1 R = dir N mu(|v|) + N sigma_2 v, until v dir decreases to zero
 // Steps end when it begins to slip and when it comes to rest. Within a branch there are no kinks, so that the scheme
 // keeps its order. If several joints are overloaded at once, the most overloaded is released first.

@@ -4,8 +4,7 @@
 //   multiplier
 //                        is the tension [N]. L may be a formula of time: a rod with variable length
 //   revolute_spherical   a rod with a hinge on the first node, about z of the joint's frame (`axis`), and a ball on the
-//                        second: the ball also stays in its plane, z_A . d = h, with the initial h. Coordinate `angle`:
-//                        angle of the
+//                        second: the ball also stays in its plane, z_A . d = h (initial h). Coordinate: `angle` of the
 //                        rod about the hinge, from its initial position
 //
 // The squared form has a derivative everywhere, also at d = 0, and its gradient equals that of |d| if the row is

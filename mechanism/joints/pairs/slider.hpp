@@ -8,8 +8,7 @@
 // axes of J_A, which is fixed on the beam's first node:
 //     x y z     d - p(u) = 0, d to the slider's attachment point: its equation of u makes the force normal to the beam,
 //               except for friction, which acts on u (by initial lengths)
-//     ry rz     with `orientation: tangent`: y_B . p' = z_B . p' = 0, x_B initially along the beam; rotation about it
-//     is
+//     ry rz     with `orientation: tangent`: y_B . p' = z_B . p' = 0, x_B initially along the beam; turning about it is
 //     free
 // The force acts on the two nodes of the element as N_k f and moments M_k t_k x f: it is continuous between elements.
 // Local nodes: the beam's first, the slider, the beam's others.

@@ -38,8 +38,7 @@ struct Passed {
 struct MarchStep {
   StepReport report;
   double error = 0;            ///< local error over tolerance; 0 with fixed steps
-  bool on_grid = true;         ///< ends on a time of the fixed grid; adaptive steps: true except for those ending on an
-                               ///< event
+  bool on_grid = true;         ///< ends on a time of the fixed grid; adaptive steps: true, except at events
   std::vector<Passed> passed;  ///< events within it and at its end, in the order of time
 };
 

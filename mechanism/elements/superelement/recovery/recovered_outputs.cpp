@@ -10,7 +10,7 @@
 
 namespace bielle::mechanism {
 
-// -- what is wanted
+// -- requested outputs
 
 std::size_t RecoveredOutputs::take(const OutputField& description) {
   descriptions_.push_back(description);
@@ -57,7 +57,7 @@ void RecoveredOutputs::add_point(const std::string& field, const std::string& na
   points_.push_back({made, take(description), std::move(one)});
 }
 
-// -- what is written
+// -- writing
 
 void RecoveredOutputs::write(const FrameBlock& coordinates, std::span<double* const> values, std::size_t begin) const {
   const auto at = [&](int frame, std::size_t offset) {

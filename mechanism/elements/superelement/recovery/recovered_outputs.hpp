@@ -1,4 +1,4 @@
-// All that a superelement records of its mesh: whole fields, and stress or strain at chosen points.
+// All outputs of a superelement that require its mesh: whole fields, and stress or strain at chosen points.
 #pragma once
 
 #include <memory>
@@ -14,27 +14,28 @@ namespace bielle::mechanism {
 
 class RecoveredOutputs {
  public:
-  /// Each throws InputError when the superelement holds nothing to recover it from, saying how it would.
+  /// Each function throws InputError if the superelement does not contain the data to recover it, and describes how it
+  /// would.
   void add_field(const std::string& field, const Superelement& body);
-  /// A field of stress at the node nearest to a place, recorded as "<field>_at_<name>".
+  /// Adds a field of stress at the node nearest to a place, recorded as "<field>_at_<name>".
   void add_point(const std::string& field, const std::string& name, const MeshPlace& place, const Superelement& body);
-  /// Reads the stress of all nodes, which everything that is made of it shares.
+  /// Reads the stress of all nodes, which all derived quantities share.
   void load_stress(const Superelement& body);
   std::shared_ptr<const StressRecovery> stress() const { return stress_; }
-  bool has_stress() const { return stress_ != nullptr; }  ///< stress or strain was asked for
+  bool has_stress() const { return stress_ != nullptr; }  ///< stress or strain was requested
 
   const std::vector<OutputField>& descriptions() const { return descriptions_; }
-  /// Facts about the points: {"stress_at_root", "node 12 at [..] m"}.
+  /// Attributes of the points: {"stress_at_root", "node 12 at [..] m"}.
   const std::vector<std::pair<std::string, std::string>>& facts() const { return facts_; }
   bool large() const { return !of_displacement_.empty() || !of_stress_.empty(); }  ///< whole fields are recorded
-  /// @param coordinates  of the frames, in the order of the file
-  /// @param values       of each frame; those described begin at `begin`
+  /// @param coordinates  coordinates of the frames, in the order of the file
+  /// @param values       for each frame; the described values begin at `begin`
   void write(const FrameBlock& coordinates, std::span<double* const> values, std::size_t begin) const;
 
  private:
   struct Field {
     RecoveredField field;
-    std::size_t offset;  ///< of its first number among those described
+    std::size_t offset;  ///< offset of its first number among the described values
   };
   struct Point {
     RecoveredField field;

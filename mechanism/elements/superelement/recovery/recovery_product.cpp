@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 void FrameBlock::reset(Eigen::Index coordinates, int frames) {
   coordinates_ = coordinates;
   frames_ = frames;
-  constexpr std::size_t line = 64, per_line = line / sizeof(double);  // [bytes], numbers
+  constexpr std::size_t line = 64, per_line = line / sizeof(double);  // [bytes], number of values
   values_.assign(static_cast<std::size_t>(groups() * frames_abreast * coordinates) + per_line, 0.0);
   const std::size_t beyond = reinterpret_cast<std::uintptr_t>(values_.data()) % line;
   begin_ = beyond == 0 ? 0 : static_cast<Eigen::Index>((line - beyond) / sizeof(double));
@@ -27,10 +27,10 @@ namespace {
 using Multiply = void (*)(const double* matrix, Eigen::Index coordinates, Eigen::Index count, const double* group,
                           double* values);
 
-// The program runs on any x86-64, and here wide registers with fused multiplication are worth a multiple. So the
-// product is compiled for several processors, each with as many rows as have room for their sums in its registers. (A
-// macro, since GCC decides how vectors are split in the function in which they are written, before it inlines. What
-// stands in memory may begin anywhere.)
+// The program runs on any x86-64, but wide registers with fused multiplication are several times faster here. Therefore
+// the product is compiled for several processors, each with as many rows as fit with their sums in its registers. (It
+// is a macro, since GCC decides how vectors are split in the function in which they are written, before it inlines.
+// Data in memory may have any alignment.)
 #define BIELLE_MULTIPLY(name, target_attribute, bytes, most_rows)                                                     \
   using name##_piece = double __attribute__((vector_size(bytes), aligned(sizeof(double)), may_alias));                \
   template <int rows>                                                                                                 \
@@ -83,7 +83,7 @@ void multiply_rows(const RecoveryMatrix& matrix, Eigen::Index begin, Eigen::Inde
 }
 
 int recovery_threads(Eigen::Index rows, Eigen::Index coordinates, int frames) {
-  constexpr double worth = 1e6;  // multiplications, some 0.1 ms
+  constexpr double worth = 1e6;  // number of multiplications, some 0.1 ms
   const double work = static_cast<double>(rows) * static_cast<double>(coordinates) * frames;
   return std::clamp(static_cast<int>(work / worth), 1, omp_get_max_threads());
 }

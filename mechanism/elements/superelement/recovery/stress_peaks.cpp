@@ -17,25 +17,26 @@ namespace {
 struct PeakKind {
   const char* dataset;
   const char* sentence;
-  double sign;  ///< -1: the least is sought
+  double sign;  ///< -1: the smallest is recorded
 };
 
-/// In the order of StressPeaks::Kind.
+/// They are in the order of StressPeaks::Kind.
 constexpr std::array<PeakKind, 3> peak_kinds = {{{"von_mises", "largest von Mises stress", 1},
                                                  {"largest_principal", "largest principal stress", 1},
                                                  {"least_principal", "least principal stress", -1}}};
 
-/// Of equal values the first in time, then the first node: no matter in which order they are seen.
+/// If values are equal, the first in time is taken, then the first node: the result does not depend on the order of
+/// evaluation.
 bool exceeds(const StressPeak& one, const StressPeak& other, double sign) {
   if (one.row < 0 || other.row < 0) return one.row >= 0 && other.row < 0;
   if (one.value != other.value) return sign * one.value > sign * other.value;
   return one.time != other.time ? one.time < other.time : one.row < other.row;
 }
 
-/// This name stands for the region of all nodes; a volume group may have the same name.
+/// This name denotes the region of all nodes; a volume group may have the same name.
 constexpr const char* the_whole = "all";
 
-/// The name of a group differs from that of the whole body and from those of the other groups.
+/// Returns a name of a group that differs from that of the whole body and from those of the other groups.
 std::string own_name(std::string group, const std::vector<std::string>& groups) {
   if (group != the_whole) return group;
   do group += "_volume";
@@ -64,7 +65,7 @@ StressPeaks::StressPeaks(std::string body, std::shared_ptr<const StressRecovery>
   std::vector<std::vector<int>> groups(stress_->nodes.size());
   for (std::size_t g = 0; g < stress_->groups.size(); ++g) {
     const bool is_whole = stress_->group_rows[g].size() == stress_->nodes.size();
-    if (is_whole && stress_->groups[g] == the_whole) continue;  // as geometries without groups have it
+    if (is_whole && stress_->groups[g] == the_whole) continue;  // geometries without groups have this one
     for (const int row : stress_->group_rows[g])
       groups[static_cast<std::size_t>(row)].push_back(static_cast<int>(regions_.size()));
     regions_.push_back(own_name(stress_->groups[g], stress_->groups));
@@ -144,7 +145,7 @@ void StressPeaks::look_at(int row, double time, const double* s, Peaks& peaks) c
   const double equivalent = von_mises(s);
   if (von_mises_) offer(row, von_mises_stress, {equivalent, time, row}, peaks);
   if (!principal_) return;
-  // Principal stresses are mean + 2/3 von Mises times the cosine of some angle. Most nodes are out of the question.
+  // Principal stresses are mean + 2/3 von Mises times the cosine of some angle. This excludes most nodes.
   constexpr double rounding = 1e-9;
   const double mean = (s[0] + s[1] + s[2]) / 3, reach = 2.0 / 3 * equivalent;
   if (!may_raise(row, mean, reach + rounding * (std::abs(mean) + reach), peaks)) return;

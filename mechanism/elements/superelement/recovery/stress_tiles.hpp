@@ -1,4 +1,4 @@
-// Stress of all nodes at several frames, node by node, without storing it.
+// Computes the stress of all nodes at several frames, node by node, without storing it.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 
 namespace bielle::mechanism {
 
-/// Calls act(row, frame, stress (6)) for every node and frame. Nodes are divided among threads, and the frames of a
-/// node come in their order, all in one thread.
+/// Calls act(row, frame, stress (6)) for every node and frame. Nodes are divided among threads; the frames of a node
+/// are processed in their order, all in one thread.
 template <class Act>
 void for_each_stress(const StressRecovery& stress, const FrameBlock& coordinates, Act&& act) {
-  constexpr int tile = 16;  // nodes, whose part of the matrix stays in the cache for all frames
+  constexpr int tile = 16;  // number of nodes whose part of the matrix stays in the cache for all frames
   const int nodes = stress.size();
   const int threads = recovery_threads(stress.matrix.rows(), stress.matrix.cols(), coordinates.frames());
 #pragma omp parallel for num_threads(threads) schedule(static)
