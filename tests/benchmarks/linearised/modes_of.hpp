@@ -21,7 +21,7 @@ inline constexpr double two_pi = 2 * std::numbers::pi;
 /// A session of a model's text, brought into static equilibrium if asked.
 struct ModesOf {
   mechanism::MechanismFile file;
-  mechanism::Session session;
+  mutable mechanism::Session session;  ///< the state stays
   explicit ModesOf(const std::string& text, bool equilibrium = false)
       : file(mechanism::read_mechanism_text(text, "model.yaml")), session(file.model) {
     if (!equilibrium) return;

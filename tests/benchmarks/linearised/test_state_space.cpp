@@ -20,7 +20,7 @@ Eigen::MatrixXcd response(const StateSpace& found, double frequency) {
 }
 
 /// The largest difference from frequency_response, relative to the largest response at that frequency.
-double difference(const Session& session, const StateSpaceOptions& options, const std::vector<double>& frequencies) {
+double difference(Session& session, const StateSpaceOptions& options, const std::vector<double>& frequencies) {
   const StateSpace found = compute_state_space(session, options);
   FrequencyResponseOptions same{options.inputs, options.outputs, frequencies, options.rotation};
   const FrequencyResponse exact = compute_frequency_response(session, same);

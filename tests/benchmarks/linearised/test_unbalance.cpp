@@ -35,7 +35,8 @@ std::string disk(double e, const std::string& radial = "1e6") {
 ModesReport modes_at(double e, double speed) {
   ModesOptions options;
   options.rotation = SteadyRotation{Vector3(0, 0, speed), Vector3::Zero()};
-  return ModesOf(disk(e)).compute_modes(session, options);
+  const ModesOf model(disk(e));
+  return compute_modes(model.session, options);
 }
 
 /// S of the motions in the plane.
