@@ -1,6 +1,6 @@
 // Measures of nodes: positions, velocities, rotations and angular velocities, distances and angles.
 //
-//   position.x       e . (p_2 - p_1), of a point of the node from a point of another, along an axis e that rides on the
+//   position.x       e . (p_2 - p_1), of a point of the node from a point of another, along an axis e fixed on the
 //                    other; alone: from the inertial origin along inertial axes [m]
 //   velocity.x       its rate, as seen in those axes [m/s]
 //   rotation.x       component of the rotation vector (principal value) by which the node has turned from where it

@@ -49,7 +49,7 @@ struct EventFunction {
   bool restarts = true;
   bool stops = false;  ///< the run ends at the event
   /// The event tells that a part which holds by a force is overloaded. If several parts are overloaded at once, the one
-  /// that is farthest beyond its limit (its value is the most negative) lets go first, because the others may hold
+  /// that is farthest beyond its limit (its value is the most negative) is released first, because the others may hold
   /// without it.
   bool one_by_one = false;
   /// The event is located no nearer to the start of a step than this fraction of the step: positions are rounded, and

@@ -1,5 +1,5 @@
-// Start conditions of the input file besides positions and velocities of nodes: values and rates of coordinates of
-// components (of joints).
+// Start conditions of the input file in addition to positions and velocities of nodes: values and rates of coordinates
+// of components (of joints).
 //
 // They hold at the start of the first analysis, and are no constraints after that. Solvers identify a coordinate by its
 // component and index only (Component::start_coordinates, Component::calc_start_coordinate).
