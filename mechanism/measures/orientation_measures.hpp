@@ -5,9 +5,9 @@
 //   euler.a, .b, .c     R = Rz(a) Rx(b) Rz(c), b in [0, pi] [rad]
 //   bryant.a.rate, ..   their rates [rad/s]
 //
-// A function of the state knows no turns: values are principal ones, which jump where they leave their domain. Where
-// the middle angle is at its singularity, first and last angle have no derivatives and no rates: what needs them ends
-// the run with a sentence.
+// A function of the state knows no turns: values are principal ones, which jump where they leave their domain. At the
+// singularity of the middle angle, first and last angle have no derivatives and no rates: a computation that needs them
+// ends the run with an error.
 #pragma once
 
 #include <memory>
@@ -18,9 +18,9 @@
 
 namespace bielle::mechanism {
 
-/// "bryant.a", "bryant.a.rate", ...: what formulas may use of every node.
+/// Names of the measures that every node has: "bryant.a", "bryant.a.rate", ...
 const std::vector<std::string>& orientation_measure_names();
-/// One of them, of a node.
+/// Creates one of these measures of a node.
 std::unique_ptr<Measure> make_orientation_measure(const std::string& name, int node, const std::string& measure);
 
 }  // namespace bielle::mechanism

@@ -8,8 +8,8 @@ namespace bielle::mechanism {
 class Notes {
  public:
   virtual ~Notes() = default;
-  /// @param done  completed fraction of the present computation, 0..1; @param where  "t = 0.013 s"
-  virtual void progress(double /*done*/, const std::string& /*where*/) {}
+  /// @param done  completed fraction of the present computation, 0..1; @param at  "t = 0.013 s"
+  virtual void progress(double /*done*/, const std::string& /*at*/) {}
   /// Receives a sentence for the user.
   virtual void note(const std::string& /*sentence*/) {}
 };
