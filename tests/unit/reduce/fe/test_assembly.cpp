@@ -124,7 +124,8 @@ TEST_CASE("The mass matrix of straight cells integrates all products of the fiel
   const test::Box box{{1, 1, 1}, {2, 2, 2}, quadratic};
   const Mesh mesh = test::distorted_box_mesh(box, 0.25);
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
-  const NodeMatrix m = assemble_mass(solid, node_graph(solid.nodes, solid.points()), 2);
+  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeMatrix m = assemble_mass(solid, graph, 2);
   std::vector<Eigen::Vector3d> powers;
   const int degree = quadratic ? 2 : 1;
   for (int i = 0; i <= degree; ++i)
