@@ -32,6 +32,7 @@ struct AutoDiff : std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N
   static_assert(order == 1 || (order == 2 && N != Eigen::Dynamic));
   static constexpr bool is_dynamic = N == Eigen::Dynamic;
   using Gradient = Eigen::Matrix<double, N, 1, 0, most, 1>;
+  using Second = std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N, most>>;
 
   double value = 0;
   Gradient gradient = no_gradient();  ///< g
@@ -40,9 +41,7 @@ struct AutoDiff : std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N
   AutoDiff(double constant) : value(constant) {}  // NOLINT: constants are numbers
   AutoDiff(double v, const Gradient& g) : value(v), gradient(g) {}
   template <class Matrix>
-  requires(order == 2) AutoDiff(double v, const Gradient& g, const Matrix& S) : value(v), gradient(g) {
-    this->second = S;
-  }
+  requires(order == 2) AutoDiff(double v, const Gradient& g, const Matrix& S) : Second{S}, value(v), gradient(g) {}
 
   /// Along a motion: fdot = g . v, and fddot = g . a + v . S v.
   double rate(const Gradient& v) const { return gradient.dot(v); }
@@ -50,8 +49,26 @@ struct AutoDiff : std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N
     return gradient.dot(a) + v.dot(this->second * v);
   }
 
-  AutoDiff& operator+=(const AutoDiff& b) { return add(b, 1); }
-  AutoDiff& operator-=(const AutoDiff& b) { return add(b, -1); }
+  AutoDiff& operator+=(const AutoDiff& b) {
+    value += b.value;
+    if (is_constant(b)) return *this;
+    if (is_constant(*this))
+      gradient = b.gradient;
+    else
+      gradient += b.gradient;
+    if constexpr (order == 2) this->second += b.second;
+    return *this;
+  }
+  AutoDiff& operator-=(const AutoDiff& b) {
+    value -= b.value;
+    if (is_constant(b)) return *this;
+    if (is_constant(*this))
+      gradient = -b.gradient;
+    else
+      gradient -= b.gradient;
+    if constexpr (order == 2) this->second -= b.second;
+    return *this;
+  }
   AutoDiff& operator+=(double constant) {
     value += constant;
     return *this;
@@ -93,20 +110,8 @@ struct AutoDiff : std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N
     else
       return Gradient::Zero();
   }
-  AutoDiff& add(const AutoDiff& b, double sign) {
-    value += sign * b.value;
-    if constexpr (is_dynamic) {
-      if (b.gradient.size() == 0) return *this;
-      if (gradient.size() == 0)
-        gradient = sign * b.gradient;
-      else
-        gradient += sign * b.gradient;
-    } else {
-      gradient += sign * b.gradient;
-    }
-    if constexpr (order == 2) this->second += sign * b.second;
-    return *this;
-  }
+  /// Whether a number of a dynamic number of increments has none.
+  static bool is_constant(const AutoDiff& a) { return is_dynamic && a.gradient.size() == 0; }
 };
 
 // A template of its number calls these for both.
