@@ -68,7 +68,7 @@ function(bielle_tests name)
   set_target_properties(test_${name} PROPERTIES UNITY_BUILD ${BIELLE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
   set(properties "")
   if(ARG_LABELS)
-    set(properties PROPERTIES LABELS "${ARG_LABELS}")
+    set(properties PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 3600)  # long ones take their time on a busy machine
   endif()
   if(ARG_SERIAL)
     list(APPEND properties RUN_SERIAL TRUE)
