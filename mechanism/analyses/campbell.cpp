@@ -20,7 +20,7 @@ class CampbellStates {
   /// Axes and setting are those of the last value: if any motion is steady in the axes, this one is.
   void begin(Campbell& found) {
     const double last = options_.values.back();
-    with_modes(last, 1, [&](const System& /*system*/, const ModesReport& report) {
+    found.gathered = with_modes(last, 1, [&](const System& /*system*/, const ModesReport& report) {
       // Frequencies of whirl are taken in inertial axes if the motion is steady in these to a thousandth.
       const bool inertial = report.steadiness && report.steadiness->steady_in(ModeAxes::inertial);
       axes_ = inertial ? ModeAxes::inertial : report.axes;
@@ -30,7 +30,6 @@ class CampbellStates {
       found.axes = *axes_;
     });
     found.axis = axis_;
-    found.gathered = gathered_;
     unsteady_ = &found.unsteady;
   }
 
@@ -56,8 +55,9 @@ class CampbellStates {
   }
 
  private:
+  /// @returns lines of the components of another model; empty for that of the session, which collects its own
   template <class Use>
-  void with_modes(double value, int count, const Use& use) {
+  std::string with_modes(double value, int count, const Use& use) const {
     ModesOptions options;
     options.search.count = count;
     options.axes = axes_;
@@ -65,7 +65,7 @@ class CampbellStates {
     if (options_.parameter.empty()) {
       set_rotation(value, options);
       use(session_.system(), compute_modes(session_, options));
-      return;
+      return {};
     }
     Model model = made(value);
     if (options_.rotation) set_rotation(rate_of(model), options);
@@ -73,7 +73,7 @@ class CampbellStates {
       Session other(std::move(model));
       other.begin_analysis("campbell");
       use(other.system(), compute_modes(other, options));
-      gathered_ = other.gathered();
+      return other.gathered();
     } catch (const ComputationError& error) {
       throw ComputationError(fmt::format("{} = {:.9g}: {}", options_.parameter, value, error.what()));
     }
@@ -139,7 +139,6 @@ class CampbellStates {
   std::optional<ModeAxes> axes_;
   Vector3 axis_ = Vector3::Zero();
   std::vector<double>* unsteady_ = nullptr;
-  std::string gathered_;
 };
 
 }  // namespace
@@ -153,7 +152,7 @@ Campbell compute_campbell(Session& session, const CampbellOptions& options) {
   SpeedSweep sweep(
       [&](double value, int count) {
         const double done = (value - options.values.front()) / (options.values.back() - options.values.front());
-        if (session.notes()) session.notes()->progress(done, fmt::format("{:.4g}", value));
+        if (Notes* notes = session.notes()) notes->progress(done, fmt::format("{:.4g}", value));
         session.call_back();
         return states.sample(value, count);
       },

@@ -261,7 +261,8 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
     computation.show(state, environment, row, recorded);
     if (elastic) elastic->note_left_out(state);
     ++report.points;
-    computation.progress((state.time - begin) / options.duration, fmt::format("t = {:.6g} s", state.time));
+    if (Notes* notes = session.notes())
+      notes->progress((state.time - begin) / options.duration, fmt::format("t = {:.6g} s", state.time));
     if (state.time > begin) session.call_back();
   };
   point(0, true);

@@ -17,8 +17,4 @@ void Computation::show(const State& state, const Environment& acting, const Step
   session_.gather(state, acting);
 }
 
-void Computation::progress(double done, const std::string& at) const {
-  if (session_.notes_) session_.notes_->progress(done, at);
-}
-
 }  // namespace bielle::mechanism

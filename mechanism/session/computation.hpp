@@ -27,7 +27,6 @@ class Computation {
   /// @param as_row  whether it is a row of the results
   void show(const State& state, const Environment& acting, const StepRecord& report, bool as_row);
   const State& shown() const { return *session_.shown_; }
-  void progress(double done, const std::string& at) const;  ///< @param done  completed fraction, 0..1
   void note(const std::string& sentence) const { session_.note(sentence); }
   void note(const Event& event) { session_.note(event); }
 

@@ -25,14 +25,16 @@ struct WithSecond {
   Matrix second = Matrix::Zero();  ///< S
 };
 
+template <int N, int order, int most>
+using SecondDerivatives = std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N, most>>;
+
 /// @tparam N      how many increments; Eigen::Dynamic: at most `most`, and none for constants (of order 1 alone)
 /// @tparam order  1 or 2
 template <int N, int order, int most = N>
-struct AutoDiff : std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N, most>> {
+struct AutoDiff : SecondDerivatives<N, order, most> {
   static_assert(order == 1 || (order == 2 && N != Eigen::Dynamic));
   static constexpr bool is_dynamic = N == Eigen::Dynamic;
   using Gradient = Eigen::Matrix<double, N, 1, 0, most, 1>;
-  using Second = std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N, most>>;
 
   double value = 0;
   Gradient gradient = no_gradient();  ///< g
@@ -41,7 +43,8 @@ struct AutoDiff : std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N
   AutoDiff(double constant) : value(constant) {}  // NOLINT: constants are numbers
   AutoDiff(double v, const Gradient& g) : value(v), gradient(g) {}
   template <class Matrix>
-  requires(order == 2) AutoDiff(double v, const Gradient& g, const Matrix& S) : Second{S}, value(v), gradient(g) {}
+  requires(order == 2) AutoDiff(double v, const Gradient& g, const Matrix& S)
+      : SecondDerivatives<N, order, most>{S}, value(v), gradient(g) {}
 
   /// Along a motion: fdot = g . v, and fddot = g . a + v . S v.
   double rate(const Gradient& v) const { return gradient.dot(v); }

@@ -62,7 +62,7 @@ void measure(double size, int threads) {
   progress.finish();
   const std::size_t meshing = progress.phases().size();
   // The system provides memory slowly when it is first touched (above all on a virtual machine): the first
-  // factorisation would include that time. A previous bare factorisation makes both equal, and is shown beside the one
+  // factorisation would include that time. A previous bare factorisation makes both equal, and is shown next to the one
   // that counts.
   const Bare cold = measure_bare(mesh, file.options, threads);
   ReductionReport report;

@@ -16,7 +16,7 @@ GMSH_TYPE = {"triangle": 2, "tetra": 4, "triangle6": 9, "tetra10": 11}
 
 
 def write_msh(mesh, path):
-    """Writes a SolidMesh beside `path` and renames it. @raises InputError if the file cannot be written"""
+    """Writes a SolidMesh next to `path` and renames it. @raises InputError if the file cannot be written"""
     beside = f"{path}.part"
     try:
         with open(beside, "wb") as file:

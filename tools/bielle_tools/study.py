@@ -230,7 +230,7 @@ def _write_table(plan, status, numbers):
 
 
 def find_program():
-    """bielle-mechanism in BIELLE_BIN, in this repository's build, beside an installed tool, or on the PATH."""
+    """bielle-mechanism in BIELLE_BIN, in this repository's build, next to an installed tool, or on the PATH."""
     tools = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     folders = [os.environ.get("BIELLE_BIN", ""), os.path.join(tools, "..", "build", "release", "bin"),
                os.path.join(tools, "..", "..", "..", "bin"), *os.environ.get("PATH", "").split(os.pathsep)]

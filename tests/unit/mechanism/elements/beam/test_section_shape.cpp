@@ -180,7 +180,7 @@ TEST_CASE("walls that are too thin for the finite elements are refused with the 
   for (const auto& [name, dimensions] :
        {std::pair{"i", "{width: 1, height: 1, web: 9e-6, flange: 0.1}"},
         {"i", "{width: 0.5, height: 1, web: 0.1, flange: [9e-6, 0.1]}"},
-        {"t", "{width: 1, height: 1, web: 0.999995, flange: 0.1}"},  // the part that projects beside the web
+        {"t", "{width: 1, height: 1, web: 0.999995, flange: 0.1}"},  // the part that projects next to the web
         {"l", "{width: 1, height: 2, thickness: 1e-5}"},
         {"box", "{width: 1, height: 1, thickness: 1e-6}"},
         {"box", "{width: 1, height: 1, thickness: 0.499999}"}})  // the hollow
