@@ -63,7 +63,7 @@ int body(int argc, char** argv) {
   start_blas(common.threads);
   const MechanismFile file = read_mechanism_file(model_path, read_overrides(settings));
   Progress progress(common.quiet);
-  for (const std::string& doubt : file.doubts) progress.warn(doubt);
+  for (const std::string& warning : file.warnings) progress.warn(warning);
   if (check) {
     fmt::print("{}", describe_model(file));
     return 0;

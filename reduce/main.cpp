@@ -66,7 +66,7 @@ class Workplace {
   int threads(int available) const { return std::max(1, available / static_cast<int>(greeting_.ranks_here)); }
   MatrixMaker matrices() const {
     if (!ranks_) return assembled_matrices;
-    return [this](const Solid& solid, const InsideUnknowns&, int threads) {
+    return [this](const Solid& solid, const InteriorUnknowns&, int threads) {
       return distributed_matrices(*ranks_, static_cast<int>(greeting_.ranks), solid, threads);
     };
   }
@@ -116,8 +116,8 @@ void reduce(const std::string& input, std::string output, bool system_calls, con
   if (const std::string warning = blas_warning(); !warning.empty()) {
     progress.warn(warning);
   }
-  for (const std::string& doubt : file.doubts) {
-    progress.warn(doubt);
+  for (const std::string& warning : file.warnings) {
+    progress.warn(warning);
   }
   const Mesh mesh = import_mesh(file.mesh, progress);
   file.pieces ? reduce_in_pieces(mesh, file, output, progress, common, matrices)

@@ -120,15 +120,16 @@ std::string CampbellAnalysis::format(const Campbell& found) const {
       break;
     }
   }
-  for (const DoubtfulTrack& each : swept.doubtful)
-    text += each.lost ? fmt::format(
-                            "  mode {} was lost between {:.9g} and {:.9g}: nothing that oscillates there has its "
-                            "shape (it no longer oscillates, or changes within less than that)\n",
-                            each.mode + 1, each.from, each.to)
-                      : fmt::format(
-                            "  mode {} is tracked with doubt between {:.9g} and {:.9g}: {:.0f} % of its shape "
-                            "goes on\n",
-                            each.mode + 1, each.from, each.to, 100 * each.correlation);
+  for (const UncertainTrack& each : swept.uncertain)
+    text += each.lost
+                ? fmt::format(
+                      "  mode {} was lost between {:.9g} and {:.9g}: nothing that oscillates there has its "
+                      "shape (it no longer oscillates, or changes within less than that)\n",
+                      each.mode + 1, each.from, each.to)
+                : fmt::format(
+                      "  mode {} is tracked with little certainty between {:.9g} and {:.9g}: {:.0f} % of its shape "
+                      "goes on\n",
+                      each.mode + 1, each.from, each.to, 100 * each.correlation);
   return text;
 }
 

@@ -70,7 +70,7 @@ StepOptions read_stepping(const YamlValue& entry, double duration) {
 
 /// Fractions of the largest energy: if errors, or the scheme's dissipation, exceed them in the energy balance, the
 /// summary warns of the results.
-constexpr double doubtful = 0.05;
+constexpr double worth_a_warning = 0.05;
 /// No scheme adds energy to a motion that its steps resolve: the summary mentions a gain above this fraction.
 constexpr double gained = 0.01;
 
@@ -138,15 +138,15 @@ std::string explain_gap(const Gap& gap, const Scheme& scheme) {
 std::string judge_gap(const Gap& gap, double tolerance) {
   const char* const advice = tolerance > 0 ? "give a smaller `tolerance`" : "take smaller steps, or give a `tolerance`";
   std::string text;
-  if (std::max(std::abs(gap.errors()), gap.turnover) > doubtful)
-    text = "  DOUBTFUL: so large errors in the balance mean steps too long for the motion, or a motion that jumps\n";
+  if (std::max(std::abs(gap.errors()), gap.turnover) > worth_a_warning)
+    text = "  warning: so large errors in the balance mean steps too long for the motion, or a motion that jumps\n";
   else if (gap.whole > gained)
     text = fmt::format("  energy grows: {}\n", advice);
   else if (gap.errors() > gained)
     text = fmt::format("  errors of the steps add energy, which the scheme's dissipation hides: {}\n", advice);
-  if (gap.scheme < -doubtful)
+  if (gap.scheme < -worth_a_warning)
     text += fmt::format(
-        "  DOUBTFUL: the scheme's own dissipation took {:.0f} % of the largest energy: unless what it damps does not "
+        "  warning: the scheme's own dissipation took {:.0f} % of the largest energy: unless what it damps does not "
         "matter, take smaller steps, or a scheme that dissipates less (`rho` closer to 1)\n",
         -100 * gap.scheme);
   return text;
@@ -155,7 +155,7 @@ std::string judge_gap(const Gap& gap, double tolerance) {
 /// A large stored energy does not make a small input or dissipation more accurate.
 std::string judge_flow(double balance, double stored, double through) {
   constexpr double least = 1e-3;  // fraction of the stored energy: smaller flows mean a motion without losses
-  if (through >= stored || through < least * stored || std::abs(balance) <= doubtful * through) return {};
+  if (through >= stored || through < least * stored || std::abs(balance) <= worth_a_warning * through) return {};
   return fmt::format("  that is {:.2g} of the {:.3g} J that went in or were dissipated: these are not known better\n",
                      std::abs(balance) / through, through);
 }
@@ -254,7 +254,7 @@ void DynamicAnalysis::finish(Session& session, Motion& motion, const std::string
     summary.text += format_steps(log.steps, log.iterations, summary.records) +
                     fmt::format(", until t = {:.6g} s\n", motion.time()) + format_march(log, session.system()) +
                     format_events(motion) + format_energy(session, motion, options_);
-  for (const std::string& doubt : motion.doubts()) summary.text += fmt::format("  DOUBTFUL: {}\n", doubt);
+  for (const std::string& warning : motion.warnings()) summary.text += fmt::format("  warning: {}\n", warning);
 }
 
 }  // namespace bielle::mechanism

@@ -94,9 +94,9 @@ void FrequencyResponseAnalysis::solve(Session& session, AnalysisSummary& summary
         "  by {} up to {:.6g} Hz, and the residual of the others from direct answers at {} frequencies; where it was "
         "compared with others, it differs by at most {:.2g} of the answer (at {:.6g} Hz)\n",
         counted(modal.modes, "mode"), modal.fastest, modal.direct, modal.deviation, modal.frequency);
-    constexpr double doubtful = 0.05;
-    if (modal.deviation > doubtful)
-      summary.text += "  DOUBTFUL: take more `modes`, up to one and a half times the highest frequency\n";
+    constexpr double worth_a_warning = 0.05;
+    if (modal.deviation > worth_a_warning)
+      summary.text += "  warning: take more `modes`, up to one and a half times the highest frequency\n";
   }
   for (std::size_t i = 0; i < outputs; ++i)
     for (std::size_t j = 0; j < inputs; ++j) {

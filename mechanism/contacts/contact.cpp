@@ -64,7 +64,7 @@ void Contact::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const {
         if (row == column)
           pattern.add_block(6 * row, 6 * column, 6, 6);
         else
-          pattern.add_passing_block(6 * row, 6 * column, 6, 6);
+          pattern.add_intermittent_block(6 * row, 6 * column, 6, 6);
       }
 }
 

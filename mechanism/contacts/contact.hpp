@@ -2,7 +2,7 @@
 //
 // One component contains all pairs of a group of shapes. Each pair is a penalty contact (pair_force.hpp); only pairs
 // whose bounding spheres overlap are evaluated (near_pairs.hpp), and only pairs that touch have entries in the factors
-// of the tangent (LocalPattern::add_passing_block). With a `restitution`, the damping of a pair follows from its
+// of the tangent (LocalPattern::add_intermittent_block). With a `restitution`, the damping of a pair follows from its
 // approach speed at the beginning of contact: steps end at this event (the event function is the smallest gap of the
 // separated pairs), and the damping is kept in the memory until the pair separates. With a `damping`, steps do not end
 // at the beginning of contact: the forces are continuous.

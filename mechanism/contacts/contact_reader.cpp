@@ -59,10 +59,10 @@ void read_dimensions(const YamlValue& entry, const std::string& word, ContactSha
     shape.surface = read_named_file(
         given, [&](const std::string& path) { return std::make_shared<const TriangleSurface>(read_stl(path, unit)); });
     if (!entry.has("units") && shape.surface->size() > 20)
-      given.doubt(
+      given.warn(
           fmt::format("is {:.3g} m from end to end; are its lengths in mm? Then `units: mm`", shape.surface->size()));
     if (shape.surface->flipped_edges() > 0)
-      given.doubt(
+      given.warn(
           fmt::format("has {} edges at which inside and outside change places: triangles are listed "
                       "anticlockwise, seen from outside",
                       shape.surface->flipped_edges()));
@@ -179,7 +179,7 @@ void read_contact(const std::string& name, const YamlValue& entry, Model& model)
   } catch (const InputError& error) {
     entry.fail(error.what());
   }
-  if (share > 0.02) entry.doubt(depth + ": they will be thrown apart");
+  if (share > 0.02) entry.warn(depth + ": they will be thrown apart");
   contact->set_remark(depth);
   model.add_within(std::move(contact), Entry{Section::joints, name}, Entry{Section::contacts, name});
 }

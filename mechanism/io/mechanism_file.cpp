@@ -12,7 +12,7 @@
 #include "mechanism/elements/superelement/body_points.hpp"
 #include "mechanism/hydraulics/reading/circuit_reader.hpp"
 #include "mechanism/io/component_table.hpp"
-#include "mechanism/io/doubtful_lengths.hpp"
+#include "mechanism/io/implausible_lengths.hpp"
 #include "mechanism/measures/input_measure.hpp"
 #include "mechanism/measures/measure_event.hpp"
 #include "mechanism/measures/read_measure.hpp"
@@ -71,7 +71,7 @@ Expression read_acceleration(const YamlValue& value) {
 PrescribedMotion read_motion(const YamlValue& value) {
   if (!value.is_map()) {
     const Expression displacement = value.expression({"t"});
-    doubt_jumps(value, displacement, "the prescribed motion");
+    warn_of_jumps(value, displacement, "the prescribed motion");
     return displacement;
   }
   value.check_keys({"acceleration", "velocity", "displacement"}, "a motion by its acceleration");
@@ -173,7 +173,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
     constexpr double most = 1e60;  // largest gravity with finite weights
     if (!(file.model.environment.gravity.cwiseAbs().maxCoeff() < most))
       gravity->fail("expected accelerations in m/s^2; no force can be computed with these");
-    doubt_outside(*gravity, file.model.environment.gravity.norm(), plausible_gravity);
+    warn_outside(*gravity, file.model.environment.gravity.norm(), plausible_gravity);
   }
 
   if (root.has("nodes"))
@@ -193,7 +193,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
     for (const auto& [name, entry] : named_entries(*events)) read_event(name, entry, file.model);
   file.model.connect();
   add_supports(file.model);
-  doubt_lengths(file.model, root);
+  warn_of_lengths(file.model, root);
   if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
 
   if (const auto analyses = root.find("analysis"))
@@ -206,7 +206,7 @@ MechanismFile read_mechanism(YamlValue root, const std::map<std::string, std::st
     statics = statics || analysis->type() == "static";
   }
   if (const auto output = root.find("output")) file.output = read_output(*output, end, statics, file.model);
-  file.doubts = root.doubts();
+  file.warnings = root.warnings();
   file.model.source = root.digest({"mechanism", "parameters", "analysis", "output"});
   return file;
 }

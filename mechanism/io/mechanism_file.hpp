@@ -19,7 +19,7 @@ struct MechanismFile {
   std::string text;  ///< text of the file
   std::string path;  ///< path of the file; empty if it was read from a text
   /// Warnings about values that are possible but probably unintended, each with its position.
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
   ModelMaker maker;  ///< creates the model with another value of a parameter
 };
 

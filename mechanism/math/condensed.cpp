@@ -104,12 +104,12 @@ void CondensedPattern::build_rest() {
     if (number(row) >= 0 && number(column) >= 0)
       rest_from_[static_cast<std::size_t>(rest_.find(number(row), number(column)))] = place;
   });
-  std::vector<int> passing;
+  std::vector<int> intermittent;
   for (int place = 0; place < rest_.entry_count(); ++place)
     if (const int from = rest_from_[static_cast<std::size_t>(place)];
-        from >= 0 && std::binary_search(whole_->passing().begin(), whole_->passing().end(), from))
-      passing.push_back(place);
-  rest_.set_passing(std::move(passing));
+        from >= 0 && std::binary_search(whole_->intermittent().begin(), whole_->intermittent().end(), from))
+      intermittent.push_back(place);
+  rest_.set_intermittent(std::move(intermittent));
   for (Block& block : blocks_) find_places(block);
 }
 

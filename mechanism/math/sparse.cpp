@@ -226,7 +226,7 @@ FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& 
   singular_column_ = -1;
   if (pattern_.size() == 0) return FactorStatus::good;
   const std::vector<double>* present = &values;
-  if (!pattern_.passing().empty()) {
+  if (!pattern_.intermittent().empty()) {
     choose_present(values);
     present_values_.resize(present_from_.size());
     for (std::size_t k = 0; k < present_from_.size(); ++k)
@@ -246,7 +246,7 @@ void SparseLU::forget() {
   factors_->symbolic = nullptr;
   present_.reset();
   absent_.clear();
-  present_passing_.clear();
+  present_intermittent_.clear();
 }
 
 /// Whether some value of a range is not zero: compares bits of many values at a time.
@@ -258,27 +258,27 @@ bool SparseLU::any_in(const std::vector<double>& values, const Range& range) {
 }
 
 void SparseLU::choose_present(const std::vector<double>& values) {
-  const std::vector<int>& passing = pattern_.passing();
+  const std::vector<int>& intermittent = pattern_.intermittent();
   const auto is_zero = [&](int place) { return values[static_cast<std::size_t>(place)] == 0; };
   const bool first = !present_;
   const bool grows = std::any_of(absent_.begin(), absent_.end(), [&](const Range& r) { return any_in(values, r); });
-  const auto zeros = std::count_if(present_passing_.begin(), present_passing_.end(), is_zero);
-  const bool stale = 2 * zeros > static_cast<long>(present_passing_.size()) + 10L * pattern_.size();
+  const auto zeros = std::count_if(present_intermittent_.begin(), present_intermittent_.end(), is_zero);
+  const bool stale = 2 * zeros > static_cast<long>(present_intermittent_.size()) + 10L * pattern_.size();
   if (!first && !grows && !stale) return;
   std::vector<int> kept;
-  if (!first && !stale) kept = std::move(present_passing_);
+  if (!first && !stale) kept = std::move(present_intermittent_);
   absent_.clear();
-  present_passing_.clear();
+  present_intermittent_.clear();
   std::vector<int> start = {0}, row;
   present_from_.clear();
   std::size_t next = 0, next_kept = 0;
   const auto is_absent = [&](int place) {
-    if (next == passing.size() || passing[next] != place) return false;
+    if (next == intermittent.size() || intermittent[next] != place) return false;
     ++next;
     const bool was = next_kept < kept.size() && kept[next_kept] == place;
     next_kept += was;
     if (!was && is_zero(place)) return true;
-    present_passing_.push_back(place);
+    present_intermittent_.push_back(place);
     return false;
   };
   for (int column = 0; column < pattern_.size(); ++column) {

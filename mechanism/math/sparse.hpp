@@ -37,15 +37,15 @@ class SparsePattern {
   /// Sets the entries that are zero most of the time (bodies that may touch): the factorisation omits those that are
   /// zero.
   /// @param places  ascending
-  void set_passing(std::vector<int> places) { passing_ = std::move(places); }
-  const std::vector<int>& passing() const { return passing_; }
+  void set_intermittent(std::vector<int> places) { intermittent_ = std::move(places); }
+  const std::vector<int>& intermittent() const { return intermittent_; }
   /// Fill-reducing orderings: they depend on the pattern only, are computed on first use and shared by all factors and
   /// copies, in any number of threads.
   const FillOrderings& orderings() const { return *orderings_; }
 
  private:
   int size_ = 0;
-  std::vector<int> column_start_, row_, passing_;
+  std::vector<int> column_start_, row_, intermittent_;
   std::shared_ptr<const FillOrderings> orderings_;
 };
 
@@ -69,8 +69,8 @@ struct FactorCost {
 /// `factor` keeps the pivot sequence as long as its pivots do not degenerate. When pivots are chosen, rows are scaled
 /// to a largest entry of one, for any units.
 ///
-/// If the pattern has passing entries, only those are factorised that are not zero now or were not zero before, until
-/// these are many: a new entry requires a new ordering and new pivots.
+/// If the pattern has intermittent entries, only those are factorised that are not zero now or were not zero before,
+/// until these are many: a new entry requires a new ordering and new pivots.
 class SparseLU {
  public:
   explicit SparseLU(const SparsePattern& pattern);  ///< the pattern must outlive the factors
@@ -109,10 +109,11 @@ class SparseLU {
   void choose_present(const std::vector<double>& values);
   const SparsePattern& used() const { return present_ ? *present_ : pattern_; }
   const SparsePattern& pattern_;
-  std::unique_ptr<const SparsePattern> present_;  ///< entries of a pattern with passing entries that are factorised
-  std::vector<int> present_from_;                 ///< their places in the whole pattern
-  std::vector<int> present_passing_;              ///< places of the passing entries among them, ascending
-  std::vector<Range> absent_;                     ///< places of the entries that are not factorised
+  std::unique_ptr<const SparsePattern>
+      present_;                            ///< entries of a pattern with intermittent entries that are factorised
+  std::vector<int> present_from_;          ///< their places in the whole pattern
+  std::vector<int> present_intermittent_;  ///< places of the intermittent entries among them, ascending
+  std::vector<Range> absent_;              ///< places of the entries that are not factorised
   std::vector<double> present_values_;
   std::unique_ptr<Factors> factors_;
   int singular_column_ = -1;

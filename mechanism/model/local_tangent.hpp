@@ -135,18 +135,18 @@ class LocalPattern {
     for (int k = 0; k < count; ++k) entries_(row + k, column + k) = lasting;
   }
   /// Adds entries that are zero most of the time (bodies that may touch): solvers omit them while they are zero.
-  void add_passing_block(int row, int column, int rows = 3, int columns = 3) {
-    entries_.block(row, column, rows, columns) = entries_.block(row, column, rows, columns).max(passing);
-    has_passing_ = true;
+  void add_intermittent_block(int row, int column, int rows = 3, int columns = 3) {
+    entries_.block(row, column, rows, columns) = entries_.block(row, column, rows, columns).max(intermittent);
+    has_intermittent_ = true;
   }
   bool has(int row, int column) const { return entries_(row, column) != never; }
-  bool passes(int row, int column) const { return entries_(row, column) == passing; }
-  bool has_passing() const { return has_passing_; }
+  bool is_intermittent(int row, int column) const { return entries_(row, column) == intermittent; }
+  bool has_intermittent() const { return has_intermittent_; }
 
  private:
-  static constexpr char never = 0, passing = 1, lasting = 2;
+  static constexpr char never = 0, intermittent = 1, lasting = 2;
   Eigen::Array<char, Eigen::Dynamic, Eigen::Dynamic> entries_;
-  bool has_passing_ = false;
+  bool has_intermittent_ = false;
 };
 
 }  // namespace bielle::mechanism

@@ -61,10 +61,10 @@ std::vector<std::string> analysis_types(const MechanismFile& file) {
   return types;
 }
 
-std::vector<std::string> doubts_of(const MechanismFile& file) {
-  std::vector<std::string> doubts;
-  for (const std::string& doubt : file.doubts) doubts.push_back(without_unseen_lines(doubt));
-  return doubts;
+std::vector<std::string> warnings_of(const MechanismFile& file) {
+  std::vector<std::string> warnings;
+  for (const std::string& warning : file.warnings) warnings.push_back(without_unseen_lines(warning));
+  return warnings;
 }
 
 std::string describe(const MechanismFile& file) {
@@ -91,7 +91,7 @@ void bind_model(pybind11::module_& module) {
       .def_readonly("text", &MechanismFile::text)
       .def_readonly("path", &MechanismFile::path)
       .def_property_readonly("parameters", [](const MechanismFile& file) { return file.model.parameters; })
-      .def_property_readonly("doubts", doubts_of)
+      .def_property_readonly("warnings", warnings_of)
       .def_property_readonly("nodes", [](const MechanismFile& file) { return node_names(file.model); })
       .def_property_readonly("inputs", [](const MechanismFile& file) { return input_names(file.model); })
       .def_property_readonly("entries", [](const MechanismFile& file) { return entry_names(file.model); })

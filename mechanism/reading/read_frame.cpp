@@ -76,7 +76,7 @@ Matrix3 read_orientation(const YamlValue& entry) {
   if (angles && p.cwiseAbs().maxCoeff() > largest)
     value.fail(fmt::format("angles of more than {:.0e} rad do not tell an orientation any more", largest));
   if (angles && p.cwiseAbs().maxCoeff() > 2 * M_PI)
-    value.doubt(fmt::format("is {:g} meant? Angles are in radians; 90 degrees are pi/2", p.cwiseAbs().maxCoeff()));
+    value.warn(fmt::format("is {:g} meant? Angles are in radians; 90 degrees are pi/2", p.cwiseAbs().maxCoeff()));
   if (given == "rotation_vector") return RotationVector::rotation(p);
   if (given == "bryant") return BryantAngles::rotation(p);
   if (given == "euler") return EulerAngles::rotation(p);

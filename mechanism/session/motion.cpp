@@ -207,11 +207,11 @@ void Motion::set_memory(int place, double value, bool smooth) {
   saved_ = anchored_ = false;
 }
 
-std::vector<std::string> Motion::doubts() const {
-  std::vector<std::string> doubts = parts_.march->doubts();
-  for (std::string& doubt : prescribed_jumps_.doubts(parts_.energy_balance.largest()))
-    doubts.push_back(std::move(doubt));
-  return doubts;
+std::vector<std::string> Motion::warnings() const {
+  std::vector<std::string> warnings = parts_.march->warnings();
+  for (std::string& warning : prescribed_jumps_.warnings(parts_.energy_balance.largest()))
+    warnings.push_back(std::move(warning));
+  return warnings;
 }
 
 bool Motion::advance_to(double until) {

@@ -67,7 +67,7 @@ class Motion {
   /// Changes made by the consistent start. They are empty if a saved motion was continued.
   const StartReport& start() const { return start_; }
   /// Returns warnings for the end of the run.
-  std::vector<std::string> doubts() const;
+  std::vector<std::string> warnings() const;
   const MarchLog& log() const { return parts_.march->log(); }  ///< cost of steps, and reasons of rejected ones
 
  private:

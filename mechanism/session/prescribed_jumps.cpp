@@ -53,7 +53,7 @@ void PrescribedJumps::add(const System& system, const Jump& jump) {
   work_ = jump.work;
 }
 
-std::vector<std::string> PrescribedJumps::doubts(double largest) const {
+std::vector<std::string> PrescribedJumps::warnings(double largest) const {
   const long count = std::count_if(jumps_.begin(), jumps_.end(), [&](double each) { return each > 1e-6 * largest; });
   if (count == 0 || !(jumps_.front() > 1e-6 * largest)) return {};
   return {fmt::format(

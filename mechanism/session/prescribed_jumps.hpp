@@ -14,7 +14,7 @@ class PrescribedJumps {
   /// Records a discontinuity of a motion at which a prescribed rate jumps.
   void add(const System& system, const Jump& jump);
   /// Returns a warning for the end of a run, or none. @param largest  largest energy in the run [J]
-  std::vector<std::string> doubts(double largest) const;
+  std::vector<std::string> warnings(double largest) const;
 
  private:
   std::vector<double> jumps_;    ///< change of the energy, or work of the impulse [J]

@@ -115,12 +115,12 @@ LocalPattern LocalToGlobal::pattern(const Component& component, const Slots& slo
       bool any = false, lasts = false;
       for (int column = first; column < first + 3; ++column) {
         any = any || pattern.has(row, column);
-        lasts = lasts || (pattern.has(row, column) && !pattern.passes(row, column));
+        lasts = lasts || (pattern.has(row, column) && !pattern.is_intermittent(row, column));
       }
       if (lasts)
         pattern.add_block(row, first, 1, 3);
       else if (any)
-        pattern.add_passing_block(row, first, 1, 3);
+        pattern.add_intermittent_block(row, first, 1, 3);
     }
   return pattern;
 }
@@ -131,7 +131,7 @@ LocalPattern LocalToGlobal::related_pattern(const Component& component, const Sl
   LocalPattern reduced(reduced_size());
   LocalPattern local(slots.size());
   component.add_pattern(slots, local);
-  if (!local.has_passing() || !scalars.empty()) {
+  if (!local.has_intermittent() || !scalars.empty()) {
     reduced.add_all();
     return reduced;
   }
@@ -144,12 +144,12 @@ LocalPattern LocalToGlobal::related_pattern(const Component& component, const Sl
       for (int row = nodes[a].local; row < nodes[a].local + 6; ++row)
         for (int column = nodes[b].local; column < nodes[b].local + 6; ++column) {
           any = any || local.has(row, column);
-          lasts = lasts || (local.has(row, column) && !local.passes(row, column));
+          lasts = lasts || (local.has(row, column) && !local.is_intermittent(row, column));
         }
       if (lasts)
         reduced.add_block(nodes[a].reduced, nodes[b].reduced, count(a), count(b));
       else if (any)
-        reduced.add_passing_block(nodes[a].reduced, nodes[b].reduced, count(a), count(b));
+        reduced.add_intermittent_block(nodes[a].reduced, nodes[b].reduced, count(a), count(b));
     }
   return reduced;
 }

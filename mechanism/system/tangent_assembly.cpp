@@ -23,11 +23,11 @@ class TangentAssembly::KeptEntries {
     begin_.push_back(kept_.size());
   }
   /// Whether some entry of a member is zero most of the time.
-  bool any_passing(std::size_t member) const { return passing_.contains(member); }
+  bool any_intermittent(std::size_t member) const { return intermittent_.contains(member); }
   /// Whether this entry is zero most of the time. @param entry  index among the member's own entries, by columns
-  bool passes(std::size_t member, int entry) const {
-    const auto found = passing_.find(member);
-    return found != passing_.end() && found->second[static_cast<std::size_t>(entry)];
+  bool is_intermittent(std::size_t member, int entry) const {
+    const auto found = intermittent_.find(member);
+    return found != intermittent_.end() && found->second[static_cast<std::size_t>(entry)];
   }
   /// Calls act(entry, row, column) for each kept entry: its index among the member's own, by columns, and its global
   /// row and column.
@@ -50,10 +50,10 @@ class TangentAssembly::KeptEntries {
   void add(std::size_t member, const LocalPattern& pattern) {
     const LocalToGlobal& placement = placements_[member];
     const int n = placement.reduced_size();
-    if (pattern.has_passing()) {
-      std::vector<bool>& passing = passing_[member];
+    if (pattern.has_intermittent()) {
+      std::vector<bool>& intermittent = intermittent_[member];
       for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) passing.push_back(pattern.passes(i, j));
+        for (int i = 0; i < n; ++i) intermittent.push_back(pattern.is_intermittent(i, j));
     }
     std::vector<bool> of_others(placement.reads_multipliers ? static_cast<std::size_t>(n) : 0, false);
     if (placement.reads_multipliers)
@@ -72,8 +72,8 @@ class TangentAssembly::KeptEntries {
   const std::vector<LocalToGlobal>& placements_;
   int first_multiplier_;
   std::vector<bool> kept_;
-  std::vector<std::size_t> begin_;                    ///< first bit of each member, and the end
-  std::map<std::size_t, std::vector<bool>> passing_;  ///< passing entries of the members that have some
+  std::vector<std::size_t> begin_;                         ///< first bit of each member, and the end
+  std::map<std::size_t, std::vector<bool>> intermittent_;  ///< intermittent entries of the members that have some
 };
 
 void TangentAssembly::complete() {
@@ -118,32 +118,33 @@ void TangentAssembly::build_pattern(const std::vector<bool>& may_be_idle) {
     for (int k = 0, row = unknowns_.first_multiplier(); row < unknowns_.size(); ++k, ++row)
       if (may_be_idle[static_cast<std::size_t>(k)]) act(row, row);
   });
-  find_passing(kept, may_be_idle);
+  find_intermittent(kept, may_be_idle);
   small_.clear();
   for (std::size_t m = 0; m < placements_.size(); ++m) set_places(kept, m);
   waiting_.assign(1, 0);
   for (const std::size_t m : work_.costly()) waiting_.push_back(waiting_.back() + placements_[m].targets.count());
 }
 
-/// Finds the global entries that are zero most of the time: those for which every contribution is declared as passing.
-void TangentAssembly::find_passing(const KeptEntries& kept, const std::vector<bool>& may_be_idle) {
+/// Finds the global entries that are zero most of the time: those for which every contribution is declared as
+/// intermittent.
+void TangentAssembly::find_intermittent(const KeptEntries& kept, const std::vector<bool>& may_be_idle) {
   bool any = false;
-  for (std::size_t m = 0; m < placements_.size(); ++m) any = any || kept.any_passing(m);
+  for (std::size_t m = 0; m < placements_.size(); ++m) any = any || kept.any_intermittent(m);
   if (!any) return;
   std::vector<char> lasts(static_cast<std::size_t>(pattern_.entry_count()), 0);
   const auto last = [&](int row, int column) { lasts[static_cast<std::size_t>(pattern_.find(row, column))] = 1; };
   for (std::size_t m = 0; m < placements_.size(); ++m)
     kept.for_each(m, [&](int entry, int row, int column) {
-      if (!kept.passes(m, entry)) last(row, column);
+      if (!kept.is_intermittent(m, entry)) last(row, column);
     });
   for (int i = 0; i < unknowns_.dofs(); ++i) last(i, i);
   for (std::size_t k = 0; k < may_be_idle.size(); ++k)
     if (may_be_idle[k])
       last(unknowns_.first_multiplier() + static_cast<int>(k), unknowns_.first_multiplier() + static_cast<int>(k));
-  std::vector<int> passing;
+  std::vector<int> intermittent;
   for (std::size_t k = 0; k < lasts.size(); ++k)
-    if (!lasts[k]) passing.push_back(static_cast<int>(k));
-  pattern_.set_passing(std::move(passing));
+    if (!lasts[k]) intermittent.push_back(static_cast<int>(k));
+  pattern_.set_intermittent(std::move(intermittent));
 }
 
 void TangentAssembly::set_places(const KeptEntries& kept, std::size_t member) {

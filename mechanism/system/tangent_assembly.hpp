@@ -39,7 +39,7 @@ class TangentAssembly {
  private:
   class KeptEntries;
   void find_lone_amplitudes();
-  void find_passing(const KeptEntries& kept, const std::vector<bool>& may_be_idle);
+  void find_intermittent(const KeptEntries& kept, const std::vector<bool>& may_be_idle);
   void set_places(const KeptEntries& kept, std::size_t member);
   void add_small(const State& state, const Environment& environment, const TangentRequest& request,
                  std::vector<double>& values) const;

@@ -112,7 +112,7 @@ void read_regions(const YamlValue& root, BodyFile& body) {
   std::vector<std::string> names;
   for (const auto& [name, value] : materials.entries()) {
     options.materials.emplace(name, read_material(value));
-    doubt_material(value);
+    warn_of_material(value);
     names.push_back(name);
   }
   if (names.empty()) materials.fail("expected at least one material");
@@ -157,7 +157,7 @@ void read_damping(const YamlValue& value, ReductionOptions& options) {
     else
       options.damping_ratios.push_back(ratio->non_negative_number());
     if (options.damping_ratios.empty()) ratio->fail("expected a number or a list of numbers");
-    for (const double each : options.damping_ratios) doubt_outside(*ratio, each, plausible_damping_ratio);
+    for (const double each : options.damping_ratios) warn_outside(*ratio, each, plausible_damping_ratio);
     return;
   }
   const YamlValue rayleigh = value.at("rayleigh");
@@ -214,7 +214,7 @@ BodyFile read(YamlValue root) {
   if (const auto recovery = root.find("recovery")) read_recovery(*recovery, body.options);
   if (const auto pieces = root.find("pieces")) body.pieces = read_pieces(*pieces, body.mesh.cuts);
   resolve_sizes(body.options, body.mesh);
-  body.doubts = root.doubts();
+  body.warnings = root.warnings();
   return body;
 }
 

@@ -17,7 +17,7 @@ struct BodyFile {
   ReductionOptions options;
   std::optional<PiecesRequest> pieces;  ///< at the planes `mesh.cuts`; absent: the body stays whole
   std::vector<std::string>
-      doubts;  ///< sentences about values that are possible but probably not intended, each with its place
+      warnings;  ///< sentences about values that are possible but probably not intended, each with its place
 };
 
 /// Reads and checks a body file: keys, types, ranges, names that the file itself must explain. Conditions that depend

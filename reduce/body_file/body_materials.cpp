@@ -75,13 +75,13 @@ Material read_material(const YamlValue& value) {
   return material;
 }
 
-void doubt_material(const YamlValue& value) {
+void warn_of_material(const YamlValue& value) {
   for (const char* key : {"young", "E1", "E2", "E3", "G12", "G13", "G23"})
-    if (const auto modulus = value.find(key)) doubt_outside(*modulus, modulus->number(), plausible_modulus);
+    if (const auto modulus = value.find(key)) warn_outside(*modulus, modulus->number(), plausible_modulus);
   if (const auto stiffness = value.find("stiffness"))
-    doubt_outside(*stiffness, stiffness->matrix(6, 6).diagonal().maxCoeff(), plausible_modulus);
+    warn_outside(*stiffness, stiffness->matrix(6, 6).diagonal().maxCoeff(), plausible_modulus);
   const YamlValue density = value.at("density");
-  doubt_outside(density, density.number(), plausible_density);
+  warn_outside(density, density.number(), plausible_density);
 }
 
 Eigen::Matrix<double, 6, 6> rotate_elasticity(const Eigen::Matrix<double, 6, 6>& elasticity,

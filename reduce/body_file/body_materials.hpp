@@ -19,10 +19,10 @@ namespace bielle::reduce {
 /// @throws InputError with the place: keys of two kinds, moduli out of range, an unstable material
 Material read_material(const YamlValue& value);
 
-/// Notes a doubt for constants that are possible but that no solid has; another system of units is the likely cause
+/// Adds a warning for constants that are possible but that no solid has; another system of units is the likely cause
 /// (plausible.hpp).
 /// @param value  a material that read_material has accepted
-void doubt_material(const YamlValue& value);
+void warn_of_material(const YamlValue& value);
 
 /// Rotates elastic constants: C'_ijkl = R_im R_jn R_ko R_lp C_mnop.
 /// @param elasticity  C in the material's axes, order xx yy zz yz xz xy [Pa]

@@ -17,7 +17,7 @@ enum class Command : std::int64_t {
   mass,       ///< a: columns, b: rows per node; (per part: rows of u) -> per part: rows of M u
   diagonal,   ///< -> per part: diagonal of K
   geometric,  ///< a: fields f, b: shapes n; (per part: rows of both) -> f matrices (n,n)
-  factorise,  ///< a: unknowns; (per part: InsideShare packed; the first unknowns of blocks) -> statistics
+  factorise,  ///< a: unknowns; (per part: InteriorShare packed; the first unknowns of blocks) -> statistics
   solve,      ///< a: columns; (right-hand sides) -> solutions
   modes,      ///< a: size, b: count; (tolerance, most restarts) -> count found, values, vectors; before: questions
   answer,     ///< (vector): to a question of `modes`

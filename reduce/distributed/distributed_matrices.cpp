@@ -124,7 +124,7 @@ class DistributedMatrices : public BodyMatrices {
     return result;
   }
 
-  std::unique_ptr<Factor> factorise(const InsideUnknowns& inside) const override;
+  std::unique_ptr<Factor> factorise(const InteriorUnknowns& interior) const override;
 
   Eigenpairs eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) const override {
     if (options.method != EigenMethod::automatic)
@@ -159,8 +159,8 @@ class DistributedMatrices : public BodyMatrices {
           rows.middleRows(per_point * static_cast<Eigen::Index>(a), per_point);
   }
 
-  InsideShare inside_of(const std::vector<int>& points, const std::vector<int>& numbers, std::size_t kept,
-                        const SparseRows& carried) const;
+  InteriorShare interior_of(const std::vector<int>& points, const std::vector<int>& numbers, std::size_t kept,
+                            const SparseRows& carried) const;
   void check_regular(const Factor& factor, const std::vector<std::int64_t>& kept, const SparseRows& carried,
                      bool suspected) const;
 
@@ -169,9 +169,9 @@ class DistributedMatrices : public BodyMatrices {
   std::vector<std::vector<int>> points_;  // points of each part
 };
 
-InsideShare DistributedMatrices::inside_of(const std::vector<int>& points, const std::vector<int>& numbers,
-                                           std::size_t kept, const SparseRows& carried) const {
-  InsideShare share;
+InteriorShare DistributedMatrices::interior_of(const std::vector<int>& points, const std::vector<int>& numbers,
+                                               std::size_t kept, const SparseRows& carried) const {
+  InteriorShare share;
   share.starts.push_back(0);
   for (const int point : points) {
     for (int i = 0; i < 3; ++i) {
@@ -186,9 +186,9 @@ InsideShare DistributedMatrices::inside_of(const std::vector<int>& points, const
   return share;
 }
 
-std::unique_ptr<Factor> DistributedMatrices::factorise(const InsideUnknowns& inside) const {
-  const std::vector<std::int64_t>& kept = inside.kept;
-  const SparseRows& carried = inside.carried;
+std::unique_ptr<Factor> DistributedMatrices::factorise(const InteriorUnknowns& interior) const {
+  const std::vector<std::int64_t>& kept = interior.kept;
+  const SparseRows& carried = interior.carried;
   const std::size_t size = kept.size() + static_cast<std::size_t>(carried.cols());
   if (size == 0) return nullptr;
   if (size > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -202,7 +202,7 @@ std::unique_ptr<Factor> DistributedMatrices::factorise(const InsideUnknowns& ins
   for (std::size_t k = kept.size(); k <= size; ++k) blocks.starts.push_back(static_cast<int>(k));
   order(channel_, Command::factorise, static_cast<std::int64_t>(size));
   for (const std::vector<int>& points : points_) {
-    InsideShare share = inside_of(points, numbers, kept.size(), carried);
+    InteriorShare share = interior_of(points, numbers, kept.size(), carried);
     send_packed(channel_, share);
   }
   send_packed(channel_, blocks);

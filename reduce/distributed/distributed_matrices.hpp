@@ -1,6 +1,6 @@
 // The mesh's matrices in parts, one on each rank: each rank assembles those of its cells, and the factor of the whole
-// inside is MUMPS's, distributed. Fields on the mesh are kept in this process; rows of a part's points are sent to its
-// rank and back.
+// interior is MUMPS's, distributed. Fields on the mesh are kept in this process; rows of a part's points are sent to
+// its rank and back.
 #pragma once
 
 #include <memory>

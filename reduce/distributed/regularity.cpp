@@ -6,7 +6,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// If the relative stiffness of the inside against some motion is below this, only rounding resists the motion.
+/// If the relative stiffness of the interior against some motion is below this, only rounding resists the motion.
 constexpr double singular = 1e-15;
 
 }  // namespace

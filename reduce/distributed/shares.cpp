@@ -11,7 +11,7 @@ void exchange(Packing& packing, MeshShare& share) {
   packing(share.densities);
 }
 
-void exchange(Packing& packing, InsideShare& share) {
+void exchange(Packing& packing, InteriorShare& share) {
   packing(share.numbers);
   packing(share.starts);
   packing(share.unknowns);

@@ -1,4 +1,4 @@
-// The data of one rank: a part of the mesh, and the relation of its points to the unknowns of the inside.
+// The data of one rank: a part of the mesh, and the relation of its points to the unknowns of the interior.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ void exchange(Packing& packing, MeshShare& share);
 
 /// u = P z on the points of a share: row k of u is the unknown `numbers[k]` of z, or (-1) sum of `weights` times
 /// unknowns over `starts[k] .. starts[k+1]`.
-struct InsideShare {
+struct InteriorShare {
   std::vector<int> numbers;  ///< (3 points)
   std::vector<int> starts;   ///< (3 points + 1)
   std::vector<int> unknowns;
   std::vector<double> weights;
 };
 
-void exchange(Packing& packing, InsideShare& share);
+void exchange(Packing& packing, InteriorShare& share);
 
 /// First unknown of each block, then the number of unknowns; the unknowns of a point are consecutive.
 struct BlockStarts {

@@ -162,11 +162,11 @@ CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces) {
   return result;
 }
 
-std::string doubtful_size(const Mesh& mesh) {
-  return doubtful_length((mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff());
+std::string implausible_size(const Mesh& mesh) {
+  return implausible_length((mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).maxCoeff());
 }
 
-std::string doubtful_length(double metres) {
+std::string implausible_length(double metres) {
   if (metres <= 150 && metres >= 1e-3) return "";
   return fmt::format("the body is {:.3g} m long: is length_unit right?", metres);
 }

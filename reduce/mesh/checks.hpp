@@ -30,8 +30,8 @@ CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces);
 
 /// A sentence if the body is longer than 150 m or smaller than 1 mm, probably because of a wrong unit of length; else
 /// empty.
-std::string doubtful_size(const Mesh& mesh);
-std::string doubtful_length(double metres);  ///< the same of its largest extent
+std::string implausible_size(const Mesh& mesh);
+std::string implausible_length(double metres);  ///< the same of its largest extent
 
 /// Quality of the solid cells.
 struct MeshQuality {

@@ -279,7 +279,8 @@ std::string describe_source(const std::string& path, const SourceFile& source) {
   session.read(fmt::format("'{}' cannot be listed", path), [&] {
     const bool mesh = !source.geometry || model_has_cells(3);
     text = fmt::format("{}: {}; {}\n", path, mesh ? "a mesh" : "a geometry", source.unit_note);
-    if (const std::string doubt = doubtful_length(source.metres * extent); !doubt.empty()) text += doubt + "\n";
+    if (const std::string warning = implausible_length(source.metres * extent); !warning.empty())
+      text += warning + "\n";
     text += groups_text();
     text += mesh ? mesh_text(session, source) : geometry_text(source.metres);
   });

@@ -45,17 +45,17 @@ void check_cell_count(GmshSession& session, const MeshRequest& request, const So
 
 // Names mesh sizes that are larger than the body and therefore have no effect, probably because they are in
 // millimetres.
-void doubt_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source, Progress& progress) {
+void warn_of_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source, Progress& progress) {
   const double extent = source.metres * model_extent(session);
-  const auto doubt = [&](const std::string& located, double size) {
+  const auto warning = [&](const std::string& located, double size) {
     if (size > extent)
       progress.warn(
           at_place(located, fmt::format("a size of {:.6g} m is more than the body, which is {} long: sizes are in "
                                         "metres, whatever the unit of the geometry; was {:.6g}e-3 meant?",
                                         size, length_name(extent), size)));
   };
-  if (request.size) doubt(request.mesh_located, *request.size);
-  for (const auto& [name, wish] : request.sizes) doubt(wish.located, wish.size);
+  if (request.size) warning(request.mesh_located, *request.size);
+  for (const auto& [name, wish] : request.sizes) warning(wish.located, wish.size);
 }
 
 // The surfaces of a selection.
@@ -131,7 +131,7 @@ void mesh_geometry(GmshSession& session, const MeshRequest& request, const Sourc
   MeshSizes sizes;
   if (request.size) sizes.largest = *request.size / source.metres;
   check_cell_count(session, request, source, sizes, progress);
-  doubt_sizes(session, request, source, progress);
+  warn_of_sizes(session, request, source, progress);
   sizes.on_entities = entity_sizes(session, request, source, groups, sizes);
   if (!sizes.on_entities.empty()) check_cell_count(session, request, source, sizes, progress);
   placed(request.located, [&] { mesh_surfaces(session, source.name, sizes); });

@@ -1,6 +1,6 @@
 // The accuracy of a reduction: the reduced body is compared with its mesh.
 //
-// Omitted modes. A free mode u = T v at lambda = omega^2 leaves the inside with the residual r = K u - lambda M u, to
+// Omitted modes. A free mode u = T v at lambda = omega^2 leaves the interior with the residual r = K u - lambda M u, to
 // which the kept modes are orthogonal. The answers z = K_ii^-1 r of the held body to the residuals of the lowest modes
 // are added to the shapes (enrichment.hpp). They give the frequencies without the truncation, to second order and from
 // above: the true error is at least the stated one. Mesh. See fe/mesh_error.hpp; the fields are the lowest free modes,

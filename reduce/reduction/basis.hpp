@@ -54,7 +54,7 @@ struct ModeRequest {
 double radius_of_gyration(const MassProperties& body);
 
 /// If modes are requested, one more is computed, to know the frequency of the first omitted mode.
-/// @throws InputError if more modes are requested than the inside has degrees of freedom; ComputationError if they do
+/// @throws InputError if more modes are requested than the interior has degrees of freedom; ComputationError if they do
 /// not converge
 Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& ties, const FixedInterfaceBody& held,
                  const MassProperties& body, const ModeRequest& modes, Progress& progress, int threads);

@@ -16,14 +16,14 @@ namespace bielle::reduce {
 
 namespace {
 
-std::int64_t unknowns_of(const InsideUnknowns& inside) {
-  return static_cast<std::int64_t>(inside.kept.size()) + inside.carried.cols();
+std::int64_t unknowns_of(const InteriorUnknowns& interior) {
+  return static_cast<std::int64_t>(interior.kept.size()) + interior.carried.cols();
 }
 
 /// Returns nothing if the factor is dense and needs no structure.
-std::shared_ptr<const FactorStructure> structure_of(const BlockGraph& points, const InsideUnknowns& inside) {
-  if (unknowns_of(inside) <= most_dense_unknowns) return nullptr;
-  return std::make_shared<const FactorStructure>(inside_graph(points, inside));
+std::shared_ptr<const FactorStructure> structure_of(const BlockGraph& points, const InteriorUnknowns& interior) {
+  if (unknowns_of(interior) <= most_dense_unknowns) return nullptr;
+  return std::make_shared<const FactorStructure>(interior_graph(points, interior));
 }
 
 /// Computes K_ii - sigma M_ii. @param kept  unknowns x y z of points, ascending
@@ -43,17 +43,17 @@ void subtract_inertia(SymmetricMatrix& matrix, const std::vector<std::int64_t>& 
 
 class MatricesHere : public BodyMatrices {
  public:
-  MatricesHere(const Solid& solid, const InsideUnknowns& inside, int threads)
+  MatricesHere(const Solid& solid, const InteriorUnknowns& interior, int threads)
       : solid_(solid),
         threads_(threads),
         graph_(node_graph(solid.nodes, solid.points(), threads)),
-        prepared_for_(inside) {
+        prepared_for_(interior) {
     const int others = std::max(1, threads - 1);
     // The stiffness is assembled in another thread, if available, since METIS catches signals of its own.
     std::future<void> assembly =
         std::async(threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred,
                    [&] { stiffness_ = assemble_stiffness(solid, graph_, others); });
-    structure_ = structure_of(point_graph(graph_), inside);
+    structure_ = structure_of(point_graph(graph_), interior);
     const bool is_busy = assembly.wait_for(std::chrono::seconds(0)) == std::future_status::timeout;
     if (!is_busy) assembly.get();
     try {
@@ -75,14 +75,14 @@ class MatricesHere : public BodyMatrices {
   std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const override {
     return reduced_geometric_stiffness(solid_, graph_, fields, shapes, threads_);
   }
-  std::unique_ptr<Factor> factorise(const InsideUnknowns& inside) const override {
-    if (unknowns_of(inside) == 0) return nullptr;
+  std::unique_ptr<Factor> factorise(const InteriorUnknowns& interior) const override {
+    if (unknowns_of(interior) == 0) return nullptr;
     const std::shared_ptr<const FactorStructure> structure =
-        inside.is_like(prepared_for_) ? structure_ : structure_of(point_graph(graph_), inside);
-    SymmetricMatrix matrix = principal_submatrix(stiffness_, inside.kept);
-    if (inside.carried.cols() > 0) {
-      const RowMatrix forces = stiffness_.multiply(RowMatrix(inside.carried), threads_);
-      matrix = bordered(matrix, forces(inside.kept, Eigen::all), inside.carried.transpose() * forces);
+        interior.is_like(prepared_for_) ? structure_ : structure_of(point_graph(graph_), interior);
+    SymmetricMatrix matrix = principal_submatrix(stiffness_, interior.kept);
+    if (interior.carried.cols() > 0) {
+      const RowMatrix forces = stiffness_.multiply(RowMatrix(interior.carried), threads_);
+      matrix = bordered(matrix, forces(interior.kept, Eigen::all), interior.carried.transpose() * forces);
     }
     if (!structure) return std::make_unique<DenseFactor>(matrix);
     return std::make_unique<SymmetricFactor>(structure, std::move(matrix), threads_);
@@ -101,14 +101,14 @@ class MatricesHere : public BodyMatrices {
   NodeGraph graph_;
   SymmetricMatrix stiffness_;
   NodeMatrix mass_;
-  InsideUnknowns prepared_for_;
+  InteriorUnknowns prepared_for_;
   std::shared_ptr<const FactorStructure> structure_;
 };
 
 }  // namespace
 
-std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads) {
-  return std::make_unique<MatricesHere>(solid, inside, threads);
+std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InteriorUnknowns& interior, int threads) {
+  return std::make_unique<MatricesHere>(solid, interior, threads);
 }
 
 }  // namespace bielle::reduce

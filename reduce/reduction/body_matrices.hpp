@@ -15,7 +15,7 @@
 
 namespace bielle::reduce {
 
-/// The inside's K - sigma M with the rows that the factor leaves out at its border, for the signs of its pivots.
+/// The interior's K - sigma M with the rows that the factor leaves out at its border, for the signs of its pivots.
 struct BorderedShift {
   std::vector<std::int64_t> kept;  ///< unknowns x y z of points, ascending: all that is factorised but carried ones
   double eigenvalue = 0;           ///< sigma = omega^2 [rad^2/s^2]
@@ -38,8 +38,8 @@ class BodyMatrices {
   /// P^T K P.
   /// @returns nothing if there are no unknowns
   /// @throws NotPositiveDefinite; ComputationError when memory does not suffice
-  virtual std::unique_ptr<Factor> factorise(const InsideUnknowns& inside) const = 0;
-  /// See shift_invert_eigenpairs: the pencil is that of the inside; its solution may include any conditions.
+  virtual std::unique_ptr<Factor> factorise(const InteriorUnknowns& interior) const = 0;
+  /// See shift_invert_eigenpairs: the pencil is that of the interior; its solution may include any conditions.
   virtual Eigenpairs eigenpairs(const ShiftInvertProblem& problem, int count, const EigenpairOptions& options) const {
     return shift_invert_eigenpairs(problem, count, options);
   }
@@ -51,14 +51,14 @@ class BodyMatrices {
 };
 
 /// Makes the matrices of a solid; they may refer to it.
-/// @param inside   the unknowns that will be factorised, for preparation during the assembly. Other unknowns may be
+/// @param interior   the unknowns that will be factorised, for preparation during the assembly. Other unknowns may be
 /// factorised instead
 /// @param threads  >= 1
 using MatrixMaker =
-    std::function<std::unique_ptr<BodyMatrices>(const Solid& solid, const InsideUnknowns& inside, int threads)>;
+    std::function<std::unique_ptr<BodyMatrices>(const Solid& solid, const InteriorUnknowns& interior, int threads)>;
 
 /// All matrices are in this process. One thread finds the structure of the factor while the others assemble.
 /// @throws ComputationError as assemble_stiffness, and if memory does not suffice
-std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InsideUnknowns& inside, int threads);
+std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InteriorUnknowns& interior, int threads);
 
 }  // namespace bielle::reduce

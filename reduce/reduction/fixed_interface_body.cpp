@@ -53,12 +53,12 @@ Eigen::MatrixXd FixedInterfaceBody::inertia(const BodyMatrices& matrices, const 
 }
 
 void FixedInterfaceBody::factorise(const BodyMatrices& matrices, const Solid& solid) {
-  const InsideUnknowns inside = freedoms_.inside();
+  const InteriorUnknowns interior = freedoms_.interior();
   try {
-    factor_ = matrices.factorise(inside);
+    factor_ = matrices.factorise(interior);
   } catch (const NotPositiveDefinite& error) {
-    if (error.unknown() < static_cast<std::int64_t>(inside.kept.size())) {
-      const Eigen::Vector3d x = solid.mesh.points.col(inside.kept[error.unknown()] / 3);
+    if (error.unknown() < static_cast<std::int64_t>(interior.kept.size())) {
+      const Eigen::Vector3d x = solid.mesh.points.col(interior.kept[error.unknown()] / 3);
       throw ComputationError(fmt::format(
           "the stiffness of the body is singular at the point ({:.4g}, {:.4g}, {:.4g}) m: a part of the mesh "
           "hangs on there by a point or an edge only, or its cells are degenerate",

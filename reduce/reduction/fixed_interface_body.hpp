@@ -1,8 +1,8 @@
 // The body with every kept direction of its interfaces held: constraint modes, fixed-boundary modes and inertia relief
-// all use one factorisation of its inside.
+// all use one factorisation of its interior.
 //
-// Inside coordinates z: the displacements of the points that no interface carries, then the released directions of
-// rigid ties. With average ties the inside is not held by removed degrees of freedom but by conditions C z = q_a with
+// Interior coordinates z: the displacements of the points that no interface carries, then the released directions of
+// rigid ties. With average ties the interior is not held by removed degrees of freedom but by conditions C z = q_a with
 // multipliers lambda:
 //     K_ii z + C^T lambda = f,   C z = q_a.
 // K_ii may then be singular: N spans its rigid motions (r of them). It is held at r suitable degrees of freedom; then

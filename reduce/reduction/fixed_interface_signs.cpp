@@ -1,4 +1,4 @@
-// The pivots of K - sigma M of the held body: its factorised inside, bordered by the rows that the factor leaves out.
+// The pivots of K - sigma M of the held body: its factorised interior, bordered by the rows that the factor leaves out.
 #include <cmath>
 #include <vector>
 

@@ -64,8 +64,8 @@ HeldFreedoms::HeldFreedoms(const Solid& solid, const Ties& ties) : carry_release
   choose_supports();
 }
 
-InsideUnknowns HeldFreedoms::inside() const {
-  InsideUnknowns result{{}, carry_released};
+InteriorUnknowns HeldFreedoms::interior() const {
+  InteriorUnknowns result{{}, carry_released};
   for (const Eigen::Index k : not_supports) {
     if (k >= static_cast<Eigen::Index>(free.size())) break;
     result.kept.push_back(free[static_cast<std::size_t>(k)]);

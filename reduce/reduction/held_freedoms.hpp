@@ -11,7 +11,7 @@
 
 namespace bielle::reduce {
 
-/// Inside coordinates z and symbols are as in held_body.hpp.
+/// Interior coordinates z and symbols are as in held_body.hpp.
 struct HeldFreedoms {
   Eigen::Index size = 0;               ///< number of coordinates z
   std::vector<std::int64_t> free;      ///< unknowns x y z of the points that are neither tied nor outside, ascending
@@ -27,7 +27,7 @@ struct HeldFreedoms {
   HeldFreedoms(const Solid& solid, const Ties& ties);
 
   /// The unknowns that are factorised: all but the supports.
-  InsideUnknowns inside() const;
+  InteriorUnknowns interior() const;
   /// Displacements of points from z. @param u  (3 points, k)
   void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u, int threads) const;
   /// The transposed operation: it maps forces on points to forces on z. @param f  (size, k): results for the first k

@@ -44,7 +44,7 @@ std::vector<std::vector<int>> pulling_columns(const BlockGraph& points, const Sp
 
 }  // namespace
 
-bool InsideUnknowns::is_like(const InsideUnknowns& other) const {
+bool InteriorUnknowns::is_like(const InteriorUnknowns& other) const {
   const auto same = [](const auto* a, const auto* b, Eigen::Index count) { return std::equal(a, a + count, b); };
   return kept == other.kept && carried.rows() == other.carried.rows() && carried.cols() == other.carried.cols() &&
          carried.isCompressed() && other.carried.isCompressed() && carried.nonZeros() == other.carried.nonZeros() &&
@@ -67,21 +67,21 @@ BlockGraph point_graph(const NodeGraph& graph) {
   return result;
 }
 
-BlockGraph inside_graph(const BlockGraph& points, const InsideUnknowns& inside) {
+BlockGraph interior_graph(const BlockGraph& points, const InteriorUnknowns& interior) {
   std::vector<int> block_of(static_cast<std::size_t>(points.size()), -1), point_of;
   BlockGraph result;
   result.first.clear();
-  for (std::size_t k = 0; k < inside.kept.size(); ++k) {
-    const int point = static_cast<int>(inside.kept[k] / 3);
+  for (std::size_t k = 0; k < interior.kept.size(); ++k) {
+    const int point = static_cast<int>(interior.kept[k] / 3);
     if (!point_of.empty() && point_of.back() == point) continue;
     block_of[static_cast<std::size_t>(point)] = static_cast<int>(point_of.size());
     point_of.push_back(point);
     result.first.push_back(static_cast<std::int64_t>(k));
   }
-  const int of_points = static_cast<int>(point_of.size()), carried = static_cast<int>(inside.carried.cols());
-  for (int c = 0; c <= carried; ++c) result.first.push_back(static_cast<std::int64_t>(inside.kept.size()) + c);
+  const int of_points = static_cast<int>(point_of.size()), carried = static_cast<int>(interior.carried.cols());
+  for (int c = 0; c <= carried; ++c) result.first.push_back(static_cast<std::int64_t>(interior.kept.size()) + c);
 
-  const std::vector<std::vector<int>> pulling = pulling_columns(points, inside.carried);
+  const std::vector<std::vector<int>> pulling = pulling_columns(points, interior.carried);
   for (const int b : point_of) {
     for (int p = points.starts[static_cast<std::size_t>(b)]; p < points.starts[static_cast<std::size_t>(b) + 1]; ++p)
       if (const int row = block_of[static_cast<std::size_t>(points.rows[static_cast<std::size_t>(p)])]; row >= 0)

@@ -12,12 +12,12 @@
 namespace bielle::reduce {
 
 /// The unknowns of P^T K P, P = [unit vectors of the unknowns `kept`, carried].
-struct InsideUnknowns {
+struct InteriorUnknowns {
   std::vector<std::int64_t> kept;  ///< unknowns x y z of point 0, of point 1, ..., ascending
   SparseRows carried;              ///< (3 points, c)
 
   /// Tells whether P has the same pattern.
-  bool is_like(const InsideUnknowns& other) const;
+  bool is_like(const InteriorUnknowns& other) const;
 };
 
 /// Makes one block of three unknowns for each point.
@@ -25,6 +25,6 @@ BlockGraph point_graph(const NodeGraph& graph);
 
 /// Blocks of P^T K P: points with kept unknowns, then each column of `carried` by itself.
 /// @param points  graph of K
-BlockGraph inside_graph(const BlockGraph& points, const InsideUnknowns& inside);
+BlockGraph interior_graph(const BlockGraph& points, const InteriorUnknowns& interior);
 
 }  // namespace bielle::reduce

@@ -202,7 +202,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   warn_about_rigid_ties(ties, progress);
   warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.mode_count.value_or(0), progress);
   HeldFreedoms freedoms(solid, ties);
-  const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, freedoms.inside(), threads);
+  const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, freedoms.interior(), threads);
   const BodyMatrices& matrices = *kept_matrices;
 
   if (options.modes_proven && !matrices.can_count_signs())

@@ -137,7 +137,7 @@ void measure(double size, const Settings& settings) {
   const Solid solid = make_solid(mesh, file.options.materials, file.options.regions);
   const Ties ties = make_ties(solid, file.options.interfaces);
   HeldFreedoms freedoms(solid, ties);
-  const std::unique_ptr<BodyMatrices> matrices = assembled_matrices(solid, freedoms.inside(), settings.threads);
+  const std::unique_ptr<BodyMatrices> matrices = assembled_matrices(solid, freedoms.interior(), settings.threads);
   const FixedInterfaceBody held(std::move(freedoms), solid, *matrices, ties, settings.threads);
   fmt::print("\n{} dofs, {:.0f} MB of factor, factorised in {:.2f} s ({:.1f} GFLOP/s)\n", held.size(),
              held.statistics().memory_MB(), held.statistics().factorisation_seconds, held.statistics().speed());

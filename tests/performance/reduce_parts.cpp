@@ -84,7 +84,7 @@ void run(const std::string& body, const std::string& folder, int threads) {
   const Mesh mesh = import_mesh(file.mesh, progress);
   const Solid solid = make_solid(mesh, file.options.materials, file.options.regions);
   const Ties ties = make_ties(solid, file.options.interfaces);
-  const std::vector<std::int64_t> kept = HeldFreedoms(solid, ties).inside().kept;
+  const std::vector<std::int64_t> kept = HeldFreedoms(solid, ties).interior().kept;
   std::vector<std::int64_t> starts, tied;
   for (std::size_t k = 0; k < kept.size(); ++k)
     if (k == 0 || kept[k] / 3 != kept[k - 1] / 3) starts.push_back(static_cast<std::int64_t>(k));

@@ -43,7 +43,7 @@ Bare measure_bare(const Mesh& mesh, const ReductionOptions& options, int threads
   const Solid solid = make_solid(mesh, options.materials, options.regions);
   const Ties ties = make_ties(solid, options.interfaces);
   HeldFreedoms freedoms(solid, ties);
-  const std::unique_ptr<BodyMatrices> matrices = assembled_matrices(solid, freedoms.inside(), threads);
+  const std::unique_ptr<BodyMatrices> matrices = assembled_matrices(solid, freedoms.interior(), threads);
   const FixedInterfaceBody held(std::move(freedoms), solid, *matrices, ties, threads);
   Bare bare;
   bare.factor = held.statistics();

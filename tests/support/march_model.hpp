@@ -18,7 +18,7 @@ struct Course {
   std::vector<Visit> visits;
   mechanism::MarchLog log;
   mechanism::State end;
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
 };
 
 inline Course march(const ReadyModel& model, double end, mechanism::StepOptions options) {
@@ -32,7 +32,7 @@ inline Course march(const ReadyModel& model, double end, mechanism::StepOptions 
     motion.visits.push_back({integration.state().time, step.report.size, step.error, step.on_grid});
   }
   motion.log = march.log();
-  motion.doubts = march.doubts();
+  motion.warnings = march.warnings();
   motion.end = integration.state();
   return motion;
 }

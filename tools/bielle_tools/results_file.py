@@ -61,7 +61,7 @@ class Results:
         self.path = os.path.abspath(path)
         self.file = open_hdf5(path, "bielle results", "results of bielle-mechanism")
         self.root = self.file
-        self._doubted = set()
+        self._warned = set()
         with reading(self.path, "/"):
             if analysis is not None:
                 if f"analysis_{analysis}" not in self.file:
@@ -227,8 +227,8 @@ class Results:
         if not bad.any():
             return values
         # These are intended: nodes without stress, modes that were lost or have no sense of whirl.
-        if place not in self._doubted and not place.endswith(("von_mises", "stress", "strain")) and not place.startswith("campbell/"):
-            self._doubted.add(place)
+        if place not in self._warned and not place.endswith(("von_mises", "stress", "strain")) and not place.startswith("campbell/"):
+            self._warned.add(place)
             note(f"{self.path}: '{place}' holds values that are no numbers, or larger than {LARGEST:g}: they are left out")
         return np.where(bad, np.nan, values)
 

@@ -74,7 +74,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   const Matrix6 stiffness = section.at(0.5).stiffness;
   if (const double thickness = 2 * std::sqrt(std::max(stiffness(4, 4), stiffness(5, 5)) / stiffness(0, 0));
       thickness > line.length())
-    entry.at("section").doubt(
+    entry.at("section").warn(
         fmt::format("is it meant? It is as stiff as one of some {:.2g} m in size, and the beam is {:.2g} m long; "
                     "lengths are in metres",
                     thickness, line.length()));

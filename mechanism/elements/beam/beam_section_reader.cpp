@@ -131,8 +131,8 @@ SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const Yam
   d.numbers = read_shape_dimensions(kind, value.at(kind));
   const double young = value.at("young").positive_number();
   const auto density = value.find("density");
-  doubt_outside(value.at("young"), young, plausible_modulus);
-  if (density && density->non_negative_number() > 0) doubt_outside(*density, density->number(), plausible_density);
+  warn_outside(value.at("young"), young, plausible_modulus);
+  if (density && density->non_negative_number() > 0) warn_outside(*density, density->number(), plausible_density);
   d.material = Vector3(young, shear_modulus(value, young), density ? density->non_negative_number() : 0);
   d.offset = read_offset(value, "the centroid");
   d.has_density = density.has_value();

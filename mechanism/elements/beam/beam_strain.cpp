@@ -8,7 +8,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double worth_a_doubt = 0.02;
+constexpr double worth_a_warning = 0.02;
 // Bending under tension decays from a clamp like exp(-x/l), which one cubic can only represent over a few lengths l:
 // with seven in each of four elements the deflection of a strip is accurate to 1 %; the first frequency of a blade of
 // two elements with ten in each is 10 % too high. Moments next to the clamp require elements of one or two lengths.
@@ -43,19 +43,19 @@ std::string BeamStrainWatch::summary() {
   std::string text;
   if (layers_ > too_long)
     text = fmt::format(
-        "  DOUBTFUL: under its tension beam '{}' bends within {:.2g} m of clamps and side loads alone, and its "
+        "  warning: under its tension beam '{}' bends within {:.2g} m of clamps and side loads alone, and its "
         "elements are {:.2g} m long: take at least {:.0f} of them\n",
         element_.name(), element_.length() / layers_, element_.length(), std::ceil(elements * layers_ / advised));
-  if (strain_ < worth_a_doubt) return text;
+  if (strain_ < worth_a_warning) return text;
   return text +
-         fmt::format("  DOUBTFUL: beam '{}' is strained by {:.2g} %{} at {}{}: its law is linear, for small strains\n",
+         fmt::format("  warning: beam '{}' is strained by {:.2g} %{} at {}{}: its law is linear, for small strains\n",
                      element_.name(), 100 * strain_,
                      elements == 1 ? "" : fmt::format(", most in element {} of {},", element, elements),
                      statics_ ? fmt::format("load factor {:.6g}", time_) : fmt::format("t = {:.6g} s", time_),
                      element_.knows_its_shape() ? "" : ", if it is as thick as EI and EA say");
 }
 
-double BeamStrainWatch::loudness() const { return std::max(strain_ / worth_a_doubt, layers_ / too_long); }
+double BeamStrainWatch::loudness() const { return std::max(strain_ / worth_a_warning, layers_ / too_long); }
 
 std::string BeamStrainWatch::what() const { return fmt::format("{}, {}", voice(), element_.place().element); }
 

@@ -14,7 +14,7 @@ void ForceFormulas::read(const YamlValue& components, bool moment, const char* e
   for (std::size_t k = 0; k < 3; ++k) {
     StateFormula& component = components_[(moment ? 3 : 0) + k];
     component = read_state_formula(components.at(k), {"t"}, model, references);
-    if (component.is_constant()) doubt_outside(components.at(k), components.at(k).number(), plausible_load);
+    if (component.is_constant()) warn_outside(components.at(k), components.at(k).number(), plausible_load);
   }
 }
 

@@ -128,7 +128,7 @@ Matrix6 read_field(const YamlValue& value, const Vector3& way, bool symmetric, c
                     "axes as drawn, in N and m?). Springs to the ground are joints with `ground`",
                     rigid));
   if (rigid > rounding)
-    value.doubt(
+    value.warn(
         fmt::format("resists rigid motions of the pair by {:.2g} of its entries; that part has no effect", rigid));
   const FieldMap B = ends_of_deformation();
   const Matrix6 reduced = B.transpose() * A * B;

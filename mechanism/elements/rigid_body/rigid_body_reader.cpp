@@ -71,17 +71,17 @@ void check_representable(const YamlValue& entry, const MassProperties& p) {
 /// Warns of masses and inertias that may belong to another system of units. A compact body of mass m has a radius of
 /// gyration k with m/k^3 about 16 times its density; long and thin bodies have less, inertias in kg mm^2 give 1e-9 of
 /// it.
-void doubt_units(const YamlValue& entry, const MassProperties& p) {
+void warn_of_units(const YamlValue& entry, const MassProperties& p) {
   constexpr double heaviest = 1e7;   // [kg] mass of the steel of the Eiffel tower
   constexpr double lightest = 1e-3;  // m/k^3 [kg/m^3]: 1 kg over 35 m
   const YamlValue mass = entry.at(entry.has("solid") ? "solid" : "mass");
   if (p.mass > heaviest)
-    mass.doubt(fmt::format("are {:.3g} kg meant? Lengths are in metres, densities in kg/m^3, masses in kg", p.mass));
+    mass.warn(fmt::format("are {:.3g} kg meant? Lengths are in metres, densities in kg/m^3, masses in kg", p.mass));
   const auto inertia = entry.find("inertia");
   if (!inertia) return;
   const double gyration = std::sqrt(0.5 * p.inertia.trace() / p.mass);  // for a long body; smaller for others
   if (p.mass < lightest * gyration * gyration * gyration)
-    inertia->doubt(
+    inertia->warn(
         fmt::format("is this meant? {:.3g} kg with so much inertia reaches over some {:.3g} m; inertias are in "
                     "kg m^2 (1e6 kg mm^2)",
                     p.mass, 3.5 * gyration));
@@ -133,7 +133,7 @@ void read_rigid_body(const std::string& name, const YamlValue& entry, Model& mod
     p.inertia = read_inertia(entry, p.mass, p.centre);
   }
   check_representable(entry, p);
-  doubt_units(entry, p);
+  warn_of_units(entry, p);
   if (const auto also = entry.find("also")) carry(*also, node, name, model);
   model.add(std::make_unique<RigidBody>("rigid_body", name, node, p, model.node(node).name),
             Entry{Section::elements, name});

@@ -123,7 +123,7 @@ void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& so
                                                            empty.other + 1, empty.share > whole ? "it" : "that part")
                                              : "no other solid of its density is there";
     if (empty.share > whole) cut.fail(fmt::format("there is nothing here that could be cut out: {}", why));
-    cut.doubt(
+    cut.warn(
         fmt::format("about {:.2g} % of what this solid cuts out is not there ({}), and its mass is subtracted all the "
                     "same: what is "
                     "cut out lies inside of the other solids, and cuts do not overlap",

@@ -71,7 +71,7 @@ std::string StressCompleteness::summary() {
       "  {}superelement '{}' lacks about {:.0f} % of its stress (energy norm): under the accelerations at {} its "
       "modes, with "
       "the interfaces held, give way by {:.1f} % of what the mesh does; reduce it with `inertia_relief: true`\n",
-      modes_share_ < enough_of_answer ? "DOUBTFUL: " : "", body_, 100 * missing,
+      modes_share_ < enough_of_answer ? "warning: " : "", body_, 100 * missing,
       statics_ ? fmt::format("load factor {:.6g}", time_) : fmt::format("t = {:.6g} s", time_), 100 * modes_share_);
 }
 

@@ -120,7 +120,7 @@ MatrixX read_superelement_damping(const YamlValue& entry, const Superelement& bo
     for (const YamlValue& item : ratio.items()) ratios.push_back(item.non_negative_number());
   else
     ratios.push_back(ratio.non_negative_number());
-  for (const double each : ratios) doubt_outside(ratio, each, plausible_damping_ratio);
+  for (const double each : ratios) warn_outside(ratio, each, plausible_damping_ratio);
   try {
     return modal_damping(body, ratios);
   } catch (const InputError& error) {

@@ -178,14 +178,14 @@ std::string Validity::summary() {
   const bool warns = error_ > worth_a_warning;
   if (error_ >= worth_a_line)
     text = fmt::format("  {}superelement '{}' {} at {}: its deformation is wrong by about {:.{}g} %{}\n",
-                       warns ? "DOUBTFUL: " : "", body_, bends(), when(time_, statics_), 100 * error_,
+                       warns ? "warning: " : "", body_, bends(), when(time_, statics_), 100 * error_,
                        error_ < 0.095 ? 1 : 2,
                        !warns                     ? ""
                        : cause_ == Cause::strains ? ", since its elasticity is linear"
                                                   : "; cut it into pieces");
   if (strain_ >= much_strain && !(warns && cause_ == Cause::strains && error_ > 0.5 * strain_))
     text += fmt::format(
-        "  DOUBTFUL: superelement '{}' is strained by {:.2g} % at {}: its elasticity is linear, for small strains\n",
+        "  warning: superelement '{}' is strained by {:.2g} % at {}: its elasticity is linear, for small strains\n",
         body_, 100 * strain_, when(time_of_strain_, statics_));
   return text;
 }

@@ -110,7 +110,7 @@ void read_fluid(const YamlValue& entry, Fluid& fluid) {
     const auto given = entry.find(key);
     if (!given) return;
     value = given->positive_number();
-    doubt_outside(*given, value, range);
+    warn_outside(*given, value, range);
   };
   read_positive("density", fluid.density, plausible_fluid_density);
   read_positive("viscosity", fluid.viscosity, plausible_viscosity);
@@ -139,15 +139,15 @@ void read_ambient_pressure(const YamlValue& entry, Fluid& fluid) {
   const auto ambient = entry.find("ambient_pressure");
   if (!ambient) return;
   fluid.ambient = ambient->non_negative_number();
-  if (fluid.ambient > 0) doubt_outside(*ambient, fluid.ambient, plausible_ambient);
+  if (fluid.ambient > 0) warn_outside(*ambient, fluid.ambient, plausible_ambient);
 }
 
-void doubt_pressure(const YamlValue& place, double p, const Fluid& fluid) {
+void warn_of_pressure(const YamlValue& place, double p, const Fluid& fluid) {
   const bool gauge = fluid.ambient == 0;
   if (gauge && (p <= 0 || p >= nearly_none)) return;
   const double least = std::max(fluid.vapour_pressure, nearly_none);
   if (!gauge && p >= least) return;
-  place.doubt(
+  place.warn(
       gauge ? fmt::format(
                   "are {:.6g} Pa meant? Pressures are in Pa, relative to the atmosphere; {:.6g} bar are {:.6g} Pa", p,
                   p, p * bar)
@@ -158,9 +158,9 @@ void doubt_pressure(const YamlValue& place, double p, const Fluid& fluid) {
                   p, p * bar));
 }
 
-void doubt_setting(const YamlValue& place, double p) {
+void warn_of_setting(const YamlValue& place, double p) {
   if (p <= 0 || p >= nearly_none) return;
-  place.doubt(fmt::format("are {:.6g} Pa meant? Pressures are in Pa; {:.6g} bar are {:.6g} Pa", p, p, p * bar));
+  place.warn(fmt::format("are {:.6g} Pa meant? Pressures are in Pa; {:.6g} bar are {:.6g} Pa", p, p, p * bar));
 }
 
 }  // namespace bielle::mechanism

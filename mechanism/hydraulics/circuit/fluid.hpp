@@ -83,9 +83,9 @@ const std::vector<std::string>& fluid_keys();
 void read_fluid(const YamlValue& entry, Fluid& fluid);
 /// Warns of a pressure at a place that is almost vacuum, or almost zero, because it may be given in bar.
 /// @param p  [Pa], like the user's pressures
-void doubt_pressure(const YamlValue& place, double p, const Fluid& fluid);
+void warn_of_pressure(const YamlValue& place, double p, const Fluid& fluid);
 /// Warns of a setting, a pressure difference, that may be given in bar. @param p  [Pa]
-void doubt_setting(const YamlValue& place, double p);
+void warn_of_setting(const YamlValue& place, double p);
 /// Reads `ambient_pressure` of a map, if it is given. @throws InputError
 void read_ambient_pressure(const YamlValue& entry, Fluid& fluid);
 

@@ -71,7 +71,7 @@ void Junction::describe(const LocalState& /*state*/, Description& description) c
 
 void PressureSource::read(const YamlValue& formula, Model& model) {
   formula_ = read_state_formula(formula, {"t"}, model, references_);
-  if (formula_.is_constant() && !formula_.reads_state()) doubt_pressure(formula, formula.number(), fluid());
+  if (formula_.is_constant() && !formula_.reads_state()) warn_of_pressure(formula, formula.number(), fluid());
 }
 
 void PressureSource::declare(Declaration& declaration) const {

@@ -62,7 +62,7 @@ double read_area(const YamlValue& entry) {
   if (!area && !diameter) entry.fail("needs an `area` [m^2] or a `diameter` [m]");
   const YamlValue& given = area ? *area : *diameter;
   const double number = given.non_negative_number(), size = area ? number : 0.25 * M_PI * number * number;
-  doubt_outside(given, size, plausible_area);
+  warn_outside(given, size, plausible_area);
   return size;
 }
 

@@ -30,7 +30,7 @@ void Spool::read_dynamics(const YamlValue& entry) {
     order_ = 2;
     omega_ = 2 * M_PI * frequency->positive_number();
     damping_ = damping ? damping->non_negative_number() : 0.7;
-    if (damping) doubt_outside(*damping, damping_, plausible_damping_ratio);
+    if (damping) warn_outside(*damping, damping_, plausible_damping_ratio);
   }
 }
 

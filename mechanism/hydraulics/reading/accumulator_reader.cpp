@@ -15,7 +15,7 @@ void add_accumulator(const std::string& name, const YamlValue& entry, Volume& vo
   const YamlValue given = entry.at("precharge");
   const double precharge = given.number(), vacuum = volume.fluid().vacuum();
   if (!(precharge > vacuum)) given.fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", vacuum));
-  doubt_pressure(given, precharge, volume.fluid());
+  warn_of_pressure(given, precharge, volume.fluid());
   double exponent = 1.4;
   if (const auto n = entry.find("exponent")) {
     exponent = n->number();

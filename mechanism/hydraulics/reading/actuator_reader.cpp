@@ -139,7 +139,7 @@ class ActuatorReader {
       const Eigen::VectorXd two = list.vector();
       if (two.size() < 1 || two.size() > 2 || !(two[0] > 0) || (two.size() == 2 && two[1] < 0))
         list.fail("expected [A1, A2] in m^2: extending (greater than 0), and drawing in (0: a single-acting cylinder)");
-      doubt_outside(list, two[0], plausible_piston);
+      warn_outside(list, two[0], plausible_piston);
       pistons.of[0].push_back({two[0], length});
       pistons.of[1].push_back({two.size() == 2 ? two[1] : 0, length});
     };
@@ -325,7 +325,7 @@ class ActuatorReader {
         start[k] = list[static_cast<Eigen::Index>(k)];
         if (!(*start[k] > vacuum))
           pressures->fail(fmt::format("expected pressures above {:.6g} Pa, which is vacuum", vacuum));
-        doubt_pressure(pressures->at(k), *start[k], fluid_);
+        warn_of_pressure(pressures->at(k), *start[k], fluid_);
       }
     }
     const std::array<double, 2> compliances = read_two("compliances");

@@ -104,8 +104,8 @@ class CircuitReader {
     if (pressure) check_pressure(*pressure, p);
     const double c = compliance ? compliance->non_negative_number() : 0;
     if (const auto given = given_.find(name); given != given_.end()) {
-      entry.doubt(fmt::format("the supply '{}' keeps the pressure of this place: its volume and start do not matter",
-                              given->second));
+      entry.warn(fmt::format("the supply '{}' keeps the pressure of this place: its volume and start do not matter",
+                             given->second));
       return;  // created by the supply
     }
     auto place = std::make_unique<Volume>(name, fluid_, V, p, c);
@@ -122,7 +122,7 @@ class CircuitReader {
   void check_pressure(const YamlValue& place, double p) const {
     const double least = fluid_.vacuum();
     if (!(p > least)) place.fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", least));
-    doubt_pressure(place, p, fluid_);
+    warn_of_pressure(place, p, fluid_);
   }
 
   void read_junction(const YamlValue& item) {
@@ -132,7 +132,7 @@ class CircuitReader {
     if (const auto found = ends_of_pipes_.find(name); found != ends_of_pipes_.end()) {
       const EndOfPipes& end = found->second;
       if (!end.other.empty())
-        item.doubt(
+        item.warn(
             fmt::format("the pipe '{}' that leads here begins with {:.6g} Pa, '{}' with {:.6g} Pa: the junction "
                         "begins with the first of them",
                         end.pipe, end.pressure, end.other, end.other_pressure));

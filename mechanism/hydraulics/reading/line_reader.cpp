@@ -100,7 +100,7 @@ void read_counterbalance(const LineEntry& line) {
       "a counterbalance valve");
   PoppetValve::Setting setting;
   setting.pressure = line.data.at("pressure").non_negative_number();
-  doubt_setting(line.data.at("pressure"), setting.pressure);
+  warn_of_setting(line.data.at("pressure"), setting.pressure);
   setting.range = read_range(line.data, setting.pressure);
   setting.area = read_area(line.data);
   setting.back = 0;
@@ -117,7 +117,7 @@ void read_counterbalance(const LineEntry& line) {
 void read_flow_valve(const LineEntry& line) {
   line.data.check_keys({"flow", "pressure"}, "a flow valve");
   const double least = line.data.at("pressure").positive_number();
-  doubt_setting(line.data.at("pressure"), least);
+  warn_of_setting(line.data.at("pressure"), least);
   auto valve = std::make_unique<FlowValve>(line.name, line.from, line.to, least);
   line.model.when_read(Model::Stage::formulas, [valve = valve.get(), formula = line.data.at("flow"),
                                                 &model = line.model] { valve->read(formula, model); });
@@ -165,7 +165,7 @@ void read_pipe(const LineEntry& line) {
   const double pressure = data.at("pressure").number(), vacuum = line.fluid.vacuum();
   if (!(pressure > vacuum))
     data.at("pressure").fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", vacuum));
-  doubt_pressure(data.at("pressure"), pressure, line.fluid);
+  warn_of_pressure(data.at("pressure"), pressure, line.fluid);
   const std::array<const PressureNode*, 2> ends{&line.from, &line.to};
   std::array<bool, 2> holds{};
   for (std::size_t end : {0, 1}) holds[end] = ends[end]->type() == pipe_junction;
@@ -267,7 +267,7 @@ void add_relief(const std::string& name, const YamlValue& entry, const PressureN
   entry.check_keys(joined(joined({"pressure", "vented"}, poppet_keys), orifice_law_keys()), "a relief valve");
   PoppetValve::Setting setting;
   setting.pressure = entry.at("pressure").non_negative_number();
-  doubt_setting(entry.at("pressure"), setting.pressure);
+  warn_of_setting(entry.at("pressure"), setting.pressure);
   setting.range = read_range(entry, setting.pressure);
   setting.area = read_area(entry);
   setting.time_constant = read_time_constant(entry);

@@ -165,7 +165,8 @@ std::unique_ptr<Drive> make_sought(const std::string& name, const YamlValue& ent
 std::unique_ptr<Drive> make_motion(const std::string& name, const std::string& law, const YamlValue& value,
                                    Joint& joint, std::size_t coordinate) {
   Expression f = value.expression({"t"});
-  if (law == "angle" || law == "displacement") doubt_jumps(value, f, law == "angle" ? "the angle" : "the displacement");
+  if (law == "angle" || law == "displacement")
+    warn_of_jumps(value, f, law == "angle" ? "the angle" : "the displacement");
   if (law == "angle" || law == "displacement") joint.start_at(coordinate, f(0));
   if (law == "angle" || law == "displacement")
     return std::make_unique<PositionDrive>(name, joint, coordinate, std::move(f));

@@ -9,7 +9,7 @@ namespace bielle::mechanism {
 
 void ForceDrive::read(const YamlValue& law, Model& model) {
   law_ = read_state_formula(law, {"t"}, model, references());
-  if (law_.is_constant()) doubt_outside(law, law.number(), plausible_load);
+  if (law_.is_constant()) warn_outside(law, law.number(), plausible_load);
 }
 
 void ForceDrive::declare(Declaration& declaration) const {

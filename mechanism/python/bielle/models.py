@@ -99,9 +99,9 @@ class Model:
         return self._core.parameters
 
     @property
-    def doubts(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """Messages about values that are possible but probably unintended."""
-        return self._core.doubts
+        return self._core.warnings
 
     @property
     def nodes(self) -> list[str]:

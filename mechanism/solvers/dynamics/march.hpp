@@ -86,7 +86,7 @@ class March {
   MarchStep advance();
   /// Warnings about formulas of time that change between steps, in this program's run. Adaptive steps give no warnings:
   /// such steps are rejected.
-  std::vector<std::string> doubts() const { return adaptive() ? std::vector<std::string>() : pulses_.doubts(); }
+  std::vector<std::string> warnings() const { return adaptive() ? std::vector<std::string>() : pulses_.warnings(); }
   /// The log is that of this program's run: it contains no steps before a restart.
   const MarchLog& log() const { return log_; }
   void count_as_before() {  ///< moves the log so far to before_

@@ -196,8 +196,8 @@ void PulseWatch::add(double end_time) {
   });
 }
 
-std::vector<std::string> PulseWatch::doubts() const {
-  std::vector<std::string> doubts;
+std::vector<std::string> PulseWatch::warnings() const {
+  std::vector<std::string> warnings;
   std::set<std::string> named;  // elements of one beam have the same name
   for_each_formula([&](const TimeDependent::Formula& formula, std::size_t k) {
     const Total& total = totals_[k];
@@ -205,7 +205,7 @@ std::vector<std::string> PulseWatch::doubts() const {
       const double extent = formula.turns ? 1 : length_, size = std::min(range(total), extent);
       if (!(total.off > std::max(visible_position * size, no_motion * extent))) return;
       if (!named.insert(total.name).second) return;
-      doubts.push_back(
+      warnings.push_back(
           fmt::format("{} moves between steps: up to {:.4g} {} away from what their ends tell, farthest in the step to "
                       "t = {:.6g} s; take smaller steps",
                       total.name, total.missed, formula.units, total.most_at));
@@ -213,12 +213,12 @@ std::vector<std::string> PulseWatch::doubts() const {
     }
     if (!(total.off > visible * range(total)) || !named.insert(total.name).second) return;
     const std::string units = formula.units.empty() ? "s" : formula.units + " s";
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "{} changes between steps: of the integral of its changes over time, {:.4g} {}, they miss {:.4g} {}, most of "
         "it in the step to t = {:.6g} s; take smaller steps",
         total.name, total.whole, units, total.missed, units, total.most_at));
   });
-  return doubts;
+  return warnings;
 }
 
 }  // namespace bielle::mechanism

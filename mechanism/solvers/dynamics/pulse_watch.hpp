@@ -34,7 +34,7 @@ class PulseWatch {
   /// Adds the last evaluation to the totals of the run. @param end_time  end of that step [s]
   void add(double end_time);
   /// Returns one warning for each formula of which steps have missed a large part, for the end of a run.
-  std::vector<std::string> doubts() const;
+  std::vector<std::string> warnings() const;
 
  private:
   struct Source {

@@ -64,14 +64,14 @@ StabilisedEquations::StabilisedEquations(const System& system)
     places.velocity_position = pattern_.find(mu + row - first, eta + column);
     places.constraint = pattern_.find(eta + column, mu + row - first);
   });
-  std::vector<int> passing;
-  for (const int k : system.pattern().passing()) {
+  std::vector<int> intermittent;
+  for (const int k : system.pattern().intermittent()) {
     const Places& places = places_[static_cast<std::size_t>(k)];
     for (const int place : {places.tangent, places.position})
-      if (place >= 0) passing.push_back(place);
+      if (place >= 0) intermittent.push_back(place);
   }
-  std::sort(passing.begin(), passing.end());
-  pattern_.set_passing(std::move(passing));
+  std::sort(intermittent.begin(), intermittent.end());
+  pattern_.set_intermittent(std::move(intermittent));
   for (int i = 0; i < n; ++i) weight_places_.push_back(pattern_.find(eta + i, eta + i));
   for (int k = 0; k < system.multipliers(); ++k) idle_places_.push_back(pattern_.find(mu + k, mu + k));
   values_.resize(static_cast<std::size_t>(pattern_.entry_count()));

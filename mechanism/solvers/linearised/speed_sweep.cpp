@@ -108,7 +108,7 @@ void SpeedSweep::accept(const SweepPoint& from, SweepPoint to) {
   for (std::size_t i = 0; i < to.tracks.size(); ++i) {
     const TrackedMode& track = to.tracks[i];
     if (track.correlation < certain && from.tracks[i].found)
-      result_.doubtful.push_back({static_cast<int>(i), !kept(track), from.value, to.value, track.correlation});
+      result_.uncertain.push_back({static_cast<int>(i), !kept(track), from.value, to.value, track.correlation});
   }
   for (TrackedMode& track : to.tracks)
     if (!kept(track)) track.found = false;

@@ -45,7 +45,7 @@ struct ModeMeeting {
 };
 
 /// A mode whose track is uncertain between two values, or lost.
-struct DoubtfulTrack {
+struct UncertainTrack {
   int mode = 0;
   bool lost = false;
   double from = 0, to = 0;  ///< range of values
@@ -56,7 +56,7 @@ struct SweptModes {
   std::vector<SweepPoint> points;  ///< ascending by value, including inserted ones
   std::vector<CriticalSpeed> critical;
   std::vector<ModeMeeting> meetings;
-  std::vector<DoubtfulTrack> doubtful;
+  std::vector<UncertainTrack> uncertain;
   int solved = 0;  ///< number of states at which modes were computed
 };
 

@@ -8,8 +8,8 @@
 
 namespace bielle {
 
-void doubt_outside(const YamlValue& place, double value, const PlausibleRange& range) {
-  if (value < range.low || value > range.high) place.doubt(fmt::format("is {:g} meant? {}", value, range.text));
+void warn_outside(const YamlValue& place, double value, const PlausibleRange& range) {
+  if (value < range.low || value > range.high) place.warn(fmt::format("is {:g} meant? {}", value, range.text));
 }
 
 namespace {
@@ -33,7 +33,7 @@ double largest_about(const Expression& formula, const std::vector<double>& break
 
 }  // namespace
 
-void doubt_jumps(const YamlValue& place, const Expression& formula, const char* what) {
+void warn_of_jumps(const YamlValue& place, const Expression& formula, const char* what) {
   const double rounding = 1e-12 * largest_about(formula, formula.break_points());
   for (const double time : formula.break_points()) {
     // At a smaller distance a jump keeps its size, but the change at a kink becomes smaller.
@@ -47,7 +47,7 @@ void doubt_jumps(const YamlValue& place, const Expression& formula, const char* 
       continue;
     }
     if (wide > std::max(rounding, 1e-12 * std::abs(formula(time + near))) && narrow > 0.5 * wide) {
-      place.doubt(
+      place.warn(
           fmt::format("{} jumps by {:.3g} at t = {:.6g} s; the motion there is what the steps make of it. `step` is "
                       "a smooth transition",
                       what, narrow, time));

@@ -22,11 +22,11 @@ inline constexpr PlausibleRange plausible_load{-1e12, 1e12, "Forces are in newto
 inline constexpr PlausibleRange plausible_damping_ratio{
     0, 1, "1 is critical damping; joined structures have 0.005 to 0.05 (a ratio, no percentage)"};
 
-/// Notes a doubt if a value is out of range.
-void doubt_outside(const YamlValue& place, double value, const PlausibleRange& range);
+/// Adds a warning if a value is out of range.
+void warn_outside(const YamlValue& place, double value, const PlausibleRange& range);
 
-/// Notes a doubt if a formula of t jumps: a prescribed motion with a jump has no velocity there.
+/// Adds a warning if a formula of t jumps: a prescribed motion with a jump has no velocity there.
 /// @param what  in words with its article: "the angle"
-void doubt_jumps(const YamlValue& place, const Expression& formula, const char* what);
+void warn_of_jumps(const YamlValue& place, const Expression& formula, const char* what);
 
 }  // namespace bielle

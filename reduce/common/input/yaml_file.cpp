@@ -20,7 +20,7 @@ namespace bielle {
 struct YamlValue::Document {
   std::string file, text;
   Parameters parameters;
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
 };
 
 namespace {
@@ -352,8 +352,8 @@ int YamlValue::line() const { return line_; }
 std::string YamlValue::path() const { return path_; }
 std::string YamlValue::source_text() const { return document_->text; }
 void YamlValue::fail(const std::string& message) const { throw InputError(located(message)); }
-void YamlValue::doubt(const std::string& message) const { document_->doubts.push_back(located(message)); }
-const std::vector<std::string>& YamlValue::doubts() const { return document_->doubts; }
+void YamlValue::warn(const std::string& message) const { document_->warnings.push_back(located(message)); }
+const std::vector<std::string>& YamlValue::warnings() const { return document_->warnings; }
 
 std::string YamlValue::located(const std::string& message) const {
   return located_at(document_->file, line_, path_, message);

@@ -98,8 +98,8 @@ class YamlValue {
   std::string located(const std::string& message) const;  ///< the text that `fail` throws
   /// Notes a value that is possible but probably unintended, as a message in the form of `fail`, which is shown to the
   /// user.
-  void doubt(const std::string& message) const;
-  const std::vector<std::string>& doubts() const;  ///< doubts about the whole file, in the order of reading
+  void warn(const std::string& message) const;
+  const std::vector<std::string>& warnings() const;  ///< warnings about the whole file, in the order of reading
 
  private:
   struct Document;

@@ -35,7 +35,7 @@ struct Followed {
 
 constexpr double one = 1;
 
-Followed followed(const InsideShare& share, std::int64_t row) {
+Followed followed(const InteriorShare& share, std::int64_t row) {
   const auto k = static_cast<std::size_t>(row);
   if (share.numbers[k] >= 0) return {&share.numbers[k], &one, 1};
   return {share.unknowns.data() + share.starts[k], share.weights.data() + share.starts[k],
@@ -62,7 +62,7 @@ std::vector<Eigen::MatrixXd> Part::geometric_stiffness(const RowMatrix& fields, 
   return reduced_geometric_stiffness(solid_, graph_, fields, shapes, threads_);
 }
 
-Entries Part::inside(const InsideShare& share) const {
+Entries Part::interior(const InteriorShare& share) const {
   Entries entries;
   const auto most = stiffness_.values.size();
   entries.rows.reserve(most);

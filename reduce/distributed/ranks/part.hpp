@@ -1,4 +1,4 @@
-// The matrices of one rank's cells, and their projection on the unknowns of the inside.
+// The matrices of one rank's cells, and their projection on the unknowns of the interior.
 #pragma once
 
 #include <vector>
@@ -36,7 +36,7 @@ class Part {
   std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const;
 
   /// P^T K P of this part.
-  Entries inside(const InsideShare& share) const;
+  Entries interior(const InteriorShare& share) const;
 
  private:
   int threads_;

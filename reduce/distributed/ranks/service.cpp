@@ -112,7 +112,7 @@ void Service::factorise(int size) {
   BlockStarts blocks;
   if (team_.leads()) blocks = unpacked<BlockStarts>(team_.channel().receive_text());
   Entries entries;
-  team_.all_or_none([&] { entries = part_->inside(unpacked<InsideShare>(std::move(bytes))); });
+  team_.all_or_none([&] { entries = part_->interior(unpacked<InteriorShare>(std::move(bytes))); });
   factor_ = std::make_unique<MumpsFactor>(team_, size, std::move(entries), blocks.starts);
   tell({});
   if (team_.leads()) team_.channel().send_number(factor_->statistics());

@@ -145,8 +145,8 @@ TEST_CASE("what is drawn into each other is told") {
                     "  it: {type: contact, shapes: [{node: ground, plane: [0, 0, 1]}, {node: ball, sphere: 0.1}], "
                     "stiffness: 1e6}\n"),
       "model.yaml");
-  REQUIRE(file.doubts.size() == 1);
-  CHECK_THAT(file.doubts[0], Catch::Contains("sphere on 'ball' are drawn into each other by 0.01 m"));
+  REQUIRE(file.warnings.size() == 1);
+  CHECK_THAT(file.warnings[0], Catch::Contains("sphere on 'ball' are drawn into each other by 0.01 m"));
 }
 
 TEST_CASE("the end of a beam rests on a stop: shapes on nodes of beams") {

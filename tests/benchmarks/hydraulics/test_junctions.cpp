@@ -175,16 +175,16 @@ TEST_CASE("energies that are no numbers fail with the component that has them") 
              Contains("t = ") && Contains("of pressure_source 'j.supply' is beyond all numbers"));
 }
 
-TEST_CASE("pressures that seem to be in bar are doubted") {
-  const auto doubts = [](const std::string& text) { return read_mechanism_text(text, "model.yaml").doubts; };
+TEST_CASE("pressures that seem to be in bar give a warning") {
+  const auto warnings = [](const std::string& text) { return read_mechanism_text(text, "model.yaml").warnings; };
   const auto hydraulics = [](const std::string& text) {
     return "nodes: {n: {position: [0, 0, 0], fixed: true}}\nhydraulics:\n" + text;
   };
   const std::vector<std::string> absolute =
-      doubts(hydraulics("  supplies: {a: {pressure: 200}}\n  volumes: {v: {volume: 1, pressure: 250}}\n"
-                        "  accumulators: {s: {at: v, gas_volume: 1, precharge: 90}}\n"
-                        "  lines: {r: {from: v, to: a, relief: {pressure: 210, diameter: 0.01}},\n"
-                        "    p: {from: v, to: a, pipe: {length: 1, diameter: 0.01, pressure: 200}}}\n"));
+      warnings(hydraulics("  supplies: {a: {pressure: 200}}\n  volumes: {v: {volume: 1, pressure: 250}}\n"
+                          "  accumulators: {s: {at: v, gas_volume: 1, precharge: 90}}\n"
+                          "  lines: {r: {from: v, to: a, relief: {pressure: 210, diameter: 0.01}},\n"
+                          "    p: {from: v, to: a, pipe: {length: 1, diameter: 0.01, pressure: 200}}}\n"));
   REQUIRE(absolute.size() == 5);
   const auto has = [&](const std::string& key, const std::string& text) {
     return std::any_of(absolute.begin(), absolute.end(), [&](const std::string& each) {
@@ -197,9 +197,9 @@ TEST_CASE("pressures that seem to be in bar are doubted") {
   CHECK(has("lines.r.relief.pressure", "210 bar"));
   CHECK(has("lines.p.pipe.pressure", "200 bar"));
   // Relative to the atmosphere none is a pressure of its own; formulas of t are not judged.
-  CHECK(doubts(hydraulics("  ambient_pressure: 0\n  supplies: {a: {pressure: 0}, b: {pressure: 2e7}, c: {pressure: "
-                          "\"200*t\"}, d: {pressure: -5e4}}\n"))
+  CHECK(warnings(hydraulics("  ambient_pressure: 0\n  supplies: {a: {pressure: 0}, b: {pressure: 2e7}, c: {pressure: "
+                            "\"200*t\"}, d: {pressure: -5e4}}\n"))
             .empty());
-  CHECK(doubts(hydraulics("  ambient_pressure: 0\n  supplies: {a: {pressure: 200}}\n")).size() == 1);
-  CHECK(doubts(hydraulics("  ambient_pressure: 1\n  supplies: {a: {pressure: 2e7}}\n")).size() == 1);
+  CHECK(warnings(hydraulics("  ambient_pressure: 0\n  supplies: {a: {pressure: 200}}\n")).size() == 1);
+  CHECK(warnings(hydraulics("  ambient_pressure: 1\n  supplies: {a: {pressure: 2e7}}\n")).size() == 1);
 }

@@ -361,8 +361,8 @@ TEST_CASE("a stiffness field says how far its matrix resists rigid motions") {
       "stiffness: [" +
           rows + "]}\n",
       "model.yaml");
-  REQUIRE(file.doubts.size() == 1);
-  CHECK_THAT(file.doubts[0], Catch::Contains("resists rigid motions of the pair by 5e-05 of its entries"));
+  REQUIRE(file.warnings.size() == 1);
+  CHECK_THAT(file.warnings[0], Catch::Contains("resists rigid motions of the pair by 5e-05 of its entries"));
 }
 
 TEST_CASE("a bushing that turns through half a turn ends the run and says what turns freely") {

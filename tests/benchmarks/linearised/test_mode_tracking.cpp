@@ -53,7 +53,7 @@ TEST_CASE("modes that cross keep their numbers, which sorting by frequency would
   for (const int count : {2, 4, 5, 12}) {  // with 5 values one is where they coincide
     const SweptModes found = swept(0, even(-30, 30, count));
     CAPTURE(count);
-    CHECK(found.doubtful.empty());
+    CHECK(found.uncertain.empty());
     for (const SweepPoint& point : found.points) {
       CHECK(std::abs(point.tracks[0].s.imag()) == Approx(std::sqrt(at_rest + slope * point.value)).epsilon(1e-12));
       CHECK(std::abs(point.tracks[1].s.imag()) == Approx(std::sqrt(at_rest - slope * point.value)).epsilon(1e-12));
@@ -71,7 +71,7 @@ TEST_CASE("modes that veer are told, with the gap that is left and the exchange 
   for (const double between : {0.5, 2.0, 8.0}) {
     const SweptModes found = swept(between, even(-60, 61, 30));
     CAPTURE(between);
-    CHECK(found.doubtful.empty());
+    CHECK(found.uncertain.empty());
     REQUIRE(found.meetings.size() == 1);
     const ModeMeeting& veering = found.meetings[0];
     CHECK(veering.veering);
@@ -128,11 +128,11 @@ TEST_CASE("a mode that no longer oscillates is lost, and told", "[linearised]") 
     return sample;
   };
   const SweptModes found = SpeedSweep(solve, even(1, 40, 14), 2, {3}).run();
-  REQUIRE(found.doubtful.size() == 1);
-  CHECK(found.doubtful[0].lost);
-  CHECK(found.doubtful[0].from < 20);
-  CHECK(found.doubtful[0].to > 20);
-  CHECK(found.doubtful[0].to - found.doubtful[0].from < 0.1);
+  REQUIRE(found.uncertain.size() == 1);
+  CHECK(found.uncertain[0].lost);
+  CHECK(found.uncertain[0].from < 20);
+  CHECK(found.uncertain[0].to > 20);
+  CHECK(found.uncertain[0].to - found.uncertain[0].from < 0.1);
   CHECK(found.points.back().tracks[0].found);
   CHECK_FALSE(found.points.back().tracks[1].found);
 }

@@ -33,7 +33,7 @@ class Slips(CommandTest):
         self.write("model.yaml", model.replace(old, new))
         return self.run_program("model.yaml")
 
-    def doubts(self, model, old="", new=""):
+    def warnings(self, model, old="", new=""):
         """Warnings of a run that continues nevertheless."""
         done = self.run_changed(model, old, new)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -44,36 +44,36 @@ class Slips(CommandTest):
         self.write("model.yaml", model.replace(old, new))
         return self.expect_refusal(1, "model.yaml", says=says)
 
-    def test_what_is_plausible_is_not_doubted(self):
-        self.assertEqual(self.doubts(BEAM), "")
-        self.assertEqual(self.doubts(CRANK), "")
-        self.assertEqual(self.doubts(CRANK, '"0.5*t"', '"100*t"'), "")  # turns far
-        self.assertEqual(self.doubts(CRANK, '"0.5*t"', '"ramp(t, 0.002, 0.005)"'), "")
-        self.assertEqual(self.doubts(CRANK, '"0.5*t"', '"step(t, 0.002, 0.005)"'), "")
+    def test_what_is_plausible_is_not_warned(self):
+        self.assertEqual(self.warnings(BEAM), "")
+        self.assertEqual(self.warnings(CRANK), "")
+        self.assertEqual(self.warnings(CRANK, '"0.5*t"', '"100*t"'), "")  # turns far
+        self.assertEqual(self.warnings(CRANK, '"0.5*t"', '"ramp(t, 0.002, 0.005)"'), "")
+        self.assertEqual(self.warnings(CRANK, '"0.5*t"', '"step(t, 0.002, 0.005)"'), "")
 
     def test_moduli_and_densities_in_other_units(self):
         text = self.run_changed(BEAM, "210e9", "210e3").stderr  # sags so far that it fails, too
         self.assertIn("model.yaml:3: elements.m.section.young: is 210000 meant? Solids have 1e6", text)
         self.assertIn("steel has 210e9", text)
-        self.assertIn("section.density: is 7.85e-09 meant?", self.doubts(BEAM, "7850", "7.85e-9"))
-        self.assertIn("model.yaml:1: gravity: is 9810 meant? Lengths are in metres", self.doubts(BEAM, "9.81", "9810"))
+        self.assertIn("section.density: is 7.85e-09 meant?", self.warnings(BEAM, "7850", "7.85e-9"))
+        self.assertIn("model.yaml:1: gravity: is 9810 meant? Lengths are in metres", self.warnings(BEAM, "9.81", "9810"))
 
     def test_a_radius_in_millimetres(self):
         self.assertIn("model.yaml:3: elements.m.section: is it meant? It is as stiff as one of some 20 m in size, and the beam "
-                      "is 1 m long", self.doubts(BEAM, "0.02", "20"))
+                      "is 1 m long", self.warnings(BEAM, "0.02", "20"))
 
     def test_orientations_in_degrees(self):
         self.assertIn("nodes.c.bryant: is 90 meant? Angles are in radians",
-                      self.doubts(CRANK, "c: {position: [0.5, 0, 0]}", "c: {position: [0.5, 0, 0], bryant: [90, 0, 0]}"))
+                      self.warnings(CRANK, "c: {position: [0.5, 0, 0]}", "c: {position: [0.5, 0, 0], bryant: [90, 0, 0]}"))
 
     def test_drives_and_motions_that_jump(self):
-        text = self.doubts(CRANK, '"0.5*t"', '"0.5*pulse(t, 0.002, 1)"')
+        text = self.warnings(CRANK, '"0.5*t"', '"0.5*pulse(t, 0.002, 1)"')
         self.assertIn("drives.m.angle: the angle jumps by 0.5 at t = 0.002 s", text)
-        text = self.doubts(BEAM.replace("type: static", "type: dynamic, duration: 0.01, step: 1e-3"), "a: {fixed: true}",
+        text = self.warnings(BEAM.replace("type: static", "type: dynamic, duration: 0.01, step: 1e-3"), "a: {fixed: true}",
                            'a: {fixed: [y, z, rx, ry, rz], motion: {x: "1e-3*if(t < 0.005, 0, 1)"}}')
         self.assertIn("nodes.a.motion.x: the prescribed motion jumps by 0.001 at t = 0.005 s", text)
         # A sine after a whole turn is zero but for rounding.
-        self.assertNotIn("jumps", self.doubts(CRANK, '"0.5*t"', '"0.5*sin(2*pi*step(t, 0.001, 0.004))"'))
+        self.assertNotIn("jumps", self.warnings(CRANK, '"0.5*t"', '"0.5*sin(2*pi*step(t, 0.001, 0.004))"'))
 
     def test_steps_without_end(self):
         self.refuse(CRANK, "step: 1e-3", "step: 1e-25", "model.yaml:9: analysis[1].step", "1e+23 steps; expected at most 1e+09")
@@ -103,13 +103,13 @@ class Slips(CommandTest):
     def test_inertias_and_masses_in_other_units(self):
         # A steel bar of 1 kg and 0.1 m: 8.3e-4 kg m^2.
         self.assertIn("model.yaml:6: elements.c.inertia: is this meant? 1 kg with so much inertia reaches over some 101 m; "
-                      "inertias are in kg m^2", self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[10, 833, 833]"))
-        self.assertEqual(self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[1e-5, 8.3e-4, 8.3e-4]"), "")
-        self.assertEqual(self.doubts(CRANK, "[0.1, 0.1, 0.1]", "[0, 30, 30]"), "")  # a rod of 19 m
+                      "inertias are in kg m^2", self.warnings(CRANK, "[0.1, 0.1, 0.1]", "[10, 833, 833]"))
+        self.assertEqual(self.warnings(CRANK, "[0.1, 0.1, 0.1]", "[1e-5, 8.3e-4, 8.3e-4]"), "")
+        self.assertEqual(self.warnings(CRANK, "[0.1, 0.1, 0.1]", "[0, 30, 30]"), "")  # a rod of 19 m
         solid = "solid: {box: [0.1, 0.02, 0.02], density: 7850}"
-        self.assertEqual(self.doubts(CRANK, "mass: 1, inertia: [0.1, 0.1, 0.1]", solid), "")
+        self.assertEqual(self.warnings(CRANK, "mass: 1, inertia: [0.1, 0.1, 0.1]", solid), "")
         self.assertIn("elements.c.solid: are 3.14e+08 kg meant? Lengths are in metres",
-                      self.doubts(CRANK, "mass: 1, inertia: [0.1, 0.1, 0.1]", solid.replace("[0.1, 0.02, 0.02]", "[100, 20, 20]")))
+                      self.warnings(CRANK, "mass: 1, inertia: [0.1, 0.1, 0.1]", solid.replace("[0.1, 0.02, 0.02]", "[100, 20, 20]")))
 
     def test_positions_in_millimetres(self):
         links = """\
@@ -127,13 +127,13 @@ analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
             return links.replace("LENGTH", f"{half}").replace("PIN", f"{2 * half}").replace("FAR", f"{3 * half}")
 
         self.assertIn("model.yaml:4: elements.c: its joints are 100 m apart, and its inertia is that of a body of 0.1 m: is that "
-                      "meant? Positions are in metres", self.doubts(lengths(50)))
-        self.assertEqual(self.doubts(lengths(0.05)), "")
+                      "meant? Positions are in metres", self.warnings(lengths(50)))
+        self.assertEqual(self.warnings(lengths(0.05)), "")
         # One body of usual proportions shows that the model is as intended.
-        self.assertEqual(self.doubts(lengths(50), "mass: 1, inertia: [1e-5, 8.3e-4, 8.3e-4]}\n  d",
+        self.assertEqual(self.warnings(lengths(50), "mass: 1, inertia: [1e-5, 8.3e-4, 8.3e-4]}\n  d",
                                      "mass: 1000, inertia: [1, 8e5, 8e5]}\n  d"), "")
 
-    def test_no_example_is_doubted(self):
+    def test_no_example_is_warned(self):
         folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "mechanism", "examples")
         for name in sorted(os.listdir(folder)):
             if name.endswith(".yaml") and name not in ("crane.yaml", "slider_crank.yaml"):  # these have tests of their

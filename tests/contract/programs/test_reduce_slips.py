@@ -39,7 +39,7 @@ class Slips(BarTest):
         self.body("surface: right", "surface: {plane: {point: [0.3, 0, 0], normal: [1, 0, 0]}}")
         self.expect_refusal(1, "body.yaml", says=["body.yaml:10: interfaces.right.surface: no surface of the body lies on"])
 
-    def test_values_that_no_material_has_are_doubted(self):
+    def test_values_that_no_material_has_are_warned(self):
         self.body("young: 210e9, poisson: 0.3, density: 7850", "young: 210e3, poisson: 0.3, density: 7.85")
         done = self.run_program("body.yaml", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -69,7 +69,7 @@ class Slips(BarTest):
         self.write("body.yaml", text)
         self.expect_refusal(1, "body.yaml", says=["body.yaml:8: interfaces: expected at least one"])
 
-    def test_list_takes_a_body_file_even_an_unfinished_one_and_doubts_its_unit(self):
+    def test_list_takes_a_body_file_even_an_unfinished_one_and_warns_of_its_unit(self):
         self.write("bar.geo", BAR.replace("0.2, 0.02, 0.02", "200, 20, 20"))
         self.write("body.yaml", "geometry: bar.geo\nlength_unit: mm\n")
         done = self.run_program("--list", "body.yaml")

@@ -115,7 +115,7 @@ class SelfJudgement(CommandTest):
         text = self.summary(PENDULUM.format(duration=0.4, step=0.05, rho=1))
         self.assertIn("\n  energy grows: take smaller steps, or give a `tolerance`\n", text)
         text = self.summary(PENDULUM.format(duration=0.4, step=0.1, rho=1))
-        self.assertIn("DOUBTFUL", text)
+        self.assertIn("warning:", text)
         text = self.summary(PENDULUM.format(duration=0.4, step=0.05, rho=1).replace("step: 0.05", "step: 0.05, tolerance: 0.006"))
         self.assertIn("\n  energy grows: give a smaller `tolerance`\n", text)
         falling = PENDULUM.replace("position: [0, 0, -1], velocity: [-6, 0, 0], angular_velocity: [0, 6, 0]",
@@ -135,7 +135,7 @@ class SelfJudgement(CommandTest):
             text = self.summary(model)
             self.assertIn(" of what flowed through (", text)
             self.assertNotIn("nothing moved", text)
-            self.assertNotIn("DOUBTFUL", text)
+            self.assertNotIn("warning:", text)
         # A pendulum that its steps do not resolve is not hidden by a brake next to it that takes more than its energy
         # ..
         def with_rotor(inertia, damping, rate, drive):
@@ -145,7 +145,7 @@ class SelfJudgement(CommandTest):
 
         text = self.summary(with_rotor(1e-3, 0.6, "", 'drives: {d: {joint: h, rate: "10"}}\n'))
         self.assertIn(" of what flowed through (", text)
-        self.assertIn("DOUBTFUL: so large errors in the balance", text)
+        self.assertIn("warning: so large errors in the balance", text)
         # .. and next to a heavy flywheel its dissipation is hardly known.
         text = self.summary(with_rotor(10, 0.02, ", angular_velocity: [0, 0, 50]", ""))
         self.assertIn(" of the largest energy (", text)
@@ -162,11 +162,11 @@ class SelfJudgement(CommandTest):
         spring = ("nodes: {m: {position: [1.2, 0, 0], velocity: [0.1, 0, 0], fixed: [y, z, rx, ry, rz]}}\n"
                   "elements: {m: {type: point_mass, node: m, mass: 1}, s: {type: spring_damper, nodes: [ground, m], "
                   "stiffness: 1, length: 1}}\nanalysis: [{type: dynamic, duration: 60, step: STEP, rho: 0.8}]\n")
-        for step, doubtful in (("0.3", False), ("1", True)):  # loses 2 % and all of it
+        for step, warned in (("0.3", False), ("1", True)):  # loses 2 % and all of it
             (gap, scheme, errors), text = parts(spring.replace("STEP", step).replace("duration: 60", "duration: 600"))
             self.assertLess(gap, 0)
             self.assertLess(abs(errors), 0.05 * abs(gap), text)
-            self.assertEqual("DOUBTFUL: the scheme's own dissipation took" in text, doubtful, text)
+            self.assertEqual("warning: the scheme's own dissipation took" in text, warned, text)
             self.assertNotIn("energy grows", text)
         # The pendulum gains energy by errors, and the scheme hides part of it.
         (gap, scheme, errors), text = parts(PENDULUM.format(duration=0.4, step=0.05, rho=0.8))

@@ -133,11 +133,11 @@ class Models(WithModel):
         done = subprocess.run([PROGRAM, path, "--check"], text=True, capture_output=True, check=True)
         self.assertEqual(bielle.load(path).describe(), done.stdout)
 
-    def test_doubts(self):
-        doubts = bielle.read({"gravity": [0, 0, -9810], "nodes": {"p": {}},
-                              "elements": {"m": {"type": "point_mass", "node": "p", "mass": 1}}}).doubts
-        self.assertEqual(len(doubts), 1)
-        self.assertTrue(doubts[0].startswith("model: gravity: "), doubts[0])
+    def test_warnings(self):
+        warnings = bielle.read({"gravity": [0, 0, -9810], "nodes": {"p": {}},
+                              "elements": {"m": {"type": "point_mass", "node": "p", "mass": 1}}}).warnings
+        self.assertEqual(len(warnings), 1)
+        self.assertTrue(warnings[0].startswith("model: gravity: "), warnings[0])
 
     def test_files_are_relative_to_the_folder(self):
         self.write_model("0 0\n1 1\n", "way.csv")

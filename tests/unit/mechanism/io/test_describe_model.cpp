@@ -1,4 +1,4 @@
-// The output of `--check`: each entry in the user's terms, counts, and doubts.
+// The output of `--check`: each entry in the user's terms, counts, and warnings.
 #include <string>
 
 #include <catch2/catch.hpp>

@@ -241,16 +241,16 @@ TEST_CASE("factors that forget are those of a new start") {
 }
 
 TEST_CASE("entries that are zero most of the time come into the factors and leave them") {
-  // Blocks of three on the diagonal; the coupling terms are passing.
+  // Blocks of three on the diagonal; the coupling terms are intermittent.
   Random random(5);
   constexpr int n = 24;
   MatrixX A = random.matrix(n, n);  // every entry in the pattern
   Sparse sparse(A);
-  std::vector<int> passing;
+  std::vector<int> intermittent;
   sparse.pattern.for_each([&](int place, int row, int column) {
-    if (row / 3 != column / 3) passing.push_back(place);
+    if (row / 3 != column / 3) intermittent.push_back(place);
   });
-  sparse.pattern.set_passing(passing);
+  sparse.pattern.set_intermittent(intermittent);
   SparseLU lu(sparse.pattern);
   const VectorX b = random.vector(n);
   double entries_alone = 0;

@@ -10,7 +10,7 @@ using Catch::Contains;
 namespace {
 
 /// 2 kg that a drive moves along a slide.
-std::vector<std::string> doubts_of(const std::string& displacement) {
+std::vector<std::string> warnings_of(const std::string& displacement) {
   const MechanismFile file = read_mechanism_text(R"yaml(
 nodes: {b: {position: [0, 0, 0]}}
 elements: {m: {type: rigid_body, node: b, mass: 2, inertia: [0.1, 0.1, 0.1]}}
@@ -24,20 +24,20 @@ drives: {lift: {joint: s, displacement: ")yaml" + displacement +
   options.stepping.size = 0.01;
   Motion motion = session.dynamics(options);
   REQUIRE(motion.finish());
-  return motion.doubts();
+  return motion.warnings();
 }
 
 }  // namespace
 
 TEST_CASE("a prescribed motion with corners is told, with the work of the first impulse") {
   // From rest to 3 m/s at 0.105 s, and back at 0.3 s: m v (v + 0) = 18 J by the drive, half of which is lost.
-  const std::vector<std::string> doubts = doubts_of("0.585*ramp(t, 0.105, 0.3)");
-  REQUIRE(doubts.size() == 1);
-  CHECK_THAT(doubts[0], Contains("2 times") && Contains("t = 0.105 s") && Contains("drive 'lift'"));
-  CHECK_THAT(doubts[0], Contains("work is 18 J"));
+  const std::vector<std::string> warnings = warnings_of("0.585*ramp(t, 0.105, 0.3)");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("2 times") && Contains("t = 0.105 s") && Contains("drive 'lift'"));
+  CHECK_THAT(warnings[0], Contains("work is 18 J"));
 }
 
-TEST_CASE("a prescribed motion whose rate is continuous is not doubted, also where its acceleration jumps") {
-  CHECK(doubts_of("0.1*sin(20*t)").empty());
-  CHECK(doubts_of("(t > 0.105)*(t - 0.105)^2").empty());
+TEST_CASE("a prescribed motion whose rate is continuous gives no warning, also where its acceleration jumps") {
+  CHECK(warnings_of("0.1*sin(20*t)").empty());
+  CHECK(warnings_of("(t > 0.105)*(t - 0.105)^2").empty());
 }

@@ -54,7 +54,7 @@ TEST_CASE("of a beam's elements the one that is strained most speaks") {
   moved("b", 0.25 * 0.055);
   recorders.add(state, model.system.slots(), environment);
   const std::string text = recorders.summary();
-  CHECK_THAT(text, Contains("DOUBTFUL: beam 'one' is strained by 3 %, most in element 4 of 4, at t = 0 s"));
+  CHECK_THAT(text, Contains("warning: beam 'one' is strained by 3 %, most in element 4 of 4, at t = 0 s"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("a beam whose elements are too long for its tension says so") {
     return recorders.summary();
   };
   CHECK_THAT(says(0.006, ""),
-             Contains("DOUBTFUL: under its tension beam 'one' bends within 0.065 m of clamps and side loads") &&
+             Contains("warning: under its tension beam 'one' bends within 0.065 m of clamps and side loads") &&
                  Contains("are 0.5 m long: take at least 5 of them"));
   CHECK(says(0.004, "").empty());
   CHECK(says(-0.006, "").empty());

@@ -39,10 +39,10 @@ TEST_CASE("numbers, texts and outcomes pass a channel") {
 }
 
 TEST_CASE("shares are unpacked as they were packed") {
-  InsideShare share{{3, -1, 4}, {0, 0, 2, 2}, {7, 8}, {0.5, -2}};
+  InteriorShare share{{3, -1, 4}, {0, 0, 2, 2}, {7, 8}, {0.5, -2}};
   Packing packing;
   packing(share);
-  InsideShare copy;
+  InteriorShare copy;
   Packing(packing.bytes())(copy);
   CHECK(copy.numbers == share.numbers);
   CHECK(copy.starts == share.starts);

@@ -101,7 +101,7 @@ TEST_CASE("coincident nodes within one piece are a crack") {
   CHECK(coincident_nodes(sound, FaceTable(sound)).pairs == 0);
 }
 
-TEST_CASE("parts that hang together by an edge or a node only are doubted") {
+TEST_CASE("parts that hang together by an edge or a node only give a warning") {
   // Two tetrahedra with a common edge.
   Mesh mesh;
   mesh.points.resize(3, 6);
@@ -273,11 +273,11 @@ TEST_CASE("an unknown unit of length is answered with those that are known") {
   CHECK_THAT(import_message(wish), StartsWith("rod.yaml:3: length_unit: 'mn' is not a unit of length"));
 }
 
-TEST_CASE("a body of more than 150 m or less than 1 mm is doubtful") {
-  CHECK(doubtful_size(box_mesh({{1, 1, 1}, {1, 1, 1}, false})).empty());
-  CHECK_THAT(doubtful_size(box_mesh({{2000, 1, 1}, {1, 1, 1}, false})),
+TEST_CASE("a body of more than 150 m or less than 1 mm gives a warning") {
+  CHECK(implausible_size(box_mesh({{1, 1, 1}, {1, 1, 1}, false})).empty());
+  CHECK_THAT(implausible_size(box_mesh({{2000, 1, 1}, {1, 1, 1}, false})),
              Contains("2e+03 m long: is length_unit right?"));
-  CHECK_THAT(doubtful_size(box_mesh({{2e-4, 1e-4, 1e-4}, {1, 1, 1}, false})), Contains("0.0002 m long"));
+  CHECK_THAT(implausible_size(box_mesh({{2e-4, 1e-4, 1e-4}, {1, 1, 1}, false})), Contains("0.0002 m long"));
 }
 
 TEST_CASE("nothing of gmsh or OpenCASCADE reaches standard output") {

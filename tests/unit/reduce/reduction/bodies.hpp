@@ -62,7 +62,7 @@ inline reduce::Mesh twisted_block() {
 
 inline reduce::FixedInterfaceBody held_body(const reduce::Solid& solid, const reduce::Ties& ties) {
   reduce::HeldFreedoms freedoms(solid, ties);
-  const auto matrices = reduce::assembled_matrices(solid, freedoms.inside(), 2);
+  const auto matrices = reduce::assembled_matrices(solid, freedoms.interior(), 2);
   return {std::move(freedoms), solid, *matrices, ties, 2};
 }
 

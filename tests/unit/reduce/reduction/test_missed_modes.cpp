@@ -23,7 +23,7 @@ struct HeldModel {
       : mesh(std::move(m)),
         solid(make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}})),
         ties(make_ties(solid, requests)),
-        matrices(assembled_matrices(solid, HeldFreedoms(solid, ties).inside(), 2)),
+        matrices(assembled_matrices(solid, HeldFreedoms(solid, ties).interior(), 2)),
         held(HeldFreedoms(solid, ties), solid, *matrices, ties, 2) {
     Progress quiet(true);
     basis = make_basis(solid, *matrices, ties, held, mass_properties(solid), {modes, std::nullopt}, quiet, 2);

@@ -292,14 +292,14 @@ TEST_CASE("a mass distribution that no body has is refused") {
 
 namespace {
 
-/// Mass of a list of solids, and what is doubted about them.
+/// Mass of a list of solids, and the warnings about them.
 struct ReadSolids {
   double mass;
-  std::string doubts;
+  std::string warnings;
   explicit ReadSolids(const std::string& list) {
     const bielle::YamlValue root = bielle::YamlValue::parse("solid: [" + list + "]", "m.yaml");
     mass = read_solids(root.at("solid")).mass;
-    for (const std::string& doubt : root.doubts()) doubts += doubt + "\n";
+    for (const std::string& warning : root.warnings()) warnings += warning + "\n";
   }
 };
 
@@ -314,7 +314,7 @@ std::string hole(double radius, double length, const std::string& place) {
 TEST_CASE("a hole that is cut twice is refused") {
   const std::string once = hole(0.03, 0.1, "[0, 0, 0]");
   CHECK(ReadSolids(plate + ", " + once).mass == Approx(1000 * (0.004 - M_PI * 0.0009 * 0.1)));
-  CHECK(ReadSolids(plate + ", " + once).doubts.empty());
+  CHECK(ReadSolids(plate + ", " + once).warnings.empty());
   CHECK_THROWS_WITH(ReadSolids(plate + ", " + once + ", " + once),
                     Contains("solid[3]") && Contains("solid 2 of the list has cut it out already"));
   // Also where it is drawn otherwise, or lies inside of the other.
@@ -329,18 +329,18 @@ TEST_CASE("a hole that is cut twice is refused") {
 TEST_CASE("holes that overlap or project are told with their share") {
   // A counterbore that is drawn through the hole below it.
   const ReadSolids bore(plate + ", " + hole(0.02, 0.1, "[0, 0, 0]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"));
-  CHECK_THAT(bore.doubts, Contains("solid[3]") && Contains("about 25 % of what this solid cuts out is not there") &&
-                              Contains("solid 2 of the list has cut that part out already"));
-  CHECK_THAT(ReadSolids(plate + ", " + hole(0.02, 0.2, "[0, 0, 0]")).doubts,
+  CHECK_THAT(bore.warnings, Contains("solid[3]") && Contains("about 25 % of what this solid cuts out is not there") &&
+                                Contains("solid 2 of the list has cut that part out already"));
+  CHECK_THAT(ReadSolids(plate + ", " + hole(0.02, 0.2, "[0, 0, 0]")).warnings,
              Contains("about 50 % of what this solid cuts out is not there") &&
                  Contains("no other solid of its density is there"));
   // Two holes that meet: one ends where the other begins.
   CHECK(ReadSolids(plate + ", " + hole(0.02, 0.05, "[0, 0, -0.025]") + ", " + hole(0.04, 0.05, "[0, 0, 0.025]"))
-            .doubts.empty());
+            .warnings.empty());
   // A solid that fills a hole can be cut again.
   const ReadSolids filled(plate + ", " + hole(0.03, 0.1, "[0, 0, 0]") + ", {cylinder: [0.02, 0.1], density: 1000}, " +
                           hole(0.01, 0.1, "[0, 0, 0]"));
-  CHECK(filled.doubts.empty());
+  CHECK(filled.warnings.empty());
   CHECK(filled.mass == Approx(1000 * (0.004 - M_PI * 0.1 * (0.0009 - 0.0004 + 0.0001))));
 }
 
@@ -355,12 +355,12 @@ TEST_CASE("the share of each shape that projects is that of its volume") {
                                      {"cone: [0.1, 0.3, 0.4]", "27"},
                                      {"ring: [0.3, 0.1]", "50"}}) {
     CAPTURE(shape);
-    CHECK_THAT(ReadSolids(material + ", {" + shape + ", density: 1, cut: true}").doubts,
+    CHECK_THAT(ReadSolids(material + ", {" + shape + ", density: 1, cut: true}").warnings,
                Contains(fmt::format("about {} % of what", share)));
-    CHECK(ReadSolids(material + ", {" + shape + ", density: 1, position: [0, 0, 0.5], cut: true}").doubts.empty());
+    CHECK(ReadSolids(material + ", {" + shape + ", density: 1, position: [0, 0, 0.5], cut: true}").warnings.empty());
     // Turned over: the cone's other end projects.
     const std::string turned = ", density: 1, rotation_vector: [3.141592653589793, 0, 0], cut: true}";
-    CHECK_THAT(ReadSolids(material + ", {" + shape + turned).doubts,
+    CHECK_THAT(ReadSolids(material + ", {" + shape + turned).warnings,
                Contains(fmt::format("about {} % of what", share == std::string("27") ? "73" : share)));
   }
 }

@@ -147,17 +147,17 @@ void check_felt(const Struck& struck) {
   INFO(struck.name << ", " << motion.log.steps << " steps");
   // Local errors of 1e-6 of the model's size (0.3 m, 1 litre) in some 20 steps within the pulse, at random.
   CHECK(struck.found(model, motion.end) == Approx(struck.expected).epsilon(1e-2));
-  CHECK(motion.doubts.empty());
+  CHECK(motion.warnings.empty());
 }
 
 void check_told(const Struck& struck) {
   const ReadyModel model(with_pulse(struck.text));
-  const std::vector<std::string> coarse = march(model, end, fixed_steps(0.02)).doubts;
+  const std::vector<std::string> coarse = march(model, end, fixed_steps(0.02)).warnings;
   INFO(struck.name);
   REQUIRE(coarse.size() == 1);
   CHECK_THAT(coarse[0], Catch::StartsWith(struck.name) && Catch::Contains("t = 0.52 s"));
   // Steps of a fifth of its width resolve it.
-  CHECK(march(model, 0.52, fixed_steps(2e-4)).doubts.empty());
+  CHECK(march(model, 0.52, fixed_steps(2e-4)).warnings.empty());
 }
 
 }  // namespace
@@ -186,7 +186,7 @@ TEST_CASE("a bump of a tenth of a second is not jumped over by longer steps") {
 
 TEST_CASE("a bump of less than rounding is not told") {
   const ReadyModel model(with_pulse(carried(", motion: {x: \"1e-30*SHAPE\", y: 0, z: 0, rx: 0, ry: 0, rz: 0}", "")));
-  CHECK(march(model, end, fixed_steps(0.02)).doubts.empty());
+  CHECK(march(model, end, fixed_steps(0.02)).warnings.empty());
 }
 
 TEST_CASE("a ripple of a valve that the fluid smooths out makes no step smaller") {
@@ -236,19 +236,19 @@ loads: {l: {node: m, force: [")yaml" +
     CHECK(motion.log.steps < 3000);
   }
   const Course coarse = march(struck, 1, fixed_steps(0.1));
-  REQUIRE(coarse.doubts.size() == 1);
-  CHECK_THAT(coarse.doubts[0], Catch::Contains("load 'l': force x changes between steps"));
-  CHECK_THAT(coarse.doubts[0], Catch::Contains("1772 N s, they miss 1772 N s") && Catch::Contains("to t = 0.6 s"));
+  REQUIRE(coarse.warnings.size() == 1);
+  CHECK_THAT(coarse.warnings[0], Catch::Contains("load 'l': force x changes between steps"));
+  CHECK_THAT(coarse.warnings[0], Catch::Contains("1772 N s, they miss 1772 N s") && Catch::Contains("to t = 0.6 s"));
   // Steps of a fifth of its width resolve it.
   const Course fine = march(struck, 1, fixed_steps(2e-4));
-  CHECK(fine.doubts.empty());
+  CHECK(fine.warnings.empty());
   CHECK(struck.node(fine.end, "m").v.x() == Approx(1 + pulse).epsilon(1e-3));
-  // A formula that steps resolve is not doubted: 12 steps in a period miss (omega h)^2/12 = 2 %.
-  CHECK(march(model_of("3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 12)).doubts.empty());
-  CHECK(march(model_of("3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 3)).doubts.size() == 1);
-  CHECK(march(model_of("1e4 + 3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 12)).doubts.empty());
+  // A formula that steps resolve gives no warning: 12 steps in a period miss (omega h)^2/12 = 2 %.
+  CHECK(march(model_of("3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 12)).warnings.empty());
+  CHECK(march(model_of("3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 3)).warnings.size() == 1);
+  CHECK(march(model_of("1e4 + 3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 12)).warnings.empty());
   // A ripple of 3e-5 is nothing.
-  CHECK(march(model_of("1e5 + 3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 3)).doubts.empty());
+  CHECK(march(model_of("1e5 + 3*sin(2*pi*t)"), 1, fixed_steps(1.0 / 3)).warnings.empty());
 }
 
 TEST_CASE("formulas that steps resolve, or that move nothing, make no step smaller") {

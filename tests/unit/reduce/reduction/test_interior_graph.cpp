@@ -45,17 +45,17 @@ TEST_CASE("The graph of points is that of the stiffness", "[reduction]") {
   CHECK(from_mesh.rows == from_matrix.rows);
 }
 
-TEST_CASE("The graph of the inside, from the mesh alone, holds every number that is factorised", "[reduction]") {
+TEST_CASE("The graph of the interior, from the mesh alone, holds every number that is factorised", "[reduction]") {
   const int variant = GENERATE(0, 1, 2, 3);
   const Held model(variant);
   const NodeGraph nodes = node_graph(model.solid.nodes, model.solid.points());
   const SymmetricMatrix stiffness = assemble_stiffness(model.solid, nodes);
-  const InsideUnknowns inside = model.freedoms.inside();
-  const BlockGraph graph = inside_graph(point_graph(nodes), inside);
-  const RowMatrix forces = stiffness.multiply(RowMatrix(inside.carried));
+  const InteriorUnknowns interior = model.freedoms.interior();
+  const BlockGraph graph = interior_graph(point_graph(nodes), interior);
+  const RowMatrix forces = stiffness.multiply(RowMatrix(interior.carried));
   const SymmetricMatrix matrix =
-      bordered(principal_submatrix(stiffness, inside.kept), Eigen::MatrixXd(forces(inside.kept, Eigen::all)),
-               Eigen::MatrixXd(inside.carried.transpose() * forces));
+      bordered(principal_submatrix(stiffness, interior.kept), Eigen::MatrixXd(forces(interior.kept, Eigen::all)),
+               Eigen::MatrixXd(interior.carried.transpose() * forces));
   const BlockGraph exact = block_graph(matrix, graph.first);
   REQUIRE(graph.size() == exact.size());
   for (int b = 0; b < graph.size(); ++b) {
@@ -65,7 +65,7 @@ TEST_CASE("The graph of the inside, from the mesh alone, holds every number that
     const std::vector<int> ours = rows(graph), needed = rows(exact);
     REQUIRE(std::is_sorted(ours.begin(), ours.end()));
     REQUIRE(std::includes(ours.begin(), ours.end(), needed.begin(), needed.end()));
-    if (inside.carried.cols() == 0) REQUIRE(ours == needed);
+    if (interior.carried.cols() == 0) REQUIRE(ours == needed);
   }
 }
 
@@ -75,9 +75,9 @@ TEST_CASE("A structure that was prepared while matrices were assembled gives the
   const Held model(variant);
   for (const int threads : {1, 2, 3}) {
     CAPTURE(variant, threads);
-    const auto prepared = assembled_matrices(model.solid, model.freedoms.inside(), threads);
+    const auto prepared = assembled_matrices(model.solid, model.freedoms.interior(), threads);
     const auto nothing_known = assembled_matrices(model.solid, {}, threads);
-    const auto another_known = assembled_matrices(model.solid, Held((variant + 1) % 4).freedoms.inside(), threads);
+    const auto another_known = assembled_matrices(model.solid, Held((variant + 1) % 4).freedoms.interior(), threads);
     const RowMatrix u = RowMatrix::Random(3 * model.solid.points(), 2);
     CHECK(prepared->stiffness_times(u) == nothing_known->stiffness_times(u));
     CHECK(prepared->mass_times(u) == nothing_known->mass_times(u));
@@ -100,7 +100,7 @@ TEST_CASE("A cell that is inside out is told, whichever thread meets it", "[redu
   std::vector<std::string> said;
   for (const int threads : {1, 2, 2, 5}) {
     try {
-      assembled_matrices(model.solid, model.freedoms.inside(), threads);
+      assembled_matrices(model.solid, model.freedoms.interior(), threads);
       FAIL("accepted");
     } catch (const ComputationError& error) {
       said.push_back(error.what());

@@ -1,4 +1,4 @@
-#include "mechanism/io/doubtful_lengths.hpp"
+#include "mechanism/io/implausible_lengths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ double largest_distance(const std::vector<Vector3>& points) {
 
 }  // namespace
 
-void doubt_lengths(const Model& model, const YamlValue& root) {
+void warn_of_lengths(const Model& model, const YamlValue& root) {
   const std::map<int, std::vector<Vector3>> points = attachments(model);
   std::string first;
   double distance = 0, gyration = 0;
@@ -63,11 +63,11 @@ void doubt_lengths(const Model& model, const YamlValue& root) {
     if (first.empty()) first = member.entry.name, distance = between, gyration = radius;
   }
   if (first.empty()) return;
-  const std::string doubt = fmt::format(
+  const std::string warning = fmt::format(
       "its joints are {:.3g} m apart, and its inertia is that of a body of {:.2g} m: is that meant? "
       "Positions are in metres, inertias in kg m^2",
       distance, 3.5 * gyration);
-  root.at("elements").at(first).doubt(doubt);
+  root.at("elements").at(first).warn(warning);
 }
 
 }  // namespace bielle::mechanism

@@ -8,6 +8,6 @@ namespace bielle::mechanism {
 
 /// Adds a warning if every rigid body with two joints has them tens of metres apart and its mass near one point.
 /// @param root  root of the whole file that the model was read from
-void doubt_lengths(const Model& model, const YamlValue& root);
+void warn_of_lengths(const Model& model, const YamlValue& root);
 
 }  // namespace bielle::mechanism

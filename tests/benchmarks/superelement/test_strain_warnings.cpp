@@ -1,5 +1,5 @@
 // Superelements and beams that are strained: stretch, shear, bending and torsion of a block between two ends, whose
-// strain is known, against the doubt of the run.
+// strain is known, against the warning of the run.
 #include <cmath>
 #include <functional>
 #include <map>
@@ -43,7 +43,7 @@ void write_block(const std::string& path, const Eigen::Vector3d& size, const std
   write_superelement(reduce::reduce_body(mesh, options, quiet, 2), path);
 }
 
-/// A model whose nodes are put somewhere, and its doubts then.
+/// A model whose nodes are put somewhere, and its warnings then.
 struct Placed {
   ReadyModel model;
   State state;
@@ -90,7 +90,7 @@ std::string beam_says(const std::string& section, const std::function<Vector3(do
 
 }  // namespace
 
-TEST_CASE("a superelement that is stretched is doubted by its strain") {
+TEST_CASE("a superelement that is stretched warns by its strain") {
   const TemporaryFolder folder;
   write_block(folder / "block.h5", {1, 0.1, 0.1}, {10, 1, 1});
   const Vector3 straight = Vector3::Zero();
@@ -101,7 +101,7 @@ TEST_CASE("a superelement that is stretched is doubted by its strain") {
     // Linear coordinates differ from the interfaces' displacements to second order.
     CHECK(std::abs(found.error() - std::abs(e)) < e * e);
     CHECK(std::abs(found.strain() - std::abs(e)) < e * e);
-    CHECK_THAT(text, Contains("DOUBTFUL: superelement 'm' is strained by") && Contains("% in the mean"));
+    CHECK_THAT(text, Contains("warning: superelement 'm' is strained by") && Contains("% in the mean"));
   }
   CHECK(Block(folder, {5e-4, 0, 0}, straight).says().empty());
   CHECK_THAT(message_of<ComputationError>([&] {
@@ -129,7 +129,7 @@ TEST_CASE(
   CHECK(bent.error() == Approx(0.006 * angle * angle).epsilon(0.01));
 }
 
-TEST_CASE("a superelement of an earlier version, whose file holds no strains, is not doubted by them") {
+TEST_CASE("a superelement of an earlier version, whose file holds no strains, gives no warning") {
   const TemporaryFolder folder;
   write_block(folder / "block.h5", {1, 0.1, 0.1}, {10, 1, 1});
   Superelement body = read_superelement(folder / "block.h5");
@@ -146,14 +146,14 @@ TEST_CASE("shear and torsion of a stout superelement are seen, which turns and c
   write_block(folder / "block.h5", {1, 4, 4}, {2, 6, 6});
   const double gamma = 0.09;
   Block sheared(folder, {0, gamma, 0}, Vector3::Zero());
-  CHECK_THAT(sheared.says(), Contains("DOUBTFUL: superelement 'm' is strained by"));
+  CHECK_THAT(sheared.says(), Contains("warning: superelement 'm' is strained by"));
   CHECK(sheared.error() == Approx(2.0 / 3 * gamma).epsilon(0.2));
   // A cube whose faces are turned by theta: sides of a long square bar have gamma = 0.675 theta, edges theta/sqrt(2)
   // where they are held. The mean is zero.
   write_block(folder / "block.h5", {1, 1, 1}, {4, 4, 4});
   const double theta = 0.1;
   Block twisted(folder, Vector3::Zero(), {theta, 0, 0});
-  CHECK_THAT(twisted.says(), Contains("DOUBTFUL: superelement 'm' is strained by"));
+  CHECK_THAT(twisted.says(), Contains("warning: superelement 'm' is strained by"));
   CHECK(twisted.strain() > 2.0 / 3 * 0.675 * theta * 0.7);
   CHECK(twisted.strain() < 2.0 / 3 * theta);
   CHECK(twisted.error() < 1e-3);
@@ -170,8 +170,8 @@ TEST_CASE("beams say how far they are strained: stretch, bending, torsion") {
         },
         none);
   };
-  CHECK_THAT(stretch(0.5), Contains("DOUBTFUL: beam 'm' is strained by 50 %"));
-  CHECK_THAT(stretch(-0.03), Contains("DOUBTFUL: beam 'm' is strained by 3 %"));
+  CHECK_THAT(stretch(0.5), Contains("warning: beam 'm' is strained by 50 %"));
+  CHECK_THAT(stretch(-0.03), Contains("warning: beam 'm' is strained by 3 %"));
   CHECK(stretch(0.019).empty());
   // Bent to an arc of 1.5 rad, its length kept: the outermost fibre has 1.5 times its distance from the axis.
   constexpr double angle = 1.5;
