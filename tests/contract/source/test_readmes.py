@@ -1,4 +1,4 @@
-"""The options of commands, files and headings that the READMEs name must exist."""
+"""The options of commands, files and headings that the READMEs and the glossary name must exist."""
 
 import glob
 import os
@@ -19,7 +19,7 @@ def readmes():
     for folder, folders, files in os.walk(REPOSITORY):
         folders[:] = [name for name in folders if name not in ("build", ".git") and not name.startswith(".")]
         for name in files:
-            if name in ("README.md", "CONTRIBUTING.md"):
+            if name in ("README.md", "CONTRIBUTING.md", "glossary.md"):
                 yield os.path.join(folder, name)
 
 
