@@ -1,7 +1,8 @@
 // The Craig-Bampton basis, and the held body's answer to inertia loads, computed with one factorisation.
 //
 // u = T q, T = [Psi Phi]: constraint modes Psi (one kept direction of an interface moved by one, the others held) and
-// fixed-boundary modes Phi, K_ii phi = omega^2 M_ii phi with every kept direction held, Phi^T M Phi = I.
+// fixed-boundary (fixed-interface) modes Phi, K_ii phi = omega^2 M_ii phi with every kept direction held and i the
+// interior degrees of freedom, Phi^T M Phi = I.
 // Residual vectors may follow the modes (residual_vectors.hpp).
 // Rigid motions are put into Psi exactly: with A the rigid motion nearest to interface coordinates q_b, Psi q_b is the
 // rigid motion A q_b plus the solution for the rest q_b - U A q_b. (The factor of a slender body would leave errors of

@@ -1,13 +1,17 @@
 // Ties between the nodes of the interfaces' surfaces and the interface nodes.
 //
-// rigid    u_s = R d + (R theta) x (X_s - X): the nodes s of the surface are carried, their freedoms disappear.
-// average  d and theta are those of the rigid motion nearest to the surface's displacement: with r from the centroid,
+// rigid    (RBE2, kinematic coupling)  u_s = R d + (R theta) x (X_s - X): the nodes s of the surface are carried, and
+//          their degrees of freedom are eliminated.
+// average  (RBE3, distributing coupling)  d and theta are those of the rigid motion nearest to the surface's
+//          displacement: with r from the centroid,
 //          u_c = int u dA / A,  theta_b = J^-1 int r x u dA,  J = int (r.r I - r r^T) dA,
 //          R d = u_c + theta_b x (X - X_c),  R theta = theta_b: conditions C u = q on nodes that stay free, and a force
-//          on the interface is spread over the surface by C^T.
-// free every node of the surface is an interface of its own with its three translations. R: interface's axes to body
-// axes, X: interface node. Directions that are not kept do not hold the body: for a rigid tie they are unknowns of its
-// inside ("released"), for an average tie they are ignored.
+//          on the interface is distributed over the surface by C^T.
+// free     every node of the surface is an interface of its own with its three translations.
+//
+// R: interface's axes to body axes, X: interface node. The kept directions of the interfaces are the boundary degrees
+// of freedom. Directions that are not kept do not hold the body: for a rigid tie they are interior unknowns
+// ("released"), for an average tie they are ignored.
 #pragma once
 
 #include <optional>
