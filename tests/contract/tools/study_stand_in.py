@@ -2,9 +2,9 @@
 
 import os
 import stat
-import subprocess
 
 from box_mesh import REPOSITORY, InFolder
+from python_tool import run_python_tool
 
 STUDY = os.path.join(REPOSITORY, "tools", "study")
 # Takes the arguments of bielle-mechanism; doubles the parameter `speed`, fails when `mass` is negative; keeps a log of its runs.
@@ -52,8 +52,7 @@ class WithStandIn(InFolder):
         self.write("model.yaml", "mechanism: a\nparameters: {speed: 1, mass: 2}\n")
 
     def call(self, *arguments):
-        return subprocess.run(["/usr/bin/python3", "-B", STUDY, *arguments], capture_output=True, text=True, timeout=120,
-                              cwd=self.folder, env={**os.environ, "BIELLE_BIN": self.folder})
+        return run_python_tool(STUDY, arguments, self.folder, {**os.environ, "BIELLE_BIN": self.folder}, timeout=120)
 
     def study(self, table, *options):
         self.write("table.csv", table, errors="surrogatepass")

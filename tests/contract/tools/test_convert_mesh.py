@@ -10,6 +10,7 @@ import numpy as np
 
 from box_mesh import REPOSITORY, InFolder, area, box
 from gmsh_library import GmshFile
+from python_tool import run_python_tool
 
 
 CONVERT = os.path.join(REPOSITORY, "tools", "convert_mesh.py")
@@ -29,8 +30,7 @@ class Converter(InFolder):
         self.half = np.flatnonzero(middle[:, 0] < 0.15)
 
     def run_tool(self, name):
-        return subprocess.run(["/usr/bin/python3", CONVERT, self.path(name), self.path("out.msh")], capture_output=True,
-                              text=True, timeout=120)
+        return run_python_tool(CONVERT, [self.path(name), self.path("out.msh")], timeout=120)
 
     def convert(self, name):
         done = self.run_tool(name)

@@ -3,19 +3,18 @@
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import h5py
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
+from box_mesh import REPOSITORY
+from python_tool import run_python_tool  # box_mesh knows where
 
-from bielle_tools import tetrahedra  # noqa: E402
-from bielle_tools.body_loads import LoadedBody  # noqa: E402
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools import tetrahedra
+from bielle_tools.body_loads import LoadedBody
+from bielle_tools.results_file import Results
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-loads")
@@ -90,7 +89,7 @@ class Loads(unittest.TestCase):
             subprocess.run(command, cwd=cls.folder.name, check=True, capture_output=True, timeout=200)
 
     def export(self, name, *options):
-        return subprocess.run([TOOL, f"{name}_run.h5", "bar", *options], cwd=self.folder.name, capture_output=True, text=True, timeout=100)
+        return run_python_tool(TOOL, [f"{name}_run.h5", "bar", *options], self.folder.name)
 
     def loaded(self, name):
         return LoadedBody(Results(self.at(f"{name}_run.h5")), "bar", {"bar": self.at(f"{name}.h5")})

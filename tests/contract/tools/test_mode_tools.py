@@ -7,11 +7,13 @@ import unittest
 from xml.etree import ElementTree
 
 import h5py
+import matplotlib.pyplot  # noqa: F401  (loaded once for all runs of the tools)
 import meshio
 import numpy as np
 from PIL import Image
 
 from box_mesh import REPOSITORY, InFolder
+from python_tool import run_python_tool  # box_mesh knows where
 from synthetic_modes import OMEGA, SIGMA, write_whirl
 
 from bielle_tools.modes import ModeMotion, Modes, ModeScenery, turned  # noqa: E402  (box_mesh knows where)
@@ -48,8 +50,7 @@ analysis:
 
 class Tools(InFolder):
     def run_tool(self, tool, *arguments):
-        return subprocess.run(["/usr/bin/python3", "-B", os.path.join(REPOSITORY, "tools", tool), *arguments], cwd=self.folder,
-                              capture_output=True, text=True, timeout=240, env={**os.environ, "DISPLAY": ""})
+        return run_python_tool(os.path.join(REPOSITORY, "tools", tool), arguments, self.folder, {**os.environ, "DISPLAY": ""})
 
     def succeed(self, tool, *arguments):
         done = self.run_tool(tool, *arguments)

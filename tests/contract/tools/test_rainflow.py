@@ -1,7 +1,6 @@
 """bielle-rainflow and its counting, on the example of the standard and on histories with known cycles."""
 
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -10,6 +9,7 @@ import h5py
 import numpy as np
 
 from box_mesh import REPOSITORY
+from python_tool import run_python_tool
 
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 
@@ -74,8 +74,7 @@ class Command(unittest.TestCase):
             file["elements/rod/stress_at_root"].attrs["units"] = "Pa"
 
     def run_tool(self, *arguments):
-        command = ["/usr/bin/python3", "-B", os.path.join(REPOSITORY, "tools", "bielle-rainflow"), self.path, *arguments]
-        return subprocess.run(command, capture_output=True, text=True, timeout=60)
+        return run_python_tool(os.path.join(REPOSITORY, "tools", "bielle-rainflow"), [self.path, *arguments])
 
     def test_it_prints_ranges_means_counts_and_damage(self):
         done = self.run_tool("elements/rod/stress_at_root", "--component", "xx", "--sn", "4e6,100,1")

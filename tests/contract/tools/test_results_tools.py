@@ -8,11 +8,13 @@ import xml.etree.ElementTree as ElementTree
 
 import h5py
 import matplotlib.image
+import matplotlib.pyplot  # noqa: F401  (loaded once for all runs of the tools)
 import meshio
 import numpy as np
 
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
+from python_tool import run_python_tool  # box_mesh knows where
 
 
 class ResultsTool(InFolder):
@@ -22,8 +24,7 @@ class ResultsTool(InFolder):
         self.time = synthetic.write_results(self.path("run.h5"), "box.h5")
 
     def run_tool(self, tool, *arguments):
-        command = ["/usr/bin/python3", "-B", os.path.join(REPOSITORY, "tools", tool), *arguments]
-        return subprocess.run(command, capture_output=True, text=True, timeout=240, env={**os.environ, "DISPLAY": ""})
+        return run_python_tool(os.path.join(REPOSITORY, "tools", tool), arguments, environment={**os.environ, "DISPLAY": ""})
 
     def succeed(self, tool, *arguments):
         done = self.run_tool(tool, *arguments)
