@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/session/computation.hpp"
 #include "mechanism/session/interrupted.hpp"
 #include "mechanism/session/motion_steps.hpp"
 #include "mechanism/session/session.hpp"
@@ -19,15 +20,14 @@
 
 namespace bielle::mechanism {
 
-Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&session), options_(options) {
+Motion::Motion(Session& session, const DynamicsOptions& options) : session_(session), options_(options) {
   if (!(options.duration > 0) || !(options.stepping.size > 0))
     throw InputError("a motion needs a duration and a step greater than 0");
-  refuse_sought_efforts(session.model_, "a dynamic analysis");
-  session.at_rest();
-  session.stopping_ = false;
-  const System& system = session.system_;
-  const Environment& environment = session.environment_;
-  State state = session.state_;
+  refuse_sought_efforts(session.model(), "a dynamic analysis");
+  computation_ = std::make_unique<Computation>(session);
+  const System& system = session.system();
+  const Environment& environment = session.environment();
+  State state = session.state();
   // All loads and prescribed motions act fully, even if a static analysis stopped before.
   apply_motions(system, 1, state);
   system.begin_motion(state, environment, false);
@@ -42,7 +42,7 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   if (!conditions.empty()) begin_velocities(system, environment, state, conditions, start_);
   parts_.begin = state.time;
   end_ = parts_.begin + options.duration;
-  const StepOptions stepping = stepping_of(options, system, parts_.begin, session.notes_);
+  const StepOptions stepping = stepping_of(options, system, parts_.begin, session.notes());
   parts_.integration = std::make_unique<TimeIntegration>(system, environment, options.scheme, std::move(state),
                                                          options.form, options.newton);
   start_.add(parts_.integration->start_report());
@@ -52,16 +52,16 @@ Motion::Motion(Session& session, const DynamicsOptions& options) : session_(&ses
   row.energy = energy();
   row.balance = balance();
   row.step = stepping.size;
-  session.record(this->state(), environment, row);
+  session_.recorder().record(this->state(), environment, row);
   session.gather(this->state(), environment);
-  session.report_ = row;
+  computation_->set_report(row);
   show();  // shown last: if the constructor throws, the session shows no motion
-  if (session.recording_.checkpoint > 0) save_for_sinks();
+  if (session.recording().checkpoint > 0) save_for_sinks();
 }
 
 Motion::Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
                const std::optional<StepRecord>& report)
-    : session_(&session), options_(options) {
+    : session_(session), options_(options) {
   std::string why;
   try {
     go_on(archive, sink);
@@ -76,31 +76,26 @@ Motion::Motion(Session& session, const DynamicsOptions& options, Archive& archiv
   end_ = parts_.begin + options.duration;
   saved_ = true;
   show();
-  if (report) {
-    session.report_ = report;
-  } else {
-    session.report_.emplace();
-    session.report_->energy = energy();
-    session.report_->balance = balance();
-  }
+  StepRecord last;
+  last.energy = energy();
+  last.balance = balance();
+  computation_->set_report(report.value_or(last));
 }
 
 Motion::~Motion() {
-  if (session_) session_->at_rest();
+  if (computation_) computation_->end_motion();
 }
 
 void Motion::show() {
   last_begin_ = std::numeric_limits<double>::infinity();
-  session_->motion_ = this;
-  session_->started_ = true;
-  session_->shown_ = &state();
-  session_->loaded_ = {1, 1};
-  session_->acting_ = session_->environment_;
+  computation_->show(*this);
 }
 
+void Motion::end_computation() { computation_.reset(); }
+
 Session& Motion::alive() const {
-  if (!session_) throw std::logic_error("this motion has ended: its session was asked for something else");
-  return *session_;
+  if (!computation_) throw std::logic_error("this motion has ended: its session was asked for something else");
+  return session_;
 }
 
 void Motion::make_march(Parts& parts, StepOptions stepping) {
@@ -109,12 +104,11 @@ void Motion::make_march(Parts& parts, StepOptions stepping) {
   // A Motion can be neither copied nor moved: `this` stays valid.
   parts.march->on_jump([this](const Jump& jump) {
     parts_.energy_balance.jump(jump.before, jump.after, jump.work);
-    prescribed_jumps_.add(session_->system_, jump);
+    prescribed_jumps_.add(session_.system(), jump);
   });
-  if (!session_->on_attempt_.empty())
-    parts.march->observe([session = session_](const Attempt& attempt) {
-      if (session->going_again_) return;
-      for (const auto& callback : session->on_attempt_) callback(attempt);
+  if (session_.watches_attempts())
+    parts.march->observe([this](const Attempt& attempt) {
+      if (!session_.recorder().muted()) computation_->note(attempt);
     });
 }
 
@@ -133,8 +127,9 @@ StepRecord Motion::row(const MarchStep& step, const EnergyBalance& energy_balanc
 }
 
 void Motion::record_step(const MarchStep& step, double before, const EnergyBalance& balance_before) {
-  const Recording& recording = session_->recording_;
-  const Environment& environment = session_->environment_;
+  const Recording& recording = session_.recording();
+  const Environment& environment = session_.environment();
+  Recorder& recorder = session_.recorder();
   const State& now = state();
   last_recorded_ = false;
   if (!recording.times.empty()) {
@@ -142,12 +137,12 @@ void Motion::record_step(const MarchStep& step, double before, const EnergyBalan
          time != recording.times.end() && *time <= now.time; ++time) {
       const State state = *time == now.time ? now : interpolated(*time);
       EnergyBalance energy_balance = balance_before;
-      energy_balance.advance(*time, session_->system_.energy(state, environment));
-      session_->record(state, environment, row(step, energy_balance));
+      energy_balance.advance(*time, session_.system().energy(state, environment));
+      recorder.record(state, environment, row(step, energy_balance));
     }
-    if (parts_.march->stopped()) session_->record(now, environment, *session_->report_);
+    if (parts_.march->stopped()) recorder.record(now, environment, session_.report());
   } else if ((step.on_grid && parts_.grid_steps % recording.every == 0) || done()) {
-    session_->record(now, environment, *session_->report_);
+    recorder.record(now, environment, session_.report());
     last_recorded_ = true;
   }
 }
@@ -156,17 +151,16 @@ bool Motion::step() {
   Session& session = alive();
   if (done()) return false;
   take_step(true);
-  if (const int every = session.recording_.checkpoint; every > 0 && last_on_grid_ && parts_.grid_steps % every == 0)
+  if (const int every = session.recording().checkpoint; every > 0 && last_on_grid_ && parts_.grid_steps % every == 0)
     save_for_sinks();
-  if (session.notes_)
-    session.notes_->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
+  if (session.notes())
+    session.notes()->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
   session.call_back();
   return true;
 }
 
 /// @param seen  whether sinks, notes and callbacks receive the step
 void Motion::take_step(bool seen) {
-  Session& session = *session_;
   const double before = time();
   last_begin_ = std::numeric_limits<double>::infinity();  // in case the step fails
   const EnergyBalance balance_before = parts_.energy_balance;
@@ -177,18 +171,18 @@ void Motion::take_step(bool seen) {
   saved_ = false;
   if (!cautioned_ && seen)
     if (const std::string caution = parts_.integration->caution(); !caution.empty()) {
-      session.note(caution);
+      computation_->note(caution);
       cautioned_ = true;
     }
-  parts_.energy_balance.advance(time(), session.system_.energy(state(), session.environment_), scheme_loss());
+  parts_.energy_balance.advance(time(), session_.system().energy(state(), session_.environment()), scheme_loss());
   if (step.on_grid) ++parts_.grid_steps;
-  session.report_ = row(step, parts_.energy_balance);
+  computation_->set_report(row(step, parts_.energy_balance));
   record_step(step, before, balance_before);
-  session.gather(state(), session.environment_);
-  const auto& crossings = session.system_.event_functions();
+  session_.gather(state(), session_.environment());
+  const auto& crossings = session_.system().event_functions();
   for (const Passed& passed : step.passed) {
     last_event_ = crossings[static_cast<std::size_t>(passed.crossing)].name;
-    if (seen) session.note(Event{passed.time, passed.crossing, last_event_});
+    if (seen) computation_->note(Event{passed.time, passed.crossing, last_event_});
   }
 }
 
@@ -216,10 +210,10 @@ std::vector<std::string> Motion::warnings() const {
 
 bool Motion::advance_to(double until) {
   Session& session = alive();
-  session.stopping_ = false;
+  session.forget_stop();
   const double rounding = 1e-9 * options_.stepping.size;
   while (time() < until - rounding) {
-    if (!step() || session.stopping_) break;
+    if (!step() || session.stopping()) break;
     alive();  // a callback may have started another computation of the session
   }
   return time() >= until - rounding;
@@ -227,21 +221,21 @@ bool Motion::advance_to(double until) {
 
 bool Motion::finish() {
   Session& session = alive();
-  session.stopping_ = false;
+  session.forget_stop();
   try {
-    while (!session.stopping_ && step()) alive();
+    while (!session.stopping() && step()) alive();
   } catch (const Interrupted&) {
     save_where_interrupted();
     throw;
   } catch (const ComputationError&) {
-    if (session_) save_for_sinks();
+    if (computation_) save_for_sinks();
     throw;
   } catch (...) {
     save_where_interrupted();
     throw;
   }
-  if (session.stopping_ && !last_recorded_ && session.recording_.times.empty()) {
-    session.record(state(), session.environment_, *session.report_);
+  if (session.stopping() && !last_recorded_ && session.recording().times.empty()) {
+    session_.recorder().record(state(), session.environment(), session.report());
     last_recorded_ = true;
   }
   save_for_sinks();

@@ -14,6 +14,7 @@
 
 namespace bielle::mechanism {
 
+class Computation;
 class Notes;
 class ResultSink;
 class Session;
@@ -86,7 +87,8 @@ class Motion {
   ///          @param report  report of the last step, if it is known
   Motion(Session& session, const DynamicsOptions& options, Archive& archive, ResultSink* sink,
          const std::optional<StepRecord>& report = {});
-  void show();  ///< makes the session show this motion
+  void show();             ///< makes the session show this motion
+  void end_computation();  ///< the session no longer refers to this motion
   Parts read(Archive& archive, Notes* notes);
   void write(Archive& archive, ResultSink* sink);
   static void exchange_energy_balance(Archive& archive, Parts& parts);
@@ -102,7 +104,8 @@ class Motion {
   void set_memory(int place, double value, bool smooth);
   Session& alive() const;
 
-  Session* session_;  ///< nullptr after the motion has ended
+  Session& session_;
+  std::unique_ptr<Computation> computation_;  ///< none after the motion has ended
   DynamicsOptions options_;
   double end_ = 0;
   double last_begin_ = 0;  ///< start of the last step [s]; infinite if there is none

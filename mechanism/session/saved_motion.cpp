@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mechanism/session/computation.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/motion_steps.hpp"
 #include "mechanism/session/session.hpp"
@@ -34,20 +35,21 @@ void Motion::exchange_energy_balance(Archive& archive, Parts& parts) {
 
 /// The numbers of the sink come last.
 void Motion::write(Archive& archive, ResultSink* sink) {
-  parts_.gathered = session_->step_recorders_.numbers();
+  Recorder& recorder = session_.recorder();
+  parts_.gathered = recorder.step_recorders().numbers();
   exchange_energy_balance(archive, parts_);
   parts_.integration->exchange(archive);
   parts_.march->exchange(archive);
   if (sink) sink->exchange(archive);
-  session_->norm_.reset();  // recorded reactions must not depend on earlier pivots
+  recorder.renew_reactions();
 }
 
 Motion::Parts Motion::read(Archive& archive, Notes* notes) {
-  session_->norm_.reset();
+  session_.recorder().renew_reactions();
   Parts parts;
   exchange_energy_balance(archive, parts);
-  StepOptions stepping = stepping_of(options_, session_->system_, parts.begin, notes);
-  parts.integration = std::make_unique<TimeIntegration>(session_->system_, session_->environment_, options_.scheme,
+  StepOptions stepping = stepping_of(options_, session_.system(), parts.begin, notes);
+  parts.integration = std::make_unique<TimeIntegration>(session_.system(), session_.environment(), options_.scheme,
                                                         archive, options_.form, options_.newton);
   if (!(parts.begin <= parts.integration->state().time))
     throw std::out_of_range("the motion stands before its beginning");
@@ -60,8 +62,7 @@ Motion::Parts Motion::read(Archive& archive, Notes* notes) {
 /// with the former.
 /// @throws std::out_of_range, InputError
 void Motion::go_on(Archive& archive, ResultSink* sink) {
-  Session& session = *session_;
-  Parts now = read(archive, session.notes_);
+  Parts now = read(archive, session_.notes());
   if (sink) sink->exchange(archive);
   Parts anchor;
   const bool interrupted = now.steps > 0 && !archive.exhausted();
@@ -69,9 +70,8 @@ void Motion::go_on(Archive& archive, ResultSink* sink) {
     anchor = read(archive, nullptr);
   else if (!archive.exhausted())
     throw std::out_of_range("there are more numbers than are needed");
-  session.step_recorders_.set(now.gathered);
-  session.at_rest();
-  session.stopping_ = false;
+  session_.recorder().step_recorders().set(now.gathered);
+  computation_ = std::make_unique<Computation>(session_);
   parts_ = std::move(now);
   if (interrupted && arrives(std::move(anchor))) return;
   parts_.steps = parts_.saves = 0;
@@ -81,21 +81,21 @@ void Motion::go_on(Archive& archive, ResultSink* sink) {
 /// has the tangents, pivots and rounding errors of an uninterrupted one. @returns false if it does not arrive at the
 /// same state (steps or scheme have been changed); the motion then has the state of the interruption
 bool Motion::arrives(Parts anchor) {
-  Session& session = *session_;
+  Recorder& recorder = session_.recorder();
   Parts interrupted = std::exchange(parts_, std::move(anchor));
   const long steps = interrupted.steps;
   bool arrived = false;
-  session.going_again_ = true;
+  recorder.set_muted(true);
   try {
-    session.step_recorders_.set(parts_.gathered);
+    recorder.step_recorders().set(parts_.gathered);
     while (parts_.steps < steps && !parts_.march->done()) take_step(false);
     arrived = same_motion(state(), interrupted.integration->state());
   } catch (const ComputationError&) {
     // The steps differ from the earlier ones.
   }
-  session.going_again_ = false;
+  recorder.set_muted(false);
   if (!arrived) {
-    session.step_recorders_.set(interrupted.gathered);
+    recorder.step_recorders().set(interrupted.gathered);
     parts_ = std::move(interrupted);
     return false;
   }
@@ -109,7 +109,7 @@ bool Motion::arrives(Parts anchor) {
 void Motion::save_for_sinks() {
   if (saved_) return;
   parts_.steps = parts_.saves = 0;
-  anchored_ = session_->open_ && !session_->sinks_.empty();
+  anchored_ = !session_.recorder().open_sinks().empty();
   write_to_sinks();
 }
 
@@ -119,10 +119,9 @@ void Motion::write_to_sinks() {
     write(archive, sink);
     if (sink) sink->checkpoint(archive);
   };
-  if (session_->open_ && !session_->sinks_.empty())
-    for (ResultSink* sink : session_->sinks_) save(sink);
-  else
-    save(nullptr);
+  const std::vector<ResultSink*> sinks = session_.recorder().open_sinks();
+  for (ResultSink* sink : sinks) save(sink);
+  if (sinks.empty()) save(nullptr);
   saved_ = true;
 }
 
@@ -131,8 +130,8 @@ void Motion::write_to_sinks() {
 /// starts from the last of them and repeats the steps up to the interruption (`arrives`). Therefore all later steps are
 /// identical bit by bit.
 void Motion::save_where_interrupted() {
-  if (!session_ || saved_) return;
-  if (!anchored_ || session_->recording_.checkpoint == 0) return save_for_sinks();
+  if (!computation_ || saved_) return;
+  if (!anchored_ || session_.recording().checkpoint == 0) return save_for_sinks();
   ++parts_.saves;
   write_to_sinks();
   anchored_ = false;  // tangents are rebuilt if this program continues

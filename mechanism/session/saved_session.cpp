@@ -92,7 +92,7 @@ void Session::restore(const std::vector<double>& values) {
       throw InputError("what is to be restored is in motion, and no motion is under way: start it from what was saved");
     Motion::Parts read = saved.moving ? motion_->read(archive, nullptr) : Motion::Parts();
     read.steps = read.saves = 0;
-    if (saved.moving && archive.exhausted()) step_recorders_.set(read.gathered);
+    if (saved.moving && archive.exhausted()) recorder_.step_recorders().set(read.gathered);
     return read;
   });
   if (saved.moving) {

@@ -1,12 +1,11 @@
 #include "mechanism/session/session.hpp"
 
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "mechanism/measures/input_measure.hpp"
-#include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/begin_first_order.hpp"
@@ -26,7 +25,7 @@ Session::Session(std::unique_ptr<const Model> owned, const Model* model, int thr
       acting_(environment_),
       state_(system_.start(0)),
       shown_(&state_),
-      step_recorders_(model_) {
+      recorder_(system_) {
   system_.use_threads(threads);
   State assembled;
   redundant_ = name_constraints(system_, take_out_redundant_at_start(system_, environment_, state_, assembled));
@@ -44,8 +43,7 @@ void Session::at_rest() {
   if (!motion_) return;
   state_ = motion_->state();
   shown_ = &state_;
-  motion_->session_ = nullptr;
-  motion_ = nullptr;
+  std::exchange(motion_, nullptr)->end_computation();
 }
 
 void Session::set_state(State state) {
@@ -80,7 +78,7 @@ StartReport Session::assemble(const AssemblyOptions& options) {
   report_.emplace();
   report_->energy = energy_balance.totals();
   report_->balance = energy_balance.balance();
-  record(state_, environment_, *report_);
+  recorder_.record(state_, environment_, *report_);
   return report;
 }
 
@@ -127,7 +125,7 @@ ResultsColumn Session::column(const std::string& dataset) const {
 }
 
 std::vector<double> Session::read(const ResultsColumn& column) const {
-  return readable().read(column, reported(*shown_, acting_), system_.slots(), acting_, report());
+  return readable().read(column, recorder_.reported(*shown_, acting_), system_.slots(), acting_, report());
 }
 
 std::vector<double> Session::read(const std::string& dataset) const {
@@ -139,19 +137,13 @@ double Session::measure(const std::string& name) const {
   auto found = gauges_.find(name);
   if (found == gauges_.end()) found = gauges_.emplace(name, Gauge(name, system_)).first;
   const Gauge& gauge = found->second;
-  return gauge.value(gauge.reads_reactions() ? reported(*shown_, acting_) : *shown_, acting_);
+  return gauge.value(gauge.reads_reactions() ? recorder_.reported(*shown_, acting_) : *shown_, acting_);
 }
 
 // -- callbacks
 
 void Session::call_back() {
   for (const auto& callback : on_step_) callback(*this);
-}
-
-void Session::note(const Event& event) {
-  for (const auto& callback : on_event_) callback(event);
-  if (open_)
-    for (ResultSink* sink : sinks_) sink->note(event);
 }
 
 void Session::set_input(const std::string& name, double value, bool smooth) {
@@ -171,67 +163,6 @@ void Session::set_input(const std::string& name, double value, bool smooth) {
   for (const Member& member : model_.members())
     if (dynamic_cast<const InputMeasure*>(member.component.get())) names.push_back(member.entry.name);
   throw InputError(fmt::format("there is no input '{}'{}", name, did_you_mean(name, names)));
-}
-
-void Session::note(const std::string& sentence) const {
-  if (notes_) notes_->note(sentence);
-}
-
-// -- recording
-
-void Session::remove_sink(const ResultSink& sink) { std::erase(sinks_, &sink); }
-
-void Session::set_recording(Recording recording) {
-  if (recording.every < 1) throw InputError("rows are recorded every 1, 2, ... steps");
-  recording_ = std::move(recording);
-}
-
-void Session::begin_analysis(const std::string& type, std::size_t expected_rows, const ResultSink* goes_on) {
-  open_ = true;
-  rows_ = 0;
-  step_recorders_.begin();
-  for (ResultSink* sink : sinks_)
-    if (sink != goes_on) sink->begin_analysis(type, expected_rows);
-}
-
-void Session::record(const State& state, const Environment& environment, const StepRecord& step) {
-  if (!open_) return;
-  const State& whole = reported(state, environment);
-  if (going_again_) return;
-  ++rows_;
-  for (ResultSink* sink : sinks_) sink->record(whole, system_.slots(), environment, step);
-}
-
-void Session::gather(const State& state, const Environment& environment) {
-  if (open_) step_recorders_.add(state, system_.slots(), environment);
-}
-
-const State& Session::reported(const State& state, const Environment& environment) const {
-  if (!ReactionNorm::needed(system_, state)) return state;
-  if (!norm_) norm_ = std::make_unique<ReactionNorm>(system_);
-  reported_ = state;
-  norm_->balance(environment, reported_);
-  return reported_;
-}
-
-void Session::write(const ResultArray& array) {
-  if (!open_) throw std::logic_error("a result outside of an analysis");
-  for (ResultSink* sink : sinks_) sink->write(array);
-}
-
-void Session::write(const ResultNames& names) {
-  if (!open_) throw std::logic_error("a result outside of an analysis");
-  for (ResultSink* sink : sinks_) sink->write(names);
-}
-
-void Session::end_analysis() {
-  if (open_)
-    for (const ResultArray& array : step_recorders_.results()) write(array);
-  if (open_ && rows_ > 0)
-    if (const EntryNumbers numbers = unique_reaction_numbers(system_, acting_, *shown_); !numbers.values.empty())
-      for (ResultSink* sink : sinks_) sink->write(numbers);
-  open_ = false;
-  for (ResultSink* sink : sinks_) sink->end_analysis();
 }
 
 }  // namespace bielle::mechanism

@@ -21,15 +21,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mechanism/results/recording.hpp"
-#include "mechanism/results/result_sink.hpp"
 #include "mechanism/results/results_rows.hpp"
 #include "mechanism/session/assembly_options.hpp"
 #include "mechanism/session/gauge.hpp"
 #include "mechanism/session/motion.hpp"
 #include "mechanism/session/notes.hpp"
-#include "mechanism/session/step_recorders.hpp"
-#include "mechanism/solvers/constraints/reaction_norm.hpp"
+#include "mechanism/session/recorder.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
@@ -111,6 +108,7 @@ class Session {
   void on_step(std::function<void(Session&)> callback) { on_step_.push_back(std::move(callback)); }
   /// Adds a callback that is called with every attempted step, accepted or not.
   void on_attempt(std::function<void(const Attempt&)> callback) { on_attempt_.push_back(std::move(callback)); }
+  bool watches_attempts() const { return !on_attempt_.empty(); }
   /// Adds a callback that is called with each event of a motion, after the step that ends on it.
   void on_event(std::function<void(const Event&)> callback) { on_event_.push_back(std::move(callback)); }
   /// Ends the present computation after its current step.
@@ -132,35 +130,34 @@ class Session {
   void restore(const std::vector<double>& saved);
 
   // -- recording
-  void add_sink(ResultSink& sink) { sinks_.push_back(&sink); }  ///< the sink must outlive its use
-  void remove_sink(const ResultSink& sink);                     ///< the sink receives no more data
-  void set_recording(Recording recording);
-  const Recording& recording() const { return recording_; }
+  void add_sink(ResultSink& sink) { recorder_.add_sink(sink); }              ///< the sink must outlive its use
+  void remove_sink(const ResultSink& sink) { recorder_.remove_sink(sink); }  ///< the sink receives no more data
+  /// @throws InputError if the interval of steps is less than 1
+  void set_recording(Recording recording) { recorder_.set_recording(std::move(recording)); }
+  const Recording& recording() const { return recorder_.recording(); }
   /// Begins an analysis: the following results are recorded under this name, until the analysis ends or, after a
   /// failure, another begins.
   /// @param goes_on  a sink in which the analysis is already open
-  void begin_analysis(const std::string& type, std::size_t expected_rows = 0, const ResultSink* goes_on = nullptr);
-  void write(const ResultArray& array);  ///< writes a result that is not a row
-  void write(const ResultNames& names);
-  void end_analysis();                        ///< writes the results of the step recorders
-  void abandon_analysis() { open_ = false; }  ///< after a failure: nothing more is recorded of the analysis
+  void begin_analysis(const std::string& type, std::size_t expected_rows = 0, const ResultSink* goes_on = nullptr) {
+    recorder_.begin_analysis(type, expected_rows, goes_on);
+  }
+  void write(const ResultArray& array) { recorder_.write(array); }  ///< writes a result that is not a row
+  void write(const ResultNames& names) { recorder_.write(names); }
+  void end_analysis() { recorder_.end_analysis(*shown_, acting_); }  ///< writes the results of the step recorders
+  /// Call this function after a failure: nothing more is recorded of the analysis.
+  void abandon_analysis() { recorder_.abandon_analysis(); }
   /// Call this function at each state that an analysis has found: an accepted step, a start, an equilibrium in
   /// rotation.
-  void gather(const State& state, const Environment& environment);
+  void gather(const State& state, const Environment& environment) { recorder_.gather(state, environment); }
   /// Summary of the step recorders of this analysis, as lines for the user.
-  std::string gathered() { return step_recorders_.summary(); }
-  long rows() const { return rows_; }  ///< number of rows of this analysis
+  std::string gathered() { return recorder_.step_recorders().summary(); }
+  Recorder& recorder() { return recorder_; }
+  long rows() const { return recorder_.rows(); }  ///< number of rows of this analysis
 
  private:
-  friend class Motion;
   friend class Computation;
   Session(std::unique_ptr<const Model> owned, const Model* model, int threads);
   void at_rest();  ///< ends the motion, if any
-  void record(const State& state, const Environment& environment, const StepRecord& step);
-  /// Returns the state with the reactions to report.
-  const State& reported(const State& state, const Environment& environment) const;
-  void note(const Event& event);
-  void note(const std::string& sentence) const;
   const ResultsRows& readable() const;
   struct Saved;
   void exchange(Archive& archive, Saved& saved) const;
@@ -177,23 +174,16 @@ class Session {
   std::optional<StepRecord> report_;
   std::vector<std::string> redundant_;
   Mobility mobility_;
-  mutable std::unique_ptr<ResultsRows> readable_;  ///< created at the first reading
-  mutable std::vector<ResultsColumn> datasets_;    ///< created at the first reading
-  mutable std::unique_ptr<ReactionNorm> norm_;     ///< created if constraints are redundant
-  mutable State reported_;
+  mutable std::unique_ptr<ResultsRows> readable_;          ///< created at the first reading
+  mutable std::vector<ResultsColumn> datasets_;            ///< created at the first reading
   mutable std::unordered_map<std::string, Gauge> gauges_;  ///< gauges of the requested measures
 
-  Recording recording_;
-  std::vector<ResultSink*> sinks_;
-  StepRecorders step_recorders_;
-  bool open_ = false;  ///< an analysis is open
-  long rows_ = 0;
+  Recorder recorder_;
   std::vector<std::function<void(Session&)>> on_step_;
   std::vector<std::function<void(const Attempt&)>> on_attempt_;
   std::vector<std::function<void(const Event&)>> on_event_;
   Notes* notes_ = nullptr;
   bool stopping_ = false;
-  bool going_again_ = false;  ///< steps are being repeated after a restart
 };
 
 }  // namespace bielle::mechanism
