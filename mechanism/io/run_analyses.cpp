@@ -12,6 +12,7 @@
 #include "mechanism/results/step_log.hpp"
 #include "reduce/common/files/file_checks.hpp"
 #include "reduce/common/files/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_soundness.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -37,13 +38,7 @@ class ShownNotes : public Notes {
 /// A run that was killed at its very beginning leaves the header of an HDF5 file.
 constexpr std::uintmax_t bare_head = 96;
 
-bool holds_results(const std::string& path) {
-  try {
-    return Hdf5File::open(path).read_text_attribute("/", "format") == "bielle results";
-  } catch (const InputError&) {
-    return false;  // no HDF5 file, or no results file
-  }
-}
+bool holds_results(const std::string& path) { return root_text_attribute(path, "format") == "bielle results"; }
 
 /// If a run fails and its new file contains no results, the file is removed: a full disk truncates files.
 class Remains {

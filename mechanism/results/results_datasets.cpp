@@ -29,7 +29,7 @@ std::vector<std::string> names_of(const ResultsKind& kind, const ResultsKinds& k
   return names;
 }
 
-void describe_entries(Hdf5File& file, const std::string& group, const ResultsKinds& kinds) {
+void describe_named(Hdf5File& file, const std::string& group, const ResultsKinds& kinds) {
   for (const ResultsEntry& entry : kinds.entries()) {
     if (entry.entry.section == Section::measures) continue;  // these are single datasets
     const std::string place = group + "/" + results_path(entry.entry);
@@ -113,12 +113,13 @@ ResultsLayout layout_for(const ResultsRows& rows, std::optional<ResultsLayout> w
   return rows.kinds().datasets() > most_named_datasets ? ResultsLayout::stacked : ResultsLayout::named;
 }
 
-void create_datasets(Hdf5File& file, const std::string& group, const ResultsRows& rows, ResultsLayout layout,
-                     const std::vector<ResultsColumn>& columns, std::size_t rows_per_chunk) {
-  for (const ResultsColumn& column : columns)
-    file.create_rows(group + "/" + column.dataset, column.shape, units_or_number(column.units), column.description,
-                     rows_per_chunk);
-  if (layout == ResultsLayout::named) return describe_entries(file, group, rows.kinds());
+void create_dataset(Hdf5File& file, const std::string& group, const ResultsColumn& column, std::size_t rows_per_chunk) {
+  file.create_rows(group + "/" + column.dataset, column.shape, units_or_number(column.units), column.description,
+                   rows_per_chunk);
+}
+
+void describe_entries(Hdf5File& file, const std::string& group, const ResultsRows& rows, ResultsLayout layout) {
+  if (layout == ResultsLayout::named) return describe_named(file, group, rows.kinds());
   for (const ResultsKind& kind : rows.kinds().kinds()) describe_kind(file, group, kind, rows.kinds());
 }
 

@@ -17,10 +17,11 @@ namespace bielle::mechanism {
 /// Returns the layout for a model: the requested one, otherwise the layout by names if it has not too many datasets.
 ResultsLayout layout_for(const ResultsRows& rows, std::optional<ResultsLayout> wanted);
 
-/// Creates the datasets that grow, `columns`, and the attributes of their entries.
+/// Creates the dataset of a column, which grows.
 /// @param group  group of the analysis @param rows_per_chunk  see Hdf5File::create_rows
-void create_datasets(Hdf5File& file, const std::string& group, const ResultsRows& rows, ResultsLayout layout,
-                     const std::vector<ResultsColumn>& columns, std::size_t rows_per_chunk);
+void create_dataset(Hdf5File& file, const std::string& group, const ResultsColumn& column, std::size_t rows_per_chunk);
+/// Creates the groups of all entries, after their datasets, with their attributes.
+void describe_entries(Hdf5File& file, const std::string& group, const ResultsRows& rows, ResultsLayout layout);
 
 /// Checks that an analysis of the file contains the datasets that would be recorded now, and no others.
 /// @throws InputError

@@ -66,8 +66,8 @@ ResultsStream::~ResultsStream() {
 void ResultsStream::begin(const std::string& group, std::size_t expected_rows) {
   group_ = group;
   expected_rows_ = expected_rows;
-  recorded_ = 0;
-  created_ = linked_ = false;
+  recorded_ = written_ = 0;
+  prepared_ = created_ = linked_ = false;
   sums_.clear();
 }
 
@@ -75,9 +75,9 @@ void ResultsStream::resume(const std::string& group, std::size_t recorded) {
   std::vector<Checksum> sums = std::move(sums_);
   begin(group, 0);
   sums_ = std::move(sums);
-  recorded_ = recorded;
+  recorded_ = written_ = recorded;
   prepare_columns();
-  created_ = true;
+  prepared_ = created_ = true;
   link_from_root();
 }
 
@@ -108,13 +108,6 @@ std::int64_t ResultsStream::sum_of_rows() const {
   return all.value();
 }
 
-void ResultsStream::make_room(const State& state) {
-  for (Queue* queue : {&filling_, &taken_}) {
-    queue->instants.resize(pieces_in(queue_bytes, bytes_of(state), most_queued));
-    for (Instant& instant : queue->instants) instant.state = state;
-  }
-}
-
 void ResultsStream::record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                            const StepRecord& step) {
   if (group_.empty()) throw std::logic_error("a row of results outside of an analysis");
@@ -122,7 +115,9 @@ void ResultsStream::record(const State& state, const std::vector<Slots>& slots, 
   changed_.wait(lock,
                 [&] { return failure_ || filling_.instants.empty() || filling_.count < filling_.instants.size(); });
   check();
-  if (filling_.instants.empty()) make_room(state);
+  if (filling_.instants.empty())
+    for (Queue* queue : {&filling_, &taken_})
+      queue->instants.resize(pieces_in(queue_bytes, bytes_of(state), most_queued));
   Instant& instant = filling_.instants[filling_.count++];
   instant.state = state;
   instant.slots = &slots;
@@ -193,10 +188,15 @@ void ResultsStream::write_until_told_to_stop() {
 }
 
 std::size_t ResultsStream::make_rows(std::size_t first) {
-  if (!created_) create_columns();
+  if (!prepared_) {
+    prepare_columns();
+    rows_.restart();
+    sums_.assign(datasets_.size() + 1, {});
+    prepared_ = true;
+  }
   if (block_.times.empty()) {
     block_.times.resize(pieces_in(block_bytes, row_bytes(), most_block_rows));
-    block_.values.resize(block_.times.size() * rows_.size());
+    block_.values = std::make_unique_for_overwrite<double[]>(block_.times.size() * rows_.size());
   }
   const std::size_t count = std::min(taken_.count - first, block_.times.size() - block_.rows);
   views_.clear();
@@ -205,7 +205,7 @@ std::size_t ResultsStream::make_rows(std::size_t first) {
     views_.push_back({&instant.state, instant.slots, &instant.environment, &instant.step});
     block_.times[block_.rows + k - first] = instant.step.time.value_or(instant.state.time);
   }
-  rows_.fill(views_, block_.values.data() + block_.rows * rows_.size());
+  rows_.fill(views_, block_.values.get() + block_.rows * rows_.size());
   block_.rows += count;
   return count;
 }
@@ -214,33 +214,51 @@ std::size_t ResultsStream::make_rows(std::size_t first) {
 void ResultsStream::add_to_sums() {
   if (sums_.empty()) return;
   for (std::size_t row = 0; row < block_.rows; ++row) {
-    const double* numbers = block_.values.data() + row * rows_.size();
+    const double* numbers = block_.values.get() + row * rows_.size();
     for (std::size_t k = 0; k < columns_.size(); ++k) sums_[k].add({numbers + columns_[k].begin, columns_[k].size});
   }
   sums_.back().add({block_.times.data(), block_.rows});
 }
 
-/// The file never counts an incomplete row: the data are written before the times.
+/// The file never counts an incomplete row: the data are written before the times. With the first rows the datasets are
+/// created, all changes of which reach the file together, with the flush. With the last expected rows they are closed:
+/// an open dataset holds some 20 kB.
 void ResultsStream::write_block() {
   add_to_sums();
+  written_ += block_.rows;
+  const bool creates = !created_, last = written_ >= expected_rows_ && expected_rows_ > 0;
+  if (creates) file_.hold_back(true);
   for (std::size_t k = 0; k < datasets_.size(); ++k) {
-    const ResultsColumn& column = columns_[k];
-    const double* first = block_.values.data() + column.begin;
-    if (block_.rows == 1 || column.size >= large_column) {
-      for (std::size_t row = 0; row < block_.rows; ++row)
-        file_.append_rows(datasets_[k], {first + row * rows_.size(), column.size});
-      continue;
-    }
-    together_.resize(block_.rows * column.size);
-    for (std::size_t row = 0; row < block_.rows; ++row)
-      std::copy_n(first + row * rows_.size(), column.size, together_.data() + row * column.size);
-    file_.append_rows(datasets_[k], together_, block_.rows);
+    if (creates) create_dataset(file_, group_, columns_[k], chunk_rows_);
+    append_column(k);
+    if (last) file_.close_rows(datasets_[k]);
+  }
+  if (creates) {
+    describe_entries(file_, group_, rows_, layout_);
+    file_.create_rows(time_dataset_, {}, "s", "row 0 is the start; rows of other datasets beyond these do not count",
+                      expected_rows_ > 0 ? std::min(expected_rows_, most_growth_rows) : unknown_growth_rows);
   }
   file_.flush();
+  if (creates) file_.hold_back(false);
+  created_ = true;
   file_.append_rows(time_dataset_, {block_.times.data(), block_.rows}, block_.rows);
   file_.flush();
   block_.rows = 0;
   if (!linked_) link_from_root();
+}
+
+void ResultsStream::append_column(std::size_t number) {
+  const ResultsColumn& column = columns_[number];
+  const double* first = block_.values.get() + column.begin;
+  if (block_.rows == 1 || column.size >= large_column) {
+    for (std::size_t row = 0; row < block_.rows; ++row)
+      file_.append_rows(datasets_[number], {first + row * rows_.size(), column.size});
+    return;
+  }
+  together_.resize(block_.rows * column.size);
+  for (std::size_t row = 0; row < block_.rows; ++row)
+    std::copy_n(first + row * rows_.size(), column.size, together_.data() + row * column.size);
+  file_.append_rows(datasets_[number], together_, block_.rows);
 }
 
 // -- the datasets of an analysis
@@ -250,23 +268,9 @@ void ResultsStream::prepare_columns() {
   datasets_.clear();
   for (const ResultsColumn& column : columns_) datasets_.push_back(group_ + "/" + column.dataset);
   time_dataset_ = group_ + "/time";
-}
-
-/// All changes reach the file together, with the flush.
-void ResultsStream::create_columns() {
   const std::size_t known = std::min(expected_rows_, most_growth_rows);
-  const std::size_t chunk_rows = known > 0 ? pieces_in(known_growth_bytes, row_bytes(), known)
-                                           : pieces_in(unknown_growth_bytes, row_bytes(), unknown_growth_rows);
-  prepare_columns();
-  file_.hold_back(true);
-  create_datasets(file_, group_, rows_, layout_, columns_, chunk_rows);
-  file_.create_rows(time_dataset_, {}, "s", "row 0 is the start; rows of other datasets beyond these do not count",
-                    known > 0 ? known : unknown_growth_rows);
-  file_.flush();
-  file_.hold_back(false);
-  rows_.restart();
-  sums_.assign(datasets_.size() + 1, {});
-  created_ = true;
+  chunk_rows_ = known > 0 ? pieces_in(known_growth_bytes, row_bytes(), known)
+                          : pieces_in(unknown_growth_bytes, row_bytes(), unknown_growth_rows);
 }
 
 void ResultsStream::link_from_root() {

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -72,18 +73,17 @@ class ResultsStream {
   /// Rows that are to be written to the file.
   struct Block {
     std::vector<double> times;
-    std::vector<double> values;  ///< values, row after row
+    std::unique_ptr<double[]> values;  ///< row after row; memory that no row has reached is never touched
     std::size_t rows = 0;
   };
   std::size_t row_bytes() const { return sizeof(double) * (rows_.size() + 1); }
-  void make_room(const State& state);
   void prepare_columns();
-  void create_columns();
   /// Computes rows from the states of the queue from number `first` on, as many as fit in the block. @returns their
   /// number
   std::size_t make_rows(std::size_t first);
   void add_to_sums();
   void write_block();
+  void append_column(std::size_t number);  ///< appends the block's rows of a column
   void write_until_told_to_stop();
   void check() const {
     if (failure_) std::rethrow_exception(failure_);
@@ -93,12 +93,13 @@ class ResultsStream {
   ResultsRows rows_;
   ResultsLayout layout_;
   Hdf5File file_;
-  std::string group_;  ///< group of the open analysis
-  std::size_t expected_rows_ = 0, recorded_ = 0;
+  std::string group_;                                           ///< group of the open analysis
+  std::size_t expected_rows_ = 0, recorded_ = 0, written_ = 0;  ///< numbers of rows
+  std::size_t chunk_rows_ = 1;
   std::vector<ResultsColumn> columns_;
   std::vector<std::string> datasets_;  ///< paths of the columns, including the group
   std::string time_dataset_;
-  bool created_ = false, linked_ = false;
+  bool prepared_ = false, created_ = false, linked_ = false;
   std::vector<Checksum> sums_;  ///< checksums of the rows of each dataset, the times last; empty if the file has none
   Queue taken_;
   Block block_;

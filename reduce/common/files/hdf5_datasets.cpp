@@ -90,7 +90,7 @@ void Hdf5File::write(const std::string& dataset, double value, const std::string
 void Hdf5File::write_text(const std::string& dataset, const std::string& text) {
   const char* pointer = text.c_str();
   const Hdf5Id type = hdf5_text_type();
-  handle_->write_values(dataset, type, type, &pointer, 1, {}, "-", "");
+  handle_->write_values(dataset, type, type, &pointer, 1, {}, "-", "", text_transfer_properties(1));
 }
 
 void Hdf5File::write_names(const std::string& dataset, const std::vector<std::string>& names) {
@@ -98,7 +98,8 @@ void Hdf5File::write_names(const std::string& dataset, const std::vector<std::st
   pointers.reserve(names.size());
   for (const std::string& name : names) pointers.push_back(name.c_str());
   const Hdf5Id type = hdf5_text_type();
-  handle_->write_values(dataset, type, type, pointers.data(), pointers.size(), {names.size()}, "-", "");
+  handle_->write_values(dataset, type, type, pointers.data(), pointers.size(), {names.size()}, "-", "",
+                        text_transfer_properties(names.size()));
 }
 
 bool Hdf5File::has(const std::string& object) const { return handle_->has(object); }

@@ -225,6 +225,8 @@ void Hdf5File::append_rows(const std::string& dataset, std::span<const double> v
                    "cannot be written; is the disk full?");
 }
 
+void Hdf5File::close_rows(const std::string& dataset) { handle_->growing.erase(handle_->at(dataset)); }
+
 void Hdf5File::link(const std::string& target, const std::string& name) {
   handle_->make_groups_above(name);
   const std::string place = handle_->at(name);
@@ -238,6 +240,7 @@ void Hdf5File::make_group(const std::string& group) { handle_->make_groups_above
 void Hdf5File::remove(const std::string& object) {
   const std::string place = handle_->at(object);
   handle_->growing.erase(place);
+  handle_->known_groups.clear();
   handle_->checked(H5Ldelete(handle_->file, place.c_str(), H5P_DEFAULT), object, "cannot be removed");
 }
 

@@ -98,6 +98,8 @@ class Hdf5File {
                    const std::string& description = "", std::size_t rows_per_chunk = 256);
   /// Appends `rows` rows; `values` holds them one after the other.
   void append_rows(const std::string& dataset, std::span<const double> values, std::size_t rows = 1);
+  /// Frees the memory that a dataset takes since rows were appended; appending opens it again.
+  void close_rows(const std::string& dataset);
   /// Reads `count` rows from number `first` on, one after the other, from a dataset that grows.
   std::vector<double> read_rows(const std::string& dataset, std::size_t first, std::size_t count) const;
   /// Removes the rows after the first `rows`, if there are more.

@@ -1,5 +1,6 @@
 #include "reduce/common/files/hdf5_handle.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "reduce/common/counted.hpp"
@@ -38,6 +39,13 @@ Hdf5Id ordered_group_properties(hid_t kind) {
 Hdf5Id dataset_properties() {
   Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties, false);
+  return properties;
+}
+
+Hdf5Id text_transfer_properties(std::size_t count) {
+  constexpr std::size_t least = 4096, most = 1 << 20;
+  Hdf5Id properties(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  H5Pset_buffer(properties, std::clamp(count * sizeof(hvl_t), least, most), nullptr, nullptr);
   return properties;
 }
 
@@ -86,10 +94,15 @@ void Hdf5File::Handle::make_groups_above(const std::string& object) const {
   const std::string whole = at(object);
   for (std::size_t end = whole.find('/', 1); end != std::string::npos; end = whole.find('/', end + 1)) {
     const std::string group = whole.substr(0, end);
-    if (exists(group)) continue;
+    if (known_groups.contains(group)) continue;
+    if (exists(group)) {
+      known_groups.insert(group);
+      continue;
+    }
     const Hdf5Id properties = ordered_group_properties(H5P_GROUP_CREATE);
     const Hdf5Id made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose);
     if (!made.valid()) fail(object, fmt::format("the group '{}' cannot be made", group));
+    known_groups.insert(group);
   }
 }
 
@@ -112,13 +125,13 @@ void Hdf5File::Handle::describe(hid_t object, const std::string& dataset, const 
 
 void Hdf5File::Handle::write_values(const std::string& dataset, hid_t memory_type, hid_t file_type, const void* values,
                                     std::size_t count, const Shape& shape, const std::string& units,
-                                    const std::string& description) const {
+                                    const std::string& description, hid_t transfer) const {
   if (count != count_of(shape))
     throw std::logic_error(
         fmt::format("{} given for '{}' of shape {}", counted(count, "value"), dataset, to_string(shape)));
   const Hdf5Id made = make_dataset(dataset, file_type, shape, units, description);
   if (count > 0)
-    checked(H5Dwrite(made, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), dataset,
+    checked(H5Dwrite(made, memory_type, H5S_ALL, H5S_ALL, transfer, values), dataset,
             "cannot be written; is the disk full?");
 }
 
@@ -171,7 +184,8 @@ std::vector<std::string> Hdf5File::Handle::read_strings(const std::string& datas
   if (H5Tis_variable_str(stored) > 0) {
     Hdf5Id type(H5Tcopy(stored), H5Tclose);
     std::vector<char*> texts(count, nullptr);
-    checked(H5Dread(opened, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), dataset, "cannot be read");
+    checked(H5Dread(opened, type, H5S_ALL, H5S_ALL, text_transfer_properties(count), texts.data()), dataset,
+            "cannot be read");
     for (const char* text : texts) result.emplace_back(text == nullptr ? "" : text);
     const Hdf5Id space(H5Dget_space(opened), H5Sclose);
     H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data());

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +52,9 @@ std::string to_string(const Shape& shape);  ///< "(2, 3)"
 Hdf5Id ordered_group_properties(hid_t kind);
 /// Makes properties of a dataset. Like groups, datasets hold no dates: equal content makes equal files.
 Hdf5Id dataset_properties();
+/// Makes properties of a transfer of `count` texts: its buffer for conversion is as large as they need. HDF5's default
+/// clears a megabyte each time.
+Hdf5Id text_transfer_properties(std::size_t count);
 /// Makes the properties with which files are opened: their format can be read by every HDF5 since 1.0, and stays
 /// readable if the writer is killed after a flush.
 Hdf5Id access_properties();
@@ -71,6 +75,7 @@ struct Hdf5File::Handle {
   bool writing = false;
   Hdf5Id file;
   std::map<std::string, GrowingDataset> growing;  // after `file`: closed before it
+  mutable std::set<std::string> known_groups;     ///< groups that were found or made, by their paths in the file
 
   [[noreturn]] void fail(const std::string& object, const std::string& what) const {
     const std::string message = fmt::format("{}: {}{}{}", path, at(object), object.empty() ? "" : ": ", what);
@@ -97,8 +102,8 @@ struct Hdf5File::Handle {
   void write_text_attribute(hid_t object, const std::string& path, const std::string& name,
                             const std::string& value) const;
   void write_values(const std::string& dataset, hid_t memory_type, hid_t file_type, const void* values,
-                    std::size_t count, const Shape& shape, const std::string& units,
-                    const std::string& description) const;
+                    std::size_t count, const Shape& shape, const std::string& units, const std::string& description,
+                    hid_t transfer = H5P_DEFAULT) const;
   Hdf5Id make_dataset(const std::string& dataset, hid_t file_type, const Shape& shape, const std::string& units,
                       const std::string& description) const;
   void describe(hid_t object, const std::string& dataset, const std::string& units,

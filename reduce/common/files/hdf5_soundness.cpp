@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -171,6 +172,26 @@ void check_sound(const std::string& path) {
     throw;
   }
   learn("");
+}
+
+std::string root_text_attribute(const std::string& path, const std::string& name) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return {};
+  silence_hdf5();
+  try {
+    return in_child_process("damaged", limits_of_a_walk(0), [&]() -> std::string {
+      const Hdf5Id access = access_properties();
+      const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+      if (!file.valid() || H5Aexists(file, name.c_str()) <= 0) return {};
+      const Hdf5Id attribute(H5Aopen(file, name.c_str(), H5P_DEFAULT), H5Aclose);
+      const Hdf5Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+      if (H5Tis_variable_str(type) <= 0 || H5Sget_simple_extent_npoints(space) != 1) return {};
+      char* text = nullptr;
+      return H5Aread(attribute, type, &text) < 0 || text == nullptr ? std::string() : std::string(text);
+    });
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 }  // namespace bielle

@@ -10,4 +10,8 @@ namespace bielle {
 /// @throws InputError when the walk does not come to its end
 void check_sound(const std::string& path);
 
+/// Reads a text attribute of a file's root in a child process, without a check of the rest.
+/// @returns "" if there is no such file, attribute or text, or if it is damaged
+std::string root_text_attribute(const std::string& path, const std::string& name);
+
 }  // namespace bielle
