@@ -36,9 +36,9 @@ void check_matrix(const Matrix& matrix, Index rows, Index columns, const std::st
 void check_symmetric(const Eigen::MatrixXd& matrix, const std::string& dataset) {
   for (Index i = 0; i < matrix.rows(); ++i)
     for (Index j = 0; j < i; ++j)
-      require(std::abs(matrix(i, j) - matrix(j, i)) <= 1e-8 * std::sqrt(std::abs(matrix(i, i) * matrix(j, j))), dataset,
-              fmt::format("is not symmetric: entries ({0}, {1}) and ({1}, {0}) are {2} and {3}", i + 1, j + 1,
-                          matrix(i, j), matrix(j, i)));
+      if (!(std::abs(matrix(i, j) - matrix(j, i)) <= 1e-8 * std::sqrt(std::abs(matrix(i, i) * matrix(j, j)))))
+        throw Fault{fmt::format("{0}: is not symmetric: entries ({1}, {2}) and ({2}, {1}) are {3} and {4}", dataset,
+                                i + 1, j + 1, matrix(i, j), matrix(j, i))};
 }
 
 void check_interfaces(const Superelement& body) {

@@ -39,7 +39,7 @@ std::string hanging_chain(int links) {
 }
 
 /// Computes answers at many frequencies: one by one, and as a sum over modes.
-void compare_responses(const Session& session, int count, double highest) {
+void compare_responses(Session& session, int count, double highest) {
   FrequencyResponseOptions options;
   const int first = *session.model().find_node("b0"), next = *session.model().find_node("b1");
   options.inputs = {{"force", first, false, Vector3::UnitX()}};

@@ -20,8 +20,8 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
   gradient_.resize(n, b);
   step_.resize(b);
   residual_.resize(b);
+  body.multiply_load_stiffness(eps_, gradient_);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    body.multiply_load_stiffness(eps_, gradient_);
     residual_.noalias() = gradient_.transpose() * eps_;
     residual_ = eps_.head(b) - 0.5 * residual_ - q.head(b);
     J_ = MatrixX::Identity(b, b) - gradient_.topRows(b).transpose();
@@ -30,10 +30,10 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
     if (!(factors_.determinant() > 0)) break;
     factors_.solve(residual_, step_);
     eps_.head(b) -= step_;
+    body.subtract_load_stiffness(step_, gradient_);
     if (!eps_.allFinite()) break;
     const double size = (eps_.head(b).array() * scale).matrix().norm();
     if ((step_.array() * scale).matrix().norm() > last_step * size) continue;
-    body.multiply_load_stiffness(eps_, gradient_);
     J_ = MatrixX::Identity(b, b) - gradient_.topRows(b).transpose();
     factors_.compute(J_);
     factors_.set_inverse(J_);

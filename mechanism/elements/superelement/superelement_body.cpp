@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "mechanism/elements/superelement/frame_conditions.hpp"
+#include "mechanism/elements/superelement/known_state.hpp"
 #include "mechanism/elements/superelement/recovery/stress_peaks.hpp"
 #include "mechanism/elements/superelement/stress_completeness.hpp"
 #include "mechanism/elements/superelement/superelement_body_tangent.hpp"
@@ -23,6 +24,8 @@ struct SuperelementBody::Workspace {
   SuperelementTangent tangent;
   std::vector<AttachedPoint> points;
   FrameBlock frames;
+  KnownState state;             ///< state of `motion` and `points`
+  bool forces_are_set = false;  ///< whether the forces of `motion` are known, too
 };
 
 /// One workspace for each thread that has evaluated the body at the same time; they are kept, so that only first
@@ -133,6 +136,9 @@ void SuperelementBody::declare(Declaration& declaration) const {
 
 SuperelementBody::Loan SuperelementBody::evaluate_motion(const LocalState& state) const {
   Loan work(*workspaces_);
+  if (work->state.is(state)) return work;
+  work->state.forget();
+  work->forces_are_set = false;
   try {
     work->motion.set_motion(*matrices_, frame_, state);
   } catch (const ComputationError& error) {
@@ -146,11 +152,13 @@ SuperelementBody::Loan SuperelementBody::evaluate_motion(const LocalState& state
     work->points.emplace_back(points_[i].place, work->motion, state.node(static_cast<int>(nodes_.size() + i)),
                               state.multiplier().segment<6>(6 * static_cast<Eigen::Index>(i)),
                               state.environment().gravity);
+  work->state.keep();
   return work;
 }
 
 SuperelementBody::Loan SuperelementBody::evaluate(const LocalState& state) const {
   Loan work = evaluate_motion(state);
+  if (work->forces_are_set) return work;
   SuperelementMotion& motion = work->motion;
   if (!work->points.empty()) {
     motion.attached_force.setZero(matrices_->size());
@@ -165,6 +173,7 @@ SuperelementBody::Loan SuperelementBody::evaluate(const LocalState& state) const
     motion.loads.push_back({&matrices_->patterns[load.pattern],
                             state.environment().load_factor * load.factor(state.time()), load.follows});
   motion.set_forces(*matrices_, damping());
+  work->forces_are_set = true;
   return work;
 }
 

@@ -76,6 +76,7 @@ SuperelementMatrices::SuperelementMatrices(const Superelement& body) : modes(sta
   gyration = std::sqrt(inertia.trace() / mass);
   mean_turning = solve_symmetric(rigid, MU.transpose()).bottomRows<3>();
   set_inertia(body, P);
+  set_stacked();
   set_load_stiffness(body, P);
   if (body.strains.size() > 0) strains = columns_in_rows(body.strains);
   for (const auto& [name, load] : body.loads) {
@@ -117,23 +118,40 @@ void SuperelementMatrices::set_load_stiffness(const Superelement& body, const Ma
     if (point.theta >= 0) interface_scale.segment<3>(point.theta).setConstant(gyration);
   if (body.load_stiffness.empty()) return;
   const Eigen::Index n = size();
-  load_stiffness.setZero(n, n * interface_rows());
+  load_stiffness.setZero(n * interface_rows(), n);
   for (std::size_t j = 0; j < directions.size(); ++j) {
     const MatrixX stiffness = symmetric(congruent(body.load_stiffness[j], P));
     for (int i = 0; i < 3; ++i)
-      load_stiffness.middleCols((directions[j].row + i) * n, n) += directions[j].axis[i] * stiffness;
+      load_stiffness.middleRows((directions[j].row + i) * n, n) += directions[j].axis[i] * stiffness;
   }
 }
 
+void SuperelementMatrices::set_stacked() {
+  const Eigen::Index n = size();
+  std::vector<const MatrixX*> all = {&K};
+  for (const MatrixX& each : H) all.push_back(&each);
+  if (stiffened_by_spin())
+    for (const MatrixX& each : spin) all.push_back(&each);
+  for (const MatrixX& each : G) all.push_back(&each);
+  all.push_back(&M);
+  stacked.resize(n * static_cast<Eigen::Index>(all.size()), n);
+  for (std::size_t k = 0; k < all.size(); ++k) stacked.middleRows(static_cast<Eigen::Index>(k) * n, n) = *all[k];
+}
+
 void SuperelementMatrices::multiply_load_stiffness(const VectorX& x, MatrixX& product) const {
-  // Row (r, i) of the transposed product is row i of K_r x, because K_r is symmetric.
   product.setZero();
-  add_transposed_product(Eigen::Map<VectorX>(product.data(), product.size()), load_stiffness, x);
+  add_product(Eigen::Map<VectorX>(product.data(), product.size()), load_stiffness, x);
+}
+
+void SuperelementMatrices::subtract_load_stiffness(const VectorX& x, MatrixX& product) const {
+  add_product(Eigen::Map<VectorX>(product.data(), product.size()), load_stiffness.leftCols(x.size()), x, -1);
 }
 
 void SuperelementMatrices::add_load_stiffness(const Eigen::Ref<const VectorX>& weights, MatrixX& X) const {
-  const Eigen::Map<const MatrixX> columns(load_stiffness.data(), X.size(), weights.size());
-  add_product(Eigen::Map<VectorX>(X.data(), X.size()), columns, weights);
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    const Eigen::Map<const MatrixX> columns(load_stiffness.col(j).data(), X.rows(), weights.size());
+    X.col(j).noalias() += columns * weights;
+  }
 }
 
 void SuperelementMatrices::set_inertia(const Superelement& body, const MatrixX& P) {

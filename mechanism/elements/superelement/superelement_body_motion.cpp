@@ -86,22 +86,25 @@ void SuperelementMotion::set_products(const SuperelementMatrices& body) {
   s_rate = eps_acceleration;
   s_rate.noalias() += body.U * nu_rate;
 
-  for (MatrixX3* products : {&Geps, &Gs, &Geps_rate}) products->setZero(n, 3);
-  Heps.setZero(n, 6);
-  for (int k = 0; k < 3; ++k) {
-    const MatrixX& G = body.G[static_cast<std::size_t>(k)];
-    add_product(Geps.col(k), G, eps);
-    add_product(Gs.col(k), G, s);
-    add_product(Geps_rate.col(k), G, eps_rate);
-  }
-  for (int i = 0; i < 6; ++i) add_product(Heps.col(i), body.H[static_cast<std::size_t>(i)], eps);
+  const Eigen::Index first = body.stacked_G();
+  eps_products.setZero(first + 3 * n);
+  add_product(eps_products, body.stacked.topRows(first + 3 * n), eps);
+  elastic_force = eps_products.head(n);
+  Heps = Eigen::Map<const MatrixX6>(eps_products.data() + n, n, 6);
+  if (body.stiffened_by_spin()) spin_eps = Eigen::Map<const MatrixX6>(eps_products.data() + 7 * n, n, 6);
+  Geps = Eigen::Map<const MatrixX3>(eps_products.data() + first, n, 3);
+  s_products.setZero(4 * n);
+  add_product(s_products, body.stacked.bottomRows(4 * n), s);
+  Gs = Eigen::Map<const MatrixX3>(s_products.data(), n, 3);
+  Geps_rate.setZero(n, 3);
+  add_product(Eigen::Map<VectorX>(Geps_rate.data(), 3 * n), body.stacked.middleRows(first, 3 * n), eps_rate);
 }
 
 void SuperelementMotion::set_forces(const SuperelementMatrices& body, const MatrixX& damping) {
   const VectorX& eps = coordinates.eps();
   const Vector3 v_0 = nu.head<3>(), Om_0 = nu.tail<3>(), Om_rate = nu_rate.tail<3>();
   set_products(body);
-  p.noalias() = body.M * s;
+  p = s_products.tail(eps.size());
   p.noalias() += Geps * Om_0;
   p_rate.noalias() = body.M * s_rate;
   p_rate.noalias() += Geps * Om_rate;
@@ -110,7 +113,6 @@ void SuperelementMotion::set_forces(const SuperelementMatrices& body, const Matr
   pi.noalias() = body.U.transpose() * p;
   pi_rate.noalias() = body.U.transpose() * p_rate;
 
-  elastic_force.noalias() = body.K * eps;
   r = p_rate + elastic_force;
   r.noalias() += Gs * Om_0;
   if (body.stiffened_by_spin()) r.noalias() += spin_force * Om_mean;
@@ -146,8 +148,6 @@ void SuperelementMotion::add_spin_momentum(const SuperelementMatrices& body) {
   const VectorX& eps = coordinates.eps();
   Om_mean.noalias() = body.mean_turning * s;
   Om_mean_rate.noalias() = body.mean_turning * s_rate;
-  spin_eps.resize(eps.size(), 6);
-  for (int i = 0; i < 6; ++i) spin_eps.col(i).noalias() = body.spin[static_cast<std::size_t>(i)] * eps;
   spin_force.setZero(eps.size(), 3);
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 3; ++l) {
@@ -189,7 +189,7 @@ void SuperelementMotion::set_node_force(const SuperelementMatrices& body) {
 
 double SuperelementMotion::kinetic_energy(const SuperelementMatrices& body) const {
   const Vector3 Om_0 = nu.tail<3>();
-  double energy = 0.5 * s.dot(body.M * s) + s.dot(Geps * Om_0);
+  double energy = 0.5 * s.dot(s_products.tail(s.size())) + s.dot(Geps * Om_0);
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 3; ++l) energy += 0.5 * Om_0[k] * Om_0[l] * coordinates.eps().dot(Heps.col(pair_index(k, l)));
   return body.stiffened_by_spin() ? energy - 0.5 * Om_mean.dot(kappa * Om_mean) : energy;

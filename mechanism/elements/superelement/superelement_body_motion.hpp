@@ -44,8 +44,9 @@ struct SuperelementMotion {
   MatrixX6 Heps;                  ///< columns: H_kl eps
   Vector3 Om_mean, Om_mean_rate;  ///< Om_m and its rate
   Matrix3 kappa, kappa_rate;
-  MatrixX6 spin_eps;    ///< columns: K_sigma,kl eps
-  MatrixX3 spin_force;  ///< column k: Om_m,l K_sigma,kl eps
+  MatrixX6 spin_eps;                 ///< columns: K_sigma,kl eps
+  MatrixX3 spin_force;               ///< column k: Om_m,l K_sigma,kl eps
+  VectorX eps_products, s_products;  ///< products of the stacked matrices with eps; G_1 .. G_3 and M with s
   VectorX p, p_rate;
   Vector6 pi, pi_rate, e;
   VectorX r, load, elastic_force, phi, force, node_force;
