@@ -19,5 +19,6 @@ SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, i
 /// Scalar mass matrix m [kg]: the mass matrix of the solid is m (x) I3.
 /// @throws ComputationError as assemble_stiffness
 NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads = 1);
+NodeMatrix assemble_mass(const Solid& solid, NodeGraph&& graph, int threads = 1) = delete;  // the matrix refers to it
 
 }  // namespace bielle::reduce
