@@ -103,16 +103,12 @@ void reduce_in_pieces(const Mesh& mesh, const BodyFile& file, const std::string&
   }
 }
 
-void reduce(const std::string& input, std::string output, bool system_calls, const CommonOptions& common,
-            const MatrixMaker& matrices) {
-  BodyFile file = read_body_file(input);
-  file.mesh.system_calls = system_calls;
-  if (output.empty()) {
-    output = std::filesystem::path(input).replace_extension(".h5").string();
-  }
-  check_output(output, input, file.mesh.path);
+/// Executes the requests of a body file.
+void reduce(const BodyFile& file, const std::string& output, const CommonOptions& common, const MatrixMaker& matrices) {
   start_blas(common.threads);
-  Progress progress(common.quiet);
+  Progress progress(common.quiet, [&](const std::string& subject, const std::string& message) {
+    return file.lines.located(subject, message);
+  });
   if (const std::string warning = blas_warning(); !warning.empty()) {
     progress.warn(warning);
   }
@@ -122,6 +118,24 @@ void reduce(const std::string& input, std::string output, bool system_calls, con
   const Mesh mesh = import_mesh(file.mesh, progress);
   file.pieces ? reduce_in_pieces(mesh, file, output, progress, common, matrices)
               : reduce_whole(mesh, file, output, progress, common, matrices);
+}
+
+/// Reads a body file and executes its requests, whose errors get the line of their key.
+void reduce(const std::string& input, std::string output, bool system_calls, const CommonOptions& common,
+            const MatrixMaker& matrices) {
+  BodyFile file = read_body_file(input);
+  file.mesh.system_calls = system_calls;
+  if (output.empty()) {
+    output = std::filesystem::path(input).replace_extension(".h5").string();
+  }
+  check_output(output, input, file.mesh.path);
+  try {
+    reduce(file, output, common, matrices);
+  } catch (const InputError& error) {
+    throw InputError(file.lines.located(error.subject(), error.what()));
+  } catch (const ComputationError& error) {
+    throw ComputationError(file.lines.located(error.subject(), error.what()));
+  }
 }
 
 /// @param title  text before the description

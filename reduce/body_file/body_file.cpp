@@ -14,7 +14,6 @@
 #include "reduce/body_file/body_surfaces.hpp"
 #include "reduce/common/input/plausible.hpp"
 #include "reduce/common/input/yaml_file.hpp"
-#include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {
 
@@ -25,7 +24,7 @@ InterfaceRequest read_interface(const std::string& name, const YamlValue& value,
   check_name(name, value);
   InterfaceRequest interface;
   interface.name = name;
-  interface.located = place_of(value);
+  interface.subject = value.path();
   interface.group = read_surface(value, "surface", request);
   if (const auto tie = value.find("tie")) interface.tie = read_tie(*tie);
   if (interface.tie == Tie::free) {
@@ -51,7 +50,7 @@ LoadRequest read_load(const std::string& name, const YamlValue& value, MeshReque
   check_name(name, value);
   LoadRequest load;
   load.name = name;
-  load.located = place_of(value);
+  load.subject = value.path();
   load.group = read_surface(value, "surface", request);
   if (const auto residual = value.find("residual")) load.residual = residual->boolean();
   if (value.has("pressure") + value.has("traction") + value.has("force") != 1)
@@ -70,15 +69,15 @@ LoadRequest read_load(const std::string& name, const YamlValue& value, MeshReque
 void read_mesh(const YamlValue& root, MeshRequest& request) {
   const YamlValue geometry = root.at("geometry");
   request.path = geometry.file_path();
-  request.located = place_of(geometry);
+  request.subject = geometry.path();
   if (const auto unit = root.find("length_unit")) {
     request.length_unit = unit->text();
-    request.length_unit_located = place_of(*unit);
+    request.length_unit_subject = unit->path();
   }
   const auto mesh = root.find("mesh");
   if (!mesh) return;
   mesh->check_keys({"size", "order", "sizes"}, "the mesh");
-  request.mesh_located = place_of(*mesh);
+  request.mesh_subject = mesh->path();
   if (const auto size = mesh->find("size")) request.size = size->positive_number();
   if (const auto order = mesh->find("order")) {
     request.order = order->integer();
@@ -86,11 +85,11 @@ void read_mesh(const YamlValue& root, MeshRequest& request) {
       order->fail(fmt::format("expected 1 or 2, found {}", *request.order));
   }
   if (const auto sizes = mesh->find("sizes"))
-    for (const auto& [name, size] : sizes->entries()) request.sizes[name] = {size.positive_number(), place_of(size)};
+    for (const auto& [name, size] : sizes->entries()) request.sizes[name] = {size.positive_number(), size.path()};
 }
 
 // `mesh.sizes` may name interfaces, loads and points: their groups take their place.
-void resolve_sizes(const ReductionOptions& options, MeshRequest& request) {
+void resolve_sizes(const YamlValue& root, const ReductionOptions& options, MeshRequest& request) {
   std::map<std::string, std::string> group_of;
   for (const PointRequest& point : options.points)
     if (!point.group.empty()) group_of[point.name] = point.group;
@@ -101,7 +100,7 @@ void resolve_sizes(const ReductionOptions& options, MeshRequest& request) {
     const auto found = group_of.find(name);
     const std::string& group = found == group_of.end() ? name : found->second;
     if (!resolved.emplace(group, size).second)
-      throw InputError(at_place(size.located, fmt::format("the surface '{}' gets its size twice", group)));
+      root.at("mesh").at("sizes").at(name).fail(fmt::format("the surface '{}' gets its size twice", group));
   }
   request.sizes = resolved;
 }
@@ -123,7 +122,7 @@ void read_regions(const YamlValue& root, BodyFile& body) {
     if (!options.materials.contains(material))
       value.fail(fmt::format("there is no material '{}'{}", material, did_you_mean(material, names)));
     options.regions[group] = material;
-    body.mesh.volumes.push_back({group, place_of(value)});
+    body.mesh.volumes.push_back({group, value.path()});
   }
   if (options.regions.empty()) regions.fail("expected at least one region, e.g. all: " + names.front());
   if (options.regions.contains("all") && options.regions.size() > 1)
@@ -194,8 +193,7 @@ BodyFile read(YamlValue root) {
   BodyFile body;
   body.options.name = root.at("body").text();
   body.options.input_text = root.source_text();
-  for (const auto& [key, value] : root.entries())
-    body.options.lines[key] = fmt::format("{}:{}", value.file(), value.line());
+  body.lines = KeyLines(root);
   read_mesh(root, body.mesh);
   read_regions(root, body);
   const YamlValue interfaces = root.at("interfaces");
@@ -213,7 +211,7 @@ BodyFile read(YamlValue root) {
   if (const auto points = root.find("points")) body.options.points = read_points(*points, body.mesh);
   if (const auto recovery = root.find("recovery")) read_recovery(*recovery, body.options);
   if (const auto pieces = root.find("pieces")) body.pieces = read_pieces(*pieces, body.mesh.cuts);
-  resolve_sizes(body.options, body.mesh);
+  resolve_sizes(root, body.options, body.mesh);
   body.warnings = root.warnings();
   return body;
 }

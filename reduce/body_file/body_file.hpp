@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reduce/body_file/key_lines.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 #include "reduce/reduction/options.hpp"
 #include "reduce/reduction/piece_options.hpp"
@@ -17,12 +18,13 @@ struct BodyFile {
   ReductionOptions options;
   std::optional<PiecesRequest> pieces;  ///< at the planes `mesh.cuts`; absent: the body stays whole
   std::vector<std::string>
-      warnings;  ///< sentences about values that are possible but probably not intended, each with its place
+      warnings;    ///< sentences about values that are possible but probably not intended, each with its place
+  KeyLines lines;  ///< for messages of import_mesh and of the reduction, whose requests name keys alone
 };
 
 /// Reads and checks a body file: keys, types, ranges, names that the file itself must explain. Conditions that depend
-/// on the geometry (its groups, whether interfaces overlap) are checked by import_mesh and by the reduction; each
-/// request carries its place in the file for their messages.
+/// on the geometry (its groups, whether interfaces overlap) are checked by import_mesh and by the reduction; the
+/// subject of each request is its key path, to which `lines` gives the place in the file.
 /// @throws InputError `file:line: key: what was expected; did you mean ...`
 BodyFile read_body_file(const std::string& path);
 

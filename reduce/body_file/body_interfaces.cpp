@@ -8,10 +8,6 @@
 
 namespace bielle::reduce {
 
-std::string place_of(const YamlValue& value) {
-  return fmt::format("{}:{}: {}", value.file(), value.line(), value.path());
-}
-
 void check_name(const std::string& name, const YamlValue& value) {
   if (name.empty() || name.find('/') != std::string::npos) value.fail("expected a name without '/'");
 }

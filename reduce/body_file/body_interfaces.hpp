@@ -12,9 +12,6 @@ class YamlValue;
 
 namespace bielle::reduce {
 
-/// "rod.yaml:17: interfaces.big_end"
-std::string place_of(const YamlValue& value);
-
 /// Checks a name that becomes a path in the superelement file. @throws InputError
 void check_name(const std::string& name, const YamlValue& value);
 

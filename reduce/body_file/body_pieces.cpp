@@ -19,7 +19,7 @@ constexpr int most_pieces = 1000;
 /// Gives the plane the name that the user gives, or `cut_<number>`.
 void add_plane(const YamlValue& value, const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                std::vector<CutPlane>& cuts) {
-  CutPlane plane{fmt::format("cut_{}", cuts.size() + 1), point, normal, place_of(value)};
+  CutPlane plane{fmt::format("cut_{}", cuts.size() + 1), point, normal, value.path()};
   if (value.is_map())
     if (const auto name = value.find("name")) {
       plane.name = name->text();

@@ -20,7 +20,7 @@ PointRequest read_point(const std::string& name, const YamlValue& value, MeshReq
   check_name(name, value);
   PointRequest point;
   point.name = name;
-  point.located = place_of(value);
+  point.subject = value.path();
   if (value.has("group") == value.has("at"))
     value.fail("expected either `group`, a surface whose mean the point follows, or `at`, its place [x, y, z in m]");
   if (value.has("group")) {

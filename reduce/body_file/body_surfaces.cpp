@@ -43,7 +43,7 @@ SurfaceSelector read_selector(const YamlValue& value) {
 std::string read_surface(const YamlValue& owner, const std::string& key, MeshRequest& request) {
   const YamlValue value = owner.at(key);
   SurfaceSelection selection;
-  selection.located = place_of(value);
+  selection.subject = value.path();
   if (value.is_sequence()) {
     for (const YamlValue& item : value.items()) selection.selectors.push_back(read_selector(item));
     if (selection.selectors.empty()) value.fail("expected at least one surface");

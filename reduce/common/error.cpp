@@ -42,6 +42,10 @@ double unlikeness(const std::string& wanted, const std::string& candidate) {
 
 }  // namespace
 
+std::string with_subject(const std::string& subject, const std::string& message, Subject is) {
+  return subject.empty() || is == Subject::hidden ? message : subject + ": " + message;
+}
+
 std::string nearest_name(const std::string& name, std::span<const std::string> candidates) {
   const std::string wanted = lower_case(name);
   std::string nearest;

@@ -32,7 +32,8 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(bool quiet, Locator located)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), located_(std::move(located)) {}
 
 Progress::~Progress() {
   // An exception may be in flight: end the line that is being redrawn, so that the message starts on a new one.
@@ -72,6 +73,11 @@ void Progress::finish() {
 void Progress::warn(const std::string& message) {
   if (running_ && terminal_ && !quiet_) say("\r\033[K");
   say("warning: " + message + "\n");
+}
+
+void Progress::warn(const std::string& subject, const std::string& message, Subject is) {
+  const std::string text = with_subject(subject, message, is);
+  warn(located_ ? located_(subject, text) : text);
 }
 
 void Progress::note(const std::string& message) {

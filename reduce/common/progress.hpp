@@ -2,9 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "reduce/common/error.hpp"
 
 namespace bielle {
 
@@ -22,7 +25,11 @@ struct PhaseReport {
 /// computes.
 class Progress {
  public:
-  explicit Progress(bool quiet = false);
+  /// Returns a message with the place of its subject in the input file before it.
+  using Locator = std::function<std::string(const std::string& subject, const std::string& message)>;
+
+  /// @param located  for warnings with a subject; without it they are shown as they are
+  explicit Progress(bool quiet = false, Locator located = {});
   ~Progress();
   void start(const std::string& phase);  ///< ends the running phase, if any
   /// @param fraction  done of this phase, 0..1; @param detail  shown after it ("t = 0.013 s")
@@ -30,6 +37,8 @@ class Progress {
   void finish();  ///< ends the running phase
   /// Prints a line that stays, e.g. a warning, in spite of `quiet`.
   void warn(const std::string& message);
+  /// Prints a warning about a key of the input. @param subject  as of a `Failure`
+  void warn(const std::string& subject, const std::string& message, Subject is = Subject::shown);
   void note(const std::string& message);  ///< a line that stays, unless quiet
   /// Ends the running phase and takes over the phases that another process has shown.
   void adopt(std::vector<PhaseReport> phases);
@@ -39,6 +48,7 @@ class Progress {
  private:
   void draw(bool end);
   bool quiet_, terminal_, running_ = false;
+  Locator located_;
   double fraction_ = 0;
   std::string phase_, detail_;
   std::chrono::steady_clock::time_point phase_start_, last_draw_;

@@ -22,7 +22,7 @@ struct SurfaceIntegrals {
 };
 
 /// @throws InputError if the mesh has no such surface group (nearest name) or its area is zero; the message names the
-///         group, and the caller puts the place in the input file before it
+///         group, and the caller gives it a subject
 SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& group);
 
 /// Forces on the nodes of a surface [N], one column per node of `surface.nodes`.

@@ -88,12 +88,12 @@ std::size_t plane_between(const Mesh& mesh, const std::array<int, 2>& cells, con
   for (std::size_t k = 0; k < planes.size(); ++k)
     if (sides[0][k] != sides[1][k]) between.push_back(k);
   if (between.size() == 1) return between.front();
-  throw InputError(at_place(
-      planes[between.at(1)].located,
+  throw InputError(
+      planes[between.at(1)].subject,
       fmt::format("'{}' and '{}' meet in the body, or are less than an element apart, near {}: planes must leave "
                   "elements between them, and must not cross within the body",
                   planes[between[0]].name, planes[between[1]].name,
-                  place_name(mesh.points.col(mesh.solids().nodes(0, cells[0]))))));
+                  place_name(mesh.points.col(mesh.solids().nodes(0, cells[0])))));
 }
 
 // Sides of each piece: the sides of most of its cells, since isolated cells of other sides may have been joined.
@@ -164,11 +164,11 @@ void check_planes_cut(const Mesh& mesh, const std::vector<CutFace>& between, con
   for (std::size_t k = 0; k < planes.size(); ++k) {
     if (std::any_of(between.begin(), between.end(), [&](const CutFace& face) { return face.plane == k; })) continue;
     const Eigen::RowVectorXd height = planes[k].normal.transpose() * (mesh.points.colwise() - planes[k].point);
-    throw InputError(at_place(
-        planes[k].located,
+    throw InputError(
+        planes[k].subject,
         fmt::format("'{}' does not cut the body, which lies between {:.6g} m and {:.6g} m from the plane along its "
                     "normal {}",
-                    planes[k].name, height.minCoeff(), height.maxCoeff(), direction_name(planes[k].normal))));
+                    planes[k].name, height.minCoeff(), height.maxCoeff(), direction_name(planes[k].normal)));
   }
 }
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/mesh/place.hpp"
 #include "reduce/mesh/selectors.hpp"
 
 namespace bielle::reduce {
@@ -28,7 +27,7 @@ const PhysicalGroup* find_group(const std::vector<PhysicalGroup>& groups, const 
 namespace {
 
 // "'bore' is no physical surface of rod.geo; did you mean 'bore_big'?"
-[[noreturn]] void fail_unknown_group(const std::string& located, const std::string& name, int dimension,
+[[noreturn]] void fail_unknown_group(const std::string& subject, const std::string& name, int dimension,
                                      const std::vector<PhysicalGroup>& groups) {
   const std::string kind = dimension == 2 ? "surface" : "volume";
   const PhysicalGroup* other = find_group(groups, name);
@@ -37,11 +36,11 @@ namespace {
                            ? fmt::format("; it has no physical {}s{}", kind, dimension == 3 ? ": use all" : "")
                            : did_you_mean(name, names);
   if (other != nullptr)
-    throw InputError(at_place(located, fmt::format("'{}' is a physical {} of the geometry, but a {} is needed{}", name,
-                                                   other->dimension == 2 ? "surface" : "volume", kind, advice)));
+    throw InputError(subject, fmt::format("'{}' is a physical {} of the geometry, but a {} is needed{}", name,
+                                          other->dimension == 2 ? "surface" : "volume", kind, advice));
   if (dimension == 2 && names.empty())
     advice += "; select by shape: {cylinder: {point, axis, radius}}, {plane: {point, normal}} or {box: [[..], [..]]}";
-  throw InputError(at_place(located, fmt::format("'{}' is not a physical {} of the geometry{}", name, kind, advice)));
+  throw InputError(subject, fmt::format("'{}' is not a physical {} of the geometry{}", name, kind, advice));
 }
 
 // Faces of solid cells that are the triangles of an entity.
@@ -84,12 +83,12 @@ std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& reques
       if (const auto* name = std::get_if<std::string>(&selector)) {
         const std::vector<int>& of_group = result.at(*name);
         if (of_group.empty())
-          throw InputError(at_place(selection.located, fmt::format("the physical surface '{}' is empty", *name)));
+          throw InputError(selection.subject, fmt::format("the physical surface '{}' is empty", *name));
         selected.insert(selected.end(), of_group.begin(), of_group.end());
         continue;
       }
-      const std::vector<int> triangles = placed(
-          selection.located, [&] { return select_triangles(std::get<ShapeSelector>(selector), mesh.points, surface); });
+      const std::vector<int> triangles = about(
+          selection.subject, [&] { return select_triangles(std::get<ShapeSelector>(selector), mesh.points, surface); });
       for (int triangle : triangles) selected.push_back(surface.faces[triangle]);
     }
     result[selection.group] = selected;
@@ -107,9 +106,9 @@ void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& 
   for (const SurfaceSelection& selection : request.surfaces)
     for (const SurfaceSelector& selector : selection.selectors)
       if (const auto* name = std::get_if<std::string>(&selector); name != nullptr && !is(*name, 2))
-        fail_unknown_group(selection.located, *name, 2, groups);
+        fail_unknown_group(selection.subject, *name, 2, groups);
   for (const VolumeSelection& volume : request.volumes)
-    if (volume.group != "all" && !is(volume.group, 3)) fail_unknown_group(volume.located, volume.group, 3, groups);
+    if (volume.group != "all" && !is(volume.group, 3)) fail_unknown_group(volume.subject, volume.group, 3, groups);
 }
 
 Group group_of(const CellBlock& block, std::vector<int> cells) {

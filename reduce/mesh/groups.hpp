@@ -19,7 +19,7 @@ std::vector<std::string> group_names(const std::vector<PhysicalGroup>& groups, i
 const PhysicalGroup* find_group(const std::vector<PhysicalGroup>& groups, const std::string& name);
 
 /// Checks that every physical group that the user names exists with the right dimension.
-/// @throws InputError with the place in the input file and the nearest name
+/// @throws InputError about the selection, with the nearest name
 void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& groups);
 
 /// Adds the volume groups of the model; `all` if it has none.

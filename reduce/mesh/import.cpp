@@ -43,41 +43,39 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
         "should not be",
         request.path, counted(coincident.pairs, "pair of nodes", "pairs of nodes"), place_name(coincident.place)));
   for (const std::string& warning : {implausible_size(mesh), loose_joints(mesh, faces)})
-    if (!warning.empty()) progress.warn(at_place(request.located, warning));
+    if (!warning.empty()) progress.warn(request.subject, warning);
   if (const MeshQuality quality = mesh_quality(mesh); quality.least_scaled_jacobian < 1e-3)
-    progress.warn(
-        at_place(request.located, fmt::format("an element at {} is nearly flat (scaled Jacobian {:.1g}): stresses "
-                                              "there mean nothing; another mesh.size avoids it",
-                                              place_name(quality.worst_place), quality.least_scaled_jacobian)));
+    progress.warn(request.subject, fmt::format("an element at {} is nearly flat (scaled Jacobian {:.1g}): stresses "
+                                               "there mean nothing; another mesh.size avoids it",
+                                               place_name(quality.worst_place), quality.least_scaled_jacobian));
 }
 
 Mesh import_source(const MeshRequest& request, const SourceFile& source, Progress& progress) {
   GmshSession session;
-  placed(request.located, [&] { open_model(session, source); });
+  about(request.subject, [&] { open_model(session, source); });
   std::vector<PhysicalGroup> groups;
   bool geometry = false;
   session.read(fmt::format("'{}' cannot be read", source.name), [&] {
     groups = physical_groups();
     geometry = source.geometry && !model_has_cells(3);
     if (geometry && !model_has_volumes())
-      throw InputError(at_place(request.located, fmt::format("'{}' holds no volume: a body is a solid", source.name)));
+      throw InputError(request.subject, fmt::format("'{}' holds no volume: a body is a solid", source.name));
   });
   check_groups(request, groups);
   if (geometry) {
     if (!request.cuts.empty()) groups = cut_geometry(session, request, source, progress);
     mesh_geometry(session, request, source, groups, progress);
   } else if (request.size || request.order || !request.sizes.empty()) {
-    throw InputError(
-        at_place(request.mesh_located, fmt::format("'{}' is a mesh already: remove this key", request.path)));
+    throw InputError(request.mesh_subject, fmt::format("'{}' is a mesh already: remove this key", request.path));
   }
 
-  ExtractedModel model = placed(request.located, [&] { return extract_model(session, source.name, source.metres); });
+  ExtractedModel model = about(request.subject, [&] { return extract_model(session, source.name, source.metres); });
   Mesh mesh;
   mesh.points = std::move(model.points);
   mesh.blocks.push_back(std::move(model.solids));
-  placed(request.located, [&] { check_elements(mesh, geometry ? std::vector<std::size_t>{} : model.cell_tags); });
-  const FaceTable faces = placed(request.located, [&] { return FaceTable(mesh); });
-  placed(request.located, [&] { check_mesh(request, model, faces, mesh, progress); });
+  about(request.subject, [&] { check_elements(mesh, geometry ? std::vector<std::size_t>{} : model.cell_tags); });
+  const FaceTable faces = about(request.subject, [&] { return FaceTable(mesh); });
+  about(request.subject, [&] { check_mesh(request, model, faces, mesh, progress); });
   add_volume_groups(model, mesh);
   add_surface_groups(request, model, geometry, faces, mesh);
   return mesh;
@@ -88,8 +86,8 @@ Mesh import_source(const MeshRequest& request, const SourceFile& source, Progres
 Mesh import_mesh(const MeshRequest& request, Progress& progress) {
   progress.start("reading " + std::filesystem::path(request.path).filename().string());
   const SourceFile source = prepare_source(request, progress);
-  Packing result(in_child_process(loss_of(source, request.located), {}, [&] {
-    if (!request.system_calls) placed(request.located, [&] { forbid_system_calls(source); });
+  Packing result(in_child_process(loss_of(source, request.subject), {}, [&] {
+    if (!request.system_calls) about(request.subject, [&] { forbid_system_calls(source); });
     Packing packing;
     Mesh mesh = import_source(request, source, progress);
     packing(mesh);

@@ -24,7 +24,7 @@ namespace bielle::reduce {
 /// edges; a note gives their number.
 ///
 /// @param progress  shows the phases, gets warnings and notes
-/// @throws InputError naming the place in the input file, the fault and the remedy
+/// @throws InputError about the key of the request, with the fault and the remedy
 /// @throws ComputationError when gmsh fails to mesh a sound geometry
 Mesh import_mesh(const MeshRequest& request, Progress& progress);
 

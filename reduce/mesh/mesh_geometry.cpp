@@ -30,32 +30,31 @@ void check_cell_count(GmshSession& session, const MeshRequest& request, const So
   for (const EntitySize& wish : sizes.on_entities) least = least > 0 ? std::min(least, wish.size) : wish.size;
   const std::string body = fmt::format("the body is {} long", length_name(source.metres * model_extent(session)));
   if (cells > most_cells)
-    throw InputError(at_place(
-        request.mesh_located,
+    throw InputError(
+        request.mesh_subject,
         fmt::format("elements of {} would be about {:.2g} ({}), and more than {:.0f} million are not meshed: {}",
                     length_name(source.metres * least), cells, body, 1e-6 * most_cells,
                     source.carries_unit ? "are the sizes in metres?"
                                         : fmt::format("is the geometry's length_unit {}, and are the sizes in metres?",
-                                                      request.length_unit.value_or("m")))));
-  progress.warn(at_place(request.mesh_located,
-                         fmt::format("about {:.2g} elements with {:.2g} degrees of freedom will be meshed ({}): this "
-                                     "takes hours and much memory; a larger size may serve",
-                                     cells, freedoms_per_cell * cells, body)));
+                                                      request.length_unit.value_or("m"))));
+  progress.warn(request.mesh_subject,
+                fmt::format("about {:.2g} elements with {:.2g} degrees of freedom will be meshed ({}): this "
+                            "takes hours and much memory; a larger size may serve",
+                            cells, freedoms_per_cell * cells, body));
 }
 
 // Names mesh sizes that are larger than the body and therefore have no effect, probably because they are in
 // millimetres.
 void warn_of_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source, Progress& progress) {
   const double extent = source.metres * model_extent(session);
-  const auto warning = [&](const std::string& located, double size) {
+  const auto warning = [&](const std::string& subject, double size) {
     if (size > extent)
-      progress.warn(
-          at_place(located, fmt::format("a size of {:.6g} m is more than the body, which is {} long: sizes are in "
-                                        "metres, whatever the unit of the geometry; was {:.6g}e-3 meant?",
-                                        size, length_name(extent), size)));
+      progress.warn(subject, fmt::format("a size of {:.6g} m is more than the body, which is {} long: sizes are in "
+                                         "metres, whatever the unit of the geometry; was {:.6g}e-3 meant?",
+                                         size, length_name(extent), size));
   };
-  if (request.size) warning(request.mesh_located, *request.size);
-  for (const auto& [name, wish] : request.sizes) warning(wish.located, wish.size);
+  if (request.size) warning(request.mesh_subject, *request.size);
+  for (const auto& [name, wish] : request.sizes) warning(wish.subject, wish.size);
 }
 
 // The surfaces of a selection.
@@ -69,7 +68,7 @@ std::vector<int> selected_entities(const SurfaceSelection& selection, const std:
       continue;
     }
     const std::vector<int> triangles =
-        placed(selection.located, [&] { return select_triangles(std::get<ShapeSelector>(selector), points, surface); });
+        about(selection.subject, [&] { return select_triangles(std::get<ShapeSelector>(selector), points, surface); });
     for (int triangle : triangles) entities.insert(surface.entities[triangle]);
   }
   return {entities.begin(), entities.end()};
@@ -106,8 +105,8 @@ std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& re
       std::vector<std::string> names = group_names(groups, 2);
       for (const std::string& volume : group_names(groups, 3)) names.push_back(volume);
       for (const SurfaceSelection& s : request.surfaces) names.push_back(s.group);
-      throw InputError(at_place(
-          wish.located, fmt::format("'{}' is no physical group and no interface{}", name, did_you_mean(name, names))));
+      throw InputError(wish.subject,
+                       fmt::format("'{}' is no physical group and no interface{}", name, did_you_mean(name, names)));
     }
     if (surface.triangles.empty()) {
       mesh_surfaces(session, source.name, plain);
@@ -124,9 +123,9 @@ void mesh_geometry(GmshSession& session, const MeshRequest& request, const Sourc
                    const std::vector<PhysicalGroup>& groups, Progress& progress) {
   const std::filesystem::path path(source.name);
   if (!request.size && !path.extension().string().starts_with(".geo"))
-    throw InputError(at_place(
-        request.located,
-        fmt::format("'{}' is a geometry: say how fine to mesh it, e.g. mesh: {{size: 3e-3}} [m]", source.name)));
+    throw InputError(
+        request.subject,
+        fmt::format("'{}' is a geometry: say how fine to mesh it, e.g. mesh: {{size: 3e-3}} [m]", source.name));
   progress.start("meshing " + path.filename().string());
   MeshSizes sizes;
   if (request.size) sizes.largest = *request.size / source.metres;
@@ -134,9 +133,9 @@ void mesh_geometry(GmshSession& session, const MeshRequest& request, const Sourc
   warn_of_sizes(session, request, source, progress);
   sizes.on_entities = entity_sizes(session, request, source, groups, sizes);
   if (!sizes.on_entities.empty()) check_cell_count(session, request, source, sizes, progress);
-  placed(request.located, [&] { mesh_surfaces(session, source.name, sizes); });
+  about(request.subject, [&] { mesh_surfaces(session, source.name, sizes); });
   check_selections(session, request, source, groups);
-  placed(request.located, [&] {
+  about(request.subject, [&] {
     mesh_volumes(session, source.name, sizes);
     if (request.order.value_or(2) == 2) make_second_order(session, source.name);
   });

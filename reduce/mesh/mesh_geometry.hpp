@@ -16,7 +16,7 @@ namespace bielle::reduce {
 /// Meshes surfaces, then volumes. Mistakes are found early: a mesh that would be too large (a forgotten unit of length,
 /// a size in the wrong unit) before anything is meshed, a shape that selects no surface after the surfaces are meshed.
 /// @param groups  physical groups of the geometry
-/// @throws InputError naming the place in the input file; ComputationError when gmsh fails
+/// @throws InputError about the key of the request; ComputationError when gmsh fails
 void mesh_geometry(GmshSession& session, const MeshRequest& request, const SourceFile& source,
                    const std::vector<PhysicalGroup>& groups, Progress& progress);
 

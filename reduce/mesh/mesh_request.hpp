@@ -1,4 +1,7 @@
 // The user's request for the mesh of a body: the geometry, the sizes of elements, and the surfaces with their names.
+//
+// The `subject` of a request is the key by which the user makes it. It stands in messages about the request and is
+// empty if there is no key.
 #pragma once
 
 #include <map>
@@ -49,19 +52,19 @@ using SurfaceSelector = std::variant<std::string, ShapeSelector>;
 struct SurfaceSelection {
   std::string group;                       ///< name of the group in the mesh: the physical group's own, or a new one
   std::vector<SurfaceSelector> selectors;  ///< their union
-  std::string located;                     ///< "rod.yaml:17: interfaces.big_end.surface", put before messages
+  std::string subject;                     ///< "interfaces.big_end.surface"
 };
 
 /// A volume group that must exist.
 struct VolumeSelection {
   std::string group;    ///< physical volume, or "all"
-  std::string located;  ///< "rod.yaml:14: regions.rod"
+  std::string subject;  ///< "regions.rod"
 };
 
 /// Edge length on one group of a geometry that differs from the general one.
 struct GroupSize {
   double size = 0;      ///< [m]
-  std::string located;  ///< "rod.yaml:9: mesh.sizes.bore_big"
+  std::string subject;  ///< "mesh.sizes.bore_big"
 };
 
 /// A plane along which the body is cut into pieces.
@@ -69,19 +72,19 @@ struct CutPlane {
   std::string name;        ///< name of the cut: "cut_1"
   Eigen::Vector3d point;   ///< in the plane [m]
   Eigen::Vector3d normal;  ///< unit normal, either sense
-  std::string located;     ///< "rod.yaml:14: pieces.planes[1]"
+  std::string subject;     ///< "pieces.planes[1]"
 };
 
 /// All data that import_mesh needs. Lengths are in SI except for the geometry's own numbers.
 struct MeshRequest {
   std::string path;                        ///< geometry or mesh
-  std::string located;                     ///< "rod.yaml:2: geometry", put before messages about the file
+  std::string subject;                     ///< "geometry"
   std::optional<std::string> length_unit;  ///< unit of a file that declares none; absent: m
-  std::string length_unit_located;
+  std::string length_unit_subject;         ///< "length_unit"
   std::optional<double> size;              ///< largest edge of the elements [m]; absent: the geometry's own
   std::optional<int> order;                ///< 1 or 2; absent: 2 for a geometry, as it is for a mesh
   std::map<std::string, GroupSize> sizes;  ///< by physical group or by the `group` of a selection
-  std::string mesh_located;                ///< "rod.yaml:8: mesh"
+  std::string mesh_subject;                ///< "mesh"
   std::vector<SurfaceSelection> surfaces;
   std::vector<VolumeSelection> volumes;
   bool system_calls = false;   ///< whether a file that is a script (.geo) may run shell commands

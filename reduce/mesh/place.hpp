@@ -1,4 +1,4 @@
-// Places in messages: points in space, and positions in the user's input file.
+// Points, directions and lengths in messages.
 #pragma once
 
 #include <cmath>
@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 #include <fmt/format.h>
-
-#include "reduce/common/error.hpp"
 
 namespace bielle::reduce {
 
@@ -26,22 +24,6 @@ inline std::string place_name(const Eigen::Vector3d& point) {
 /// "3.2 mm", "1.5 m"
 inline std::string length_name(double length) {
   return length < 0.5 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
-}
-
-/// `located: message`, or the message alone if there is no position.
-/// @param located  "rod.yaml:17: interfaces.big_end"
-inline std::string at_place(const std::string& located, const std::string& message) {
-  return located.empty() ? message : located + ": " + message;
-}
-
-/// Returns the result of `work`; the position in the input file is put before the message of an InputError from it.
-template <class Work>
-auto placed(const std::string& located, const Work& work) {
-  try {
-    return work();
-  } catch (const InputError& error) {
-    throw InputError(at_place(located, error.what()));
-  }
 }
 
 }  // namespace bielle::reduce

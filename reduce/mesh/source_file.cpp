@@ -16,7 +16,6 @@
 #include "reduce/common/process/closed_process.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/length_unit.hpp"
-#include "reduce/mesh/place.hpp"
 #include "reduce/mesh/signature.hpp"
 #include "reduce/mesh/universal_file.hpp"
 
@@ -62,17 +61,16 @@ void settle_universal_unit(const MeshRequest& request, double said, SourceFile& 
   } else {
     source.unit_note = fmt::format("read in {} as length_unit says", *request.length_unit);
     if (std::abs(*told - said) > 1e-6 * said)
-      progress.warn(
-          at_place(request.length_unit_located,
-                   fmt::format("'{}' contradicts the dataset 164 of '{}', by which its unit is {}; read in {}",
-                               *request.length_unit, request.path, unit_name(*told), *request.length_unit)));
+      progress.warn(request.length_unit_subject,
+                    fmt::format("'{}' contradicts the dataset 164 of '{}', by which its unit is {}; read in {}",
+                                *request.length_unit, request.path, unit_name(*told), *request.length_unit));
   }
 }
 
 // Sets metres per unit for a geometry that declares none; warns if the user's unit differs from a declared one.
 void settle_unit(const MeshRequest& request, const std::string& ending, SourceFile& source, Progress& progress) {
   const double said =
-      request.length_unit ? placed(request.length_unit_located, [&] { return metres_per(*request.length_unit); }) : 1.0;
+      request.length_unit ? about(request.length_unit_subject, [&] { return metres_per(*request.length_unit); }) : 1.0;
   if (ending == ".unv") return settle_universal_unit(request, said, source, progress);
   if (!source.carries_unit) {
     source.metres = said;
@@ -83,15 +81,15 @@ void settle_unit(const MeshRequest& request, const std::string& ending, SourceFi
   const std::optional<double> carried = ending.starts_with(".st") ? step_length_unit(request.path) : std::nullopt;
   source.unit_note = carried ? fmt::format("it says that its unit is {}", unit_name(*carried)) : "it carries its unit";
   if (!request.length_unit || (carried && std::abs(*carried - said) <= 1e-6 * said)) return;
-  progress.warn(at_place(request.length_unit_located,
-                         fmt::format("'{}' is not used: '{}' carries its own unit{}", *request.length_unit,
-                                     request.path, carried ? ", which is " + unit_name(*carried) : "")));
+  progress.warn(request.length_unit_subject,
+                fmt::format("'{}' is not used: '{}' carries its own unit{}", *request.length_unit, request.path,
+                            carried ? ", which is " + unit_name(*carried) : ""));
 }
 
 }  // namespace
 
 SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
-  placed(request.located, [&] {
+  about(request.subject, [&] {
     check_file(request.path);
     check_signature(request.path);
   });
@@ -104,28 +102,29 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
   if (!gmsh_reads(request.path)) {
     source.folder = std::make_unique<ScratchFolder>();
     source.path = (source.folder->path() / "mesh.msh").string();
-    placed(request.located, [&] { convert_mesh(request.path, source.path, progress); });
+    about(request.subject, [&] { convert_mesh(request.path, source.path, progress); });
   }
   if (ending == ".unv") {
     source.folder = std::make_unique<ScratchFolder>();
     const std::string copy = (source.folder->path() / "mesh.unv").string();
-    placed(request.located, [&] {
+    about(request.subject, [&] {
       if (adapt_universal_file(request.path, copy)) source.path = copy;
     });
   }
   return source;
 }
 
-ChildLoss loss_of(const SourceFile& source, const std::string& located) {
+ChildLoss loss_of(const SourceFile& source, const std::string& subject) {
   const char* reading = "cannot be read: gmsh crashes on it, the file is damaged";
   const char* meshing =
       "cannot be read and meshed: gmsh crashes on it; where the file is sound, another mesh.size may help";
-  ChildLoss loss(at_place(located, fmt::format("'{}' {}", source.name, source.geometry ? meshing : reading)));
-  loss.ended = at_place(
-      located, fmt::format("'{}' ends gmsh before it is read to its end: remove 'Exit;' or 'Abort;'", source.name));
-  loss.forbidden = at_place(located, fmt::format("'{}' starts another program (SystemCall), which a geometry may not; "
-                                                 "--allow-system-calls lets it, for files that you trust",
-                                                 source.name));
+  ChildLoss loss(fmt::format("'{}' {}", source.name, source.geometry ? meshing : reading));
+  loss.ended = fmt::format("'{}' ends gmsh before it is read to its end: remove 'Exit;' or 'Abort;'", source.name);
+  loss.forbidden = fmt::format(
+      "'{}' starts another program (SystemCall), which a geometry may not; --allow-system-calls lets it, for files "
+      "that you trust",
+      source.name);
+  loss.subject = subject;
   return loss;
 }
 

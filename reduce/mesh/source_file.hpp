@@ -32,8 +32,8 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress);
 
 /// Messages for the case that gmsh's process ends without an answer: gmsh crashes on the file, or the file ends it or
 /// starts another program.
-/// @param located  "rod.yaml:3: geometry", put before it
-ChildLoss loss_of(const SourceFile& source, const std::string& located = "");
+/// @param subject  key by which the user names the file
+ChildLoss loss_of(const SourceFile& source, const std::string& subject = "");
 
 /// Prevents this process from starting another program, since a geometry may be a script that runs shell commands.
 /// @throws InputError if the system cannot prevent it and the script contains words that could

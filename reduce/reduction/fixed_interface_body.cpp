@@ -100,8 +100,8 @@ void FixedInterfaceBody::close_conditions(const Ties& ties) {
   }
   const std::optional<Eigen::MatrixXd> inverse = regular_inverse(scale.asDiagonal() * matrix * scale.asDiagonal());
   if (!inverse) {
-    throw ComputationError(fmt::format("{}: the average ties of the body depend on each other",
-                                       ties.surfaces[ties.kept[ties.averages.front()].interface].located));
+    throw ComputationError(ties.surfaces[ties.kept[ties.averages.front()].interface].subject,
+                           "the average ties of the body depend on each other");
   }
   small_ = scale.asDiagonal() * *inverse * scale.asDiagonal();
 }

@@ -177,10 +177,12 @@ void HeldFreedoms::find_rigid_motions(const Solid& solid, const Ties& ties, cons
   }
   if (const Eigen::MatrixXd loose = null_space(held); loose.cols() > 0) {
     const Eigen::VectorXd motion = amplitudes * loose.col(0);
-    throw InputError(fmt::format(
-        "{}: with every kept direction of the interfaces held, the body can still {}; keep more directions or add an "
-        "interface that holds it",
-        ties.surfaces.front().located, describe_motion(motion.head<3>(), motion.segment<3>(3), box.center(), length)));
+    throw InputError(
+        ties.surfaces.front().subject,
+        fmt::format(
+            "with every kept direction of the interfaces held, the body can still {}; keep more directions or add an "
+            "interface that holds it",
+            describe_motion(motion.head<3>(), motion.segment<3>(3), box.center(), length)));
   }
 }
 

@@ -1,7 +1,5 @@
 #include "reduce/reduction/inertia_answer.hpp"
 
-#include <utility>
-
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 
@@ -21,8 +19,8 @@ InertiaAnswer inertia_answer_energies(const Basis& basis) {
   return answer;
 }
 
-ResidualRequest inertia_relief(const LinearFields& linear, std::string located) {
-  ResidualRequest request{std::move(located), SparseRows(linear.inertia.rows(), LinearFields::count)};
+ResidualRequest inertia_relief(const LinearFields& linear) {
+  ResidualRequest request{"inertia_relief", SparseRows(linear.inertia.rows(), LinearFields::count)};
   request.may_be_empty = true;
   request.loads.reserve(Eigen::VectorXi::Constant(linear.inertia.rows(), 4));
   for (Eigen::Index row = 0; row < linear.inertia.rows(); ++row)

@@ -19,7 +19,6 @@ InertiaAnswer inertia_answer_energies(const Basis& basis);
 
 /// The loads L, as a request for residual vectors: with these the answer is complete. If the modes represent it
 /// completely, no residual vectors are made.
-/// @param located  put before messages
-ResidualRequest inertia_relief(const LinearFields& linear, std::string located);
+ResidualRequest inertia_relief(const LinearFields& linear);
 
 }  // namespace bielle::reduce

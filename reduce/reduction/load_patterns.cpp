@@ -5,7 +5,6 @@
 #include "reduce/common/error.hpp"
 #include "reduce/fe/surface.hpp"
 #include "reduce/mesh/faces.hpp"
-#include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {
 
@@ -18,10 +17,10 @@ void check_on_boundary(const Mesh& mesh, const LoadRequest& request) {
     for (const int cell : part.cells) {
       const auto face = faces.find({nodes(0, cell), nodes(1, cell), nodes(2, cell)});
       if (!face || !faces.on_boundary(*face)) {
-        throw InputError(
-            fmt::format("{}: surface '{}' has faces inside the body, on which a pressure has no direction; "
-                        "give a traction or a force",
-                        request.located, request.group));
+        throw InputError(request.subject,
+                         fmt::format("surface '{}' has faces inside the body, on which a pressure has no direction; "
+                                     "give a traction or a force",
+                                     request.group));
       }
     }
   }
@@ -38,13 +37,13 @@ Eigen::Matrix3Xd nodal_forces(const Mesh& mesh, const SurfaceIntegrals& surface,
   if (request.force) {
     return spread_force(surface, *request.force);
   }
-  throw InputError(fmt::format("{}: a load needs a pressure, a traction or a force", request.located));
+  throw InputError(request.subject, "a load needs a pressure, a traction or a force");
 }
 
 }  // namespace
 
 PatternForces pattern_forces(const Mesh& mesh, const LoadRequest& request) {
-  const SurfaceIntegrals surface = placed(request.located, [&] { return integrate_surface(mesh, request.group); });
+  const SurfaceIntegrals surface = about(request.subject, [&] { return integrate_surface(mesh, request.group); });
   return {surface.nodes, nodal_forces(mesh, surface, request)};
 }
 
@@ -64,7 +63,7 @@ std::map<std::string, LoadPattern> reduce_loads(const Solid& solid, const std::v
       }
     }
     if (!result.emplace(request.name, std::move(pattern)).second) {
-      throw InputError(fmt::format("{}: there are two loads '{}'", request.located, request.name));
+      throw InputError(request.subject, fmt::format("there are two loads '{}'", request.name));
     }
   }
   return result;

@@ -18,7 +18,7 @@ struct PatternForces {
   Eigen::Matrix3Xd forces;  ///< [N] on each of the nodes
 };
 
-/// @throws InputError, with the place of the request: an unknown surface, a pressure on faces inside the body
+/// @throws InputError about the request: an unknown surface, a pressure on faces inside the body
 PatternForces pattern_forces(const Mesh& mesh, const LoadRequest& request);
 
 /// Reduced load patterns: row l of force[k] is sum over nodes of f_k,a times component l of T at node a.

@@ -1,5 +1,5 @@
 // The user's request for a reduction, independent of any file format: body_file.cpp fills it, reduce_body() executes
-// it.
+// it. The `subject` of a request is the key by which the user makes it; it stands in messages about the request.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct InterfaceRequest {
   std::optional<Eigen::Vector3d> position;  ///< [m]; default: centroid of the surface (area-weighted)
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   std::array<bool, 6> kept = {true, true, true, true, true, true};
-  std::string located;  ///< "rod.yaml:17: interfaces.big_end", put before messages about it
+  std::string subject;  ///< "interfaces.big_end"
 };
 
 struct LoadRequest {
@@ -38,8 +38,8 @@ struct LoadRequest {
   std::optional<double> pressure;           ///< [Pa], pushing against the surface; or
   std::optional<Eigen::Vector3d> traction;  ///< [Pa], body axes; or
   std::optional<Eigen::Vector3d> force;     ///< total [N], spread evenly over the area
-  std::string located;
-  bool residual = false;  ///< whether its static answer shall be exact, by residual vectors
+  std::string subject;                      ///< "loads.gas"
+  bool residual = false;                    ///< whether its static answer shall be exact, by residual vectors
 };
 
 /// A named point inside the body: the mean of a surface, or a place in the mesh.
@@ -48,7 +48,7 @@ struct PointRequest {
   std::string group;                        ///< surface group that it follows; empty: the mesh around `position`
   std::optional<Eigen::Vector3d> position;  ///< [m]; default: centroid of the surface (area-weighted)
   std::array<bool, 6> residual{};           ///< loads x y z rx ry rz, body axes, that get residual vectors
-  std::string located;
+  std::string subject;                      ///< "points.pin"
 };
 
 enum class RecoveryExtent { none, surface, all };
@@ -56,7 +56,6 @@ enum class RecoveryExtent { none, surface, all };
 struct ReductionOptions {
   std::string name;
   std::string input_text;
-  std::map<std::string, std::string> lines;  ///< "modes" -> "rod.yaml:20", put before messages about a section
   std::map<std::string, Material> materials;
   std::map<std::string, std::string> regions;  ///< volume group -> material name; key "all" for the whole body
   std::vector<InterfaceRequest> interfaces;    ///< at least one: a mechanism moves a body by its interfaces

@@ -7,7 +7,6 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/fe/surface.hpp"
-#include "reduce/mesh/place.hpp"
 #include "reduce/superelement/point_weights.hpp"
 
 namespace bielle::reduce {
@@ -29,17 +28,17 @@ std::vector<std::size_t> pieces_with(const CutMesh& cut, const std::string& grou
 void check_unlike_cuts(const CutMesh& cut, const InterfaceRequest& request) {
   for (const MeshCut& surface : cut.cuts)
     if (surface.name == request.name)
-      throw InputError(at_place(request.located, fmt::format("a cut has the name '{}', too: give it or this interface "
-                                                             "another one",
-                                                             request.name)));
+      throw InputError(
+          request.subject,
+          fmt::format("a cut has the name '{}', too: give it or this interface another one", request.name));
 }
 
 /// Throws if a cut passes through the surface.
 /// @param rule  "an interface belongs to one; move the cut, or divide the interface"
 std::size_t piece_of_surface(const Mesh& whole, const CutMesh& cut, const std::string& group,
-                             const std::string& located, const std::string& rule) {
+                             const std::string& subject, const std::string& rule) {
   const std::vector<std::size_t> pieces = pieces_with(cut, group);
-  if (pieces.empty()) placed(located, [&] { return integrate_surface(whole, group); });  // says why
+  if (pieces.empty()) about(subject, [&] { return integrate_surface(whole, group); });  // says why
   if (pieces.size() <= 1) return pieces.at(0);
   std::vector<std::string> through;
   for (const MeshCut& surface : cut.cuts) {
@@ -48,22 +47,22 @@ std::size_t piece_of_surface(const Mesh& whole, const CutMesh& cut, const std::s
     });
     if (between) through.push_back("'" + surface.name + "'");
   }
-  throw InputError(at_place(
-      located,
+  throw InputError(
+      subject,
       fmt::format("its surface lies in {} pieces{}: {}", pieces.size(),
-                  through.empty() ? "" : fmt::format(", on both sides of {}", fmt::join(through, ", ")), rule)));
+                  through.empty() ? "" : fmt::format(", on both sides of {}", fmt::join(through, ", ")), rule));
 }
 
 std::size_t piece_of(const Mesh& whole, const CutMesh& cut, const InterfaceRequest& request) {
   check_unlike_cuts(cut, request);
-  return piece_of_surface(whole, cut, request.group, request.located,
+  return piece_of_surface(whole, cut, request.group, request.subject,
                           "an interface belongs to one; move the cut, or divide the interface");
 }
 
 /// A point in the mesh belongs to the nearest piece, the first of several.
 std::size_t piece_of(const Mesh& whole, const CutMesh& cut, const PointRequest& request) {
   if (!request.group.empty())
-    return piece_of_surface(whole, cut, request.group, request.located,
+    return piece_of_surface(whole, cut, request.group, request.subject,
                             "a point belongs to one; move the cut, or take a part of the surface");
   std::vector<double> distances;
   for (const MeshPart& piece : cut.pieces)
@@ -80,7 +79,7 @@ InterfaceRequest cut_interface(const MeshCut& cut, const CutPlane& plane, const 
     request.kept = {true, true, true, false, false, false};
   else
     request.position = surface.position;
-  request.located = plane.located;
+  request.subject = plane.subject;
   return request;
 }
 
@@ -88,7 +87,7 @@ InterfaceRequest cut_interface(const MeshCut& cut, const CutPlane& plane, const 
 std::vector<LoadRequest> loads_by_area(const Mesh& whole, const std::vector<LoadRequest>& loads) {
   std::vector<LoadRequest> result = loads;
   for (LoadRequest& load : result) {
-    const SurfaceIntegrals surface = placed(load.located, [&] { return integrate_surface(whole, load.group); });
+    const SurfaceIntegrals surface = about(load.subject, [&] { return integrate_surface(whole, load.group); });
     if (!load.force) continue;
     load.traction = Eigen::Vector3d(*load.force / surface.area);
     load.force.reset();

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/mesh/place.hpp"
 #include "reduce/superelement/point_weights.hpp"
 
 namespace bielle::reduce {
@@ -53,7 +52,7 @@ std::vector<TiedPoint> tie_points(const Solid& solid, const std::vector<PointReq
   std::vector<TiedPoint> result;
   std::set<std::string> names;
   for (const PointRequest& request : requests)
-    placed(request.located, [&] {
+    about(request.subject, [&] {
       if (!names.insert(request.name).second) throw InputError(fmt::format("there are two points '{}'", request.name));
       result.push_back(request.group.empty() ? tie_to_mesh(solid, request, body) : tie_to_surface(solid, request));
     });

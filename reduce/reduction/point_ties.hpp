@@ -21,8 +21,9 @@ struct TiedPoint {
 };
 
 /// @param body  its name, for messages
-/// @throws InputError, with the place of the request before it: a surface that does not exist in the mesh, a position
-///         far from the mesh or from the surface, two points of the same name
+/// @throws InputError about the request: a surface that does not exist in the mesh, a position far from the mesh or
+/// from
+///         the surface, two points of the same name
 std::vector<TiedPoint> tie_points(const Solid& solid, const std::vector<PointRequest>& requests,
                                   const std::string& body);
 

@@ -11,7 +11,6 @@
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/mesh/checks.hpp"
-#include "reduce/mesh/place.hpp"
 #include "reduce/reduction/adequacy.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/free_body.hpp"
@@ -163,23 +162,12 @@ Check missed_modes(const ModeCount& count) {
           fmt::format("of the {} below {:.6g} Hz, all were found", counted(count.counted, "mode"), count.below)};
 }
 
-/// Returns the result of `work`; the line of the section of the body file is put before the message of an InputError
-/// from it.
-template <class Work>
-auto in_section(const ReductionOptions& options, const std::string& section, const Work& work) {
-  const auto line = options.lines.find(section);
-  return placed(line == options.lines.end() ? "" : line->second, work);
-}
-
 /// Adds the vectors that loads and points request, and those for the body's own inertia.
 void add_all_residual_vectors(const ReductionOptions& options, std::vector<ResidualRequest> requests,
                               const BodyMatrices& matrices, const FixedInterfaceBody& held, Basis& basis,
                               Progress& progress) {
   const bool relieved = options.inertia_relief;
-  if (relieved) {
-    const auto line = options.lines.find("inertia_relief");
-    requests.push_back(inertia_relief(basis.linear, line == options.lines.end() ? "" : line->second));
-  }
+  if (relieved) requests.push_back(inertia_relief(basis.linear));
   if (requests.empty()) return;
   progress.start("residual vectors");
   add_residual_vectors(requests, matrices, held, basis);
@@ -193,8 +181,8 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
                          ReductionReport* report, const MatrixMaker& make) {
   progress.start("stiffness and mass");
   check_connected(mesh);
-  const Solid solid =
-      in_section(options, "regions", [&] { return make_solid(mesh, options.materials, options.regions); });
+  const Solid solid = about(
+      "regions", [&] { return make_solid(mesh, options.materials, options.regions); }, Subject::hidden);
   const MassProperties properties = mass_properties(solid, threads);
   const Ties ties = make_ties(solid, options.interfaces);
   const std::vector<TiedPoint> points = tie_points(solid, options.points, options.name);
@@ -206,15 +194,14 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   const BodyMatrices& matrices = *kept_matrices;
 
   if (options.modes_proven && !matrices.can_count_signs())
-    in_section(options, "modes",
-               [] { throw InputError("proof: modes are counted by bielle-reduce alone, not on ranks"); });
+    throw InputError("modes", "proof: modes are counted by bielle-reduce alone, not on ranks", Subject::hidden);
 
   progress.start("factorisation");
   const FixedInterfaceBody held(std::move(freedoms), solid, matrices, ties, threads);
-  Basis basis = in_section(options, "modes", [&] {
-    return make_basis(solid, matrices, ties, held, properties,
-                      {options.mode_count, options.modes_below, options.mode_method}, progress, threads);
-  });
+  const ModeRequest modes{options.mode_count, options.modes_below, options.mode_method};
+  Basis basis = about(
+      "modes", [&] { return make_basis(solid, matrices, ties, held, properties, modes, progress, threads); },
+      Subject::hidden);
   const std::optional<ModeCount> count =
       options.modes_proven ? prove_modes(matrices, held, basis, progress) : std::nullopt;
   add_all_residual_vectors(options, std::move(residual), matrices, held, basis, progress);
@@ -226,7 +213,8 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   const ReducedStiffness reduced = reduce_stiffness(matrices, basis, ties.interfaces, properties, body.mass);
   body.stiffness = reduced.matrix;
   body.effective_mass = effective_masses(body);
-  body.damping = in_section(options, "damping", [&] { return damping_matrix(options, body); });
+  body.damping = about(
+      "damping", [&] { return damping_matrix(options, body); }, Subject::hidden);
   body.inertia_answer = inertia_answer_energies(basis);
 
   progress.start("geometric stiffness");

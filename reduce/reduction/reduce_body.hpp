@@ -33,8 +33,7 @@ struct ReductionReport {
 /// @param threads   >= 1
 /// @param report    filled when given
 /// @param make      makes the object that stores the mesh's matrices and their factors
-/// @throws InputError for requests that do not fit the mesh (with the place in the input file), ComputationError if the
-///         computation or a check fails
+/// @throws InputError about requests that do not fit the mesh, ComputationError if the computation or a check fails
 Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Progress& progress, int threads = 1,
                          ReductionReport* report = nullptr, const MatrixMaker& make = assembled_matrices);
 

@@ -7,7 +7,6 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/fe/solid.hpp"
-#include "reduce/mesh/place.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/cut_effect.hpp"
 #include "reduce/superelement/assembled_pieces.hpp"
@@ -16,20 +15,15 @@ namespace bielle::reduce {
 
 namespace {
 
-std::string line_of(const ReductionOptions& options, const std::string& section) {
-  const auto line = options.lines.find(section);
-  return line == options.lines.end() ? "" : line->second;
-}
-
 void check_damping(const ReductionOptions& options, Progress& progress) {
   if (options.damping_ratios.size() > 1)
-    throw InputError(at_place(line_of(options, "damping"),
-                              "a body in pieces has one ratio, that of its first free mode: expected a number"));
+    throw InputError("damping", "a body in pieces has one ratio, that of its first free mode: expected a number",
+                     Subject::hidden);
   if (options.rayleigh && options.rayleigh->front() > 0)
-    progress.warn(
-        at_place(line_of(options, "damping"),
-                 "alpha damps the deformation of each piece alone: the body's low modes, in which pieces move "
-                 "almost as rigid bodies, hardly feel it"));
+    progress.warn("damping",
+                  "alpha damps the deformation of each piece alone: the body's low modes, in which pieces move "
+                  "almost as rigid bodies, hardly feel it",
+                  Subject::hidden);
 }
 
 /// The nodes of free ties are named by their number in the mesh; adjacent pieces must use the same name for a common
@@ -50,7 +44,7 @@ Superelement reduce_quietly(const Mesh& mesh, const ReductionOptions& options, i
   try {
     return reduce_body(mesh, options, quiet, threads, nullptr, make);
   } catch (const ComputationError& error) {
-    throw ComputationError(fmt::format("{}: {}", options.name, error.what()));
+    throw ComputationError(error.subject(), fmt::format("{}: {}", options.name, error.what()), Subject::hidden);
   }
 }
 

@@ -74,10 +74,10 @@ void check_requests(const std::vector<ResidualRequest>& requests, const std::vec
   for (const ResidualRequest& request : requests) {
     const auto end = first + request.loads.cols();
     if (!request.may_be_empty && std::none_of(first, end, [](bool left) { return left; }))
-      throw InputError(fmt::format(
-          "{}: its loads leave nothing for residual vectors: interfaces carry them, or the modes have their answer "
-          "already; remove `residual`",
-          request.located));
+      throw InputError(
+          request.subject,
+          "its loads leave nothing for residual vectors: interfaces carry them, or the modes have their answer "
+          "already; remove `residual`");
     first = end;
   }
 }
@@ -137,10 +137,10 @@ std::vector<ResidualRequest> residual_requests(const Solid& solid, const std::ve
   std::vector<ResidualRequest> requests;
   for (const TiedPoint& point : points) {
     SparseRows of_point = loads_of_point(point);
-    if (of_point.cols() > 0) requests.push_back({point.request.located, std::move(of_point)});
+    if (of_point.cols() > 0) requests.push_back({point.request.subject, std::move(of_point)});
   }
   for (const LoadRequest& load : loads)
-    if (load.residual) requests.push_back({load.located, loads_of_pattern(solid, load)});
+    if (load.residual) requests.push_back({load.subject, loads_of_pattern(solid, load)});
   return requests;
 }
 

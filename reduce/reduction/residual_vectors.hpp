@@ -20,7 +20,7 @@ namespace bielle::reduce {
 
 /// Loads of one entry of the body file whose answer shall be exact.
 struct ResidualRequest {
-  std::string located;        ///< "body.yaml:20: points.pin", put before messages about it
+  std::string subject;        ///< key of the entry: "points.pin"
   SparseRows loads;           ///< (3 points, k)
   bool may_be_empty = false;  ///< no error if the modes already represent the answer
 };
@@ -33,8 +33,7 @@ std::vector<ResidualRequest> residual_requests(const Solid& solid, const std::ve
 
 /// Appends the residual vectors to the basis. If loads are linearly dependent, or the modes already represent their
 /// answers, fewer vectors are made: energies below 1e-10 of the whole answer's count as zero.
-/// @throws InputError, with the place of the request, if nothing is left of any of its loads, unless `may_be_empty` is
-/// set
+/// @throws InputError about the request, if nothing is left of any of its loads, unless `may_be_empty` is set
 void add_residual_vectors(const std::vector<ResidualRequest>& requests, const BodyMatrices& matrices,
                           const FixedInterfaceBody& held, Basis& basis);
 

@@ -8,7 +8,6 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/mesh/place.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
@@ -48,9 +47,9 @@ class Claims {
     int shared = 0, first = -1, with = -1;
     for (const int node : nodes) {
       if (!inside_[node]) {
-        throw InputError(fmt::format("{}: point {} of surface '{}' at {} is no point of the solid",
-                                     requests[request].located, node, requests[request].group,
-                                     place(solid_.mesh.points.col(node))));
+        throw InputError(requests[request].subject,
+                         fmt::format("point {} of surface '{}' at {} is no point of the solid", node,
+                                     requests[request].group, place(solid_.mesh.points.col(node))));
       }
       if (owner_[node] >= 0) {
         with = owner_[node];
@@ -60,11 +59,13 @@ class Claims {
       }
     }
     if (shared > 0) {
-      throw InputError(fmt::format(
-          "{}: surface '{}' shares {} with interface '{}', the first at {}; interfaces must not touch, leave a row "
-          "of elements between them",
-          requests[request].located, requests[request].group, counted(shared, "point"), requests[with].name,
-          place(solid_.mesh.points.col(first))));
+      throw InputError(
+          requests[request].subject,
+          fmt::format(
+              "surface '{}' shares {} with interface '{}', the first at {}; interfaces must not touch, leave a row "
+              "of elements between them",
+              requests[request].group, counted(shared, "point"), requests[with].name,
+              place(solid_.mesh.points.col(first))));
     }
   }
 
@@ -86,7 +87,7 @@ class TieBuilder {
       std::fill(directions.begin() + 3, directions.end(), false);
     }
     if (std::none_of(directions.begin(), directions.end(), [](bool keep) { return keep; })) {
-      throw InputError(fmt::format("{}: no direction of the interface is kept", request.located));
+      throw InputError(request.subject, "no direction of the interface is kept");
     }
     if (request.tie != Tie::free) {
       add_interface(request, {request.name, request.position.value_or(surface.centroid), request.rotation, directions},
@@ -113,7 +114,7 @@ class TieBuilder {
   void add_interface(const InterfaceRequest& request, Interface interface, const SurfaceIntegrals& surface,
                      std::vector<int> nodes) {
     if (!names_.insert(interface.name).second) {
-      throw InputError(fmt::format("{}: there are two interfaces '{}'", request.located, interface.name));
+      throw InputError(request.subject, fmt::format("there are two interfaces '{}'", interface.name));
     }
     const int number = static_cast<int>(ties_.interfaces.size());
     for (int axis = 0; axis < (request.tie == Tie::free ? 3 : 6); ++axis) {
@@ -131,7 +132,7 @@ class TieBuilder {
     }
     ties_.interfaces.push_back(std::move(interface));
     ties_.surfaces.push_back(
-        {request.tie, std::move(nodes), request.tie == Tie::free ? SurfaceIntegrals{} : surface, request.located});
+        {request.tie, std::move(nodes), request.tie == Tie::free ? SurfaceIntegrals{} : surface, request.subject});
   }
 
   /// Makes the nodes move with a direction of the interface, which is kept or released.
@@ -195,7 +196,7 @@ Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests
   Claims claims(solid);
   for (std::size_t k = 0; k < requests.size(); ++k) {
     const InterfaceRequest& request = requests[k];
-    const SurfaceIntegrals surface = placed(request.located, [&] {
+    const SurfaceIntegrals surface = about(request.subject, [&] {
       SurfaceIntegrals integrals = integrate_surface(solid.mesh, request.group);
       check_position(request.position, integrals, solid.mesh);
       return integrals;

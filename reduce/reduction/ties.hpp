@@ -40,7 +40,7 @@ struct TiedSurface {
   Tie tie;
   std::vector<int> nodes;
   SurfaceIntegrals integrals;  ///< integrals of the surfaces of rigid and average ties
-  std::string located;
+  std::string subject;         ///< that of the request
 };
 
 /// All ties of a body. `b` counts the kept directions in the order of the superelement's coordinates; columns of
@@ -69,9 +69,9 @@ Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interfa
 /// @param position  position of the node that follows the surface; default: its centroid @throws InputError
 void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh);
 
-/// @throws InputError, with the place of the request before it: no interfaces at all, a surface that does not exist in
-///         the mesh, points outside the solid, two interfaces that share points, no direction kept, two interfaces of
-///         the same name, an interface node far from the body
+/// @throws InputError about the request: a surface that does not exist in the mesh, points outside the solid, two
+///         interfaces that share points, no direction kept, two interfaces of the same name, an interface node far from
+///         the body; or about no interfaces at all
 Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests);
 
 }  // namespace bielle::reduce

@@ -22,7 +22,7 @@ namespace bielle {
 
 namespace {
 
-/// Outcome of the work: the first letter of the answer that is sent through the pipe.
+/// Outcome of the work.
 enum Outcome : char { value = 'v', input = 'i', computation = 'c', memory = 'm', unforeseen = 'u' };
 
 void write_all(int target, const char* data, std::size_t size) {
@@ -46,11 +46,16 @@ std::string read_all(int source) {
   }
 }
 
-void send(int pipe, Outcome outcome, const std::string& text) {
-  const std::uint64_t size = text.size();
-  char head[1 + sizeof size] = {outcome};
-  std::memcpy(head + 1, &size, sizeof size);
-  write_all(pipe, head, sizeof head);
+/// Begins an answer; the subject of a failure and the text follow.
+struct Head {
+  Outcome outcome;
+  std::uint64_t subject_size, text_size;
+};
+
+void send(int pipe, Outcome outcome, const std::string& text, const std::string& subject = "") {
+  const Head head{outcome, subject.size(), text.size()};
+  write_all(pipe, reinterpret_cast<const char*>(&head), sizeof head);
+  write_all(pipe, subject.data(), subject.size());
   write_all(pipe, text.data(), text.size());
 }
 
@@ -92,9 +97,9 @@ void set_limits(const ChildLimits& limits) {
   try {
     send(pipe, value, work());
   } catch (const InputError& error) {
-    send(pipe, input, error.what());
+    send(pipe, input, error.what(), error.subject());
   } catch (const ComputationError& error) {
-    send(pipe, computation, error.what());
+    send(pipe, computation, error.what(), error.subject());
   } catch (const std::bad_alloc&) {
     send(pipe, memory, "");
   } catch (const std::exception& error) {
@@ -137,18 +142,19 @@ std::string in_child_process(const ChildLoss& lost, const ChildLimits& limits,
   close(ends[0]);
   if (child < 0) throw ComputationError(fmt::format("no process can be started: {}", std::strerror(failed)));
   const int status = wait_for(child);
-  std::uint64_t size = 0;
-  constexpr std::size_t head = 1 + sizeof size;
-  if (answer.size() >= head) std::memcpy(&size, answer.data() + 1, sizeof size);
-  if (answer.size() < head || answer.size() - head != size) throw InputError(sentence_of(lost, status));
-  std::string text = answer.substr(head);
-  switch (answer[0]) {
+  Head head{};
+  if (answer.size() >= sizeof head) std::memcpy(&head, answer.data(), sizeof head);
+  if (answer.size() < sizeof head || answer.size() - sizeof head != head.subject_size + head.text_size)
+    throw InputError(lost.subject, sentence_of(lost, status));
+  const std::string subject = answer.substr(sizeof head, head.subject_size);
+  std::string text = answer.substr(sizeof head + head.subject_size);
+  switch (head.outcome) {
     case value:
       return text;
     case input:
-      throw InputError(text);
+      throw InputError(subject, text, Subject::hidden);  // the text has it already
     case computation:
-      throw ComputationError(text);
+      throw ComputationError(subject, text, Subject::hidden);
     case memory:
       throw std::bad_alloc();
     default:

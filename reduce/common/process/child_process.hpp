@@ -19,6 +19,7 @@ struct ChildLoss {
   std::string crashed;    ///< the process crashes, is killed or reaches its limit: "'a.msh' cannot be read: .."
   std::string ended;      ///< something in it ended it in good order before its work was done; default: `crashed`
   std::string forbidden;  ///< it tried what `forbid_other_programs` forbids; default: `crashed`
+  std::string subject;    ///< key of the input that they are about; empty if there is none
 
   ChildLoss(const char* sentence) : ChildLoss(std::string(sentence)) {}
   ChildLoss(std::string sentence) : crashed(sentence), ended(sentence), forbidden(std::move(sentence)) {}
@@ -28,7 +29,8 @@ struct ChildLoss {
 /// is shown, except for reports of a crash.
 ///
 /// @param lost  the sentence when the process ends without an answer
-/// @throws InputError `lost`; otherwise the exceptions of `work` (InputError, ComputationError, std::bad_alloc)
+/// @throws InputError `lost`; otherwise the exceptions of `work` (InputError and ComputationError with their subjects,
+/// std::bad_alloc)
 std::string in_child_process(const ChildLoss& lost, const ChildLimits& limits,
                              const std::function<std::string()>& work);
 

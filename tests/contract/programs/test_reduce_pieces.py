@@ -105,7 +105,7 @@ class ReducePieces(BarTest):
                     "its surface lies in 4 pieces, on both sides of 'cut_1', 'cut_2', 'cut_3'")
         self.refuse("{count: 4, line: {from: [0, 0, 0], to: [0.2, 0, 0]}}", "{planes: {axis: x, at: 0.3}}",
                     "body.yaml:15: pieces.planes", "does not cut the body", "between -0.3 m and -0.1 m")
-        self.refuse("damping: {ratio: 0.01}", "damping: {ratio: [0.01, 0.02]}", "body.yaml:12", "one ratio")
+        self.refuse("damping: {ratio: 0.01}", "damping: {ratio: [0.01, 0.02]}", "body.yaml:12: a body in pieces has one ratio")
         self.refuse("pieces: {count", "piecs: {count", "did you mean 'pieces'?")
 
     def test_a_mechanism_places_the_pieces_by_one_entry(self):

@@ -59,16 +59,16 @@ void check(const std::string& from, const std::string& to, const std::string& ex
 TEST_CASE("a body file becomes a request for a mesh and the options of a reduction") {
   const BodyFile file = read();
   CHECK(file.mesh.path == "models/conrod.geo");
-  CHECK(file.mesh.located == "models/rod.yaml:2: geometry");
+  CHECK(file.mesh.subject == "geometry");
   CHECK(file.mesh.length_unit == "mm");
   CHECK(file.mesh.size == 3e-3);
   CHECK(file.mesh.order == 2);
   REQUIRE(file.mesh.volumes.size() == 1);
   CHECK(file.mesh.volumes[0].group == "rod");
-  CHECK(file.mesh.volumes[0].located == "models/rod.yaml:7: regions.rod");
+  CHECK(file.mesh.volumes[0].subject == "regions.rod");
   REQUIRE(file.mesh.surfaces.size() == 3);
   CHECK(file.mesh.surfaces[0].group == "bore_big");
-  CHECK(file.mesh.surfaces[2].located == "models/rod.yaml:14: loads.gas.surface");
+  CHECK(file.mesh.surfaces[2].subject == "loads.gas.surface");
 
   const ReductionOptions& options = file.options;
   CHECK(options.name == "rod");
@@ -82,7 +82,7 @@ TEST_CASE("a body file becomes a request for a mesh and the options of a reducti
   CHECK(options.interfaces[0].tie == Tie::rigid);
   CHECK_FALSE(options.interfaces[0].position.has_value());
   CHECK(options.interfaces[0].kept == std::array<bool, 6>{true, true, true, true, true, true});
-  CHECK(options.interfaces[0].located == "models/rod.yaml:9: interfaces.big_end");
+  CHECK(options.interfaces[0].subject == "interfaces.big_end");
   CHECK(options.interfaces[1].tie == Tie::average);
   CHECK(options.interfaces[1].position == Eigen::Vector3d(0.2, 0, 0));
   CHECK(options.mode_count == 20);
@@ -231,7 +231,7 @@ TEST_CASE("points are places or means of surfaces, and ask for residual vectors"
   CHECK(points[0].group.empty());
   CHECK(points[0].position == Eigen::Vector3d(1, 2, 3));
   CHECK(points[0].residual == std::array<bool, 6>{});
-  CHECK(points[0].located == "models/rod.yaml:13: points.sensor");
+  CHECK(points[0].subject == "points.sensor");
   CHECK(points[1].group == "crown");
   CHECK(points[1].position == Eigen::Vector3d(0, 0, 1));
   CHECK(points[1].residual == std::array<bool, 6>{true, false, true, false, true, false});
@@ -239,7 +239,7 @@ TEST_CASE("points are places or means of surfaces, and ask for residual vectors"
   CHECK(points[3].group == "points.flat");
   CHECK_FALSE(points[3].position.has_value());
   REQUIRE(file.mesh.surfaces.size() == 5);
-  CHECK(file.mesh.surfaces[3].located == "models/rod.yaml:13: points.pad.group");
+  CHECK(file.mesh.surfaces[3].subject == "points.pad.group");
   CHECK(read("order: 2}\n", "order: 2, sizes: {pad: 1e-3}}\npoints: {pad: {group: crown}}\n")
             .mesh.sizes.at("crown")
             .size == 1e-3);
@@ -279,7 +279,7 @@ TEST_CASE("mesh sizes by group, interface or load") {
   CHECK(file.mesh.sizes.at("bore_big").size == 1e-3);
   CHECK(file.mesh.sizes.at("crown").size == 2e-3);
   CHECK(file.mesh.sizes.at("web").size == 4e-3);
-  CHECK(file.mesh.sizes.at("web").located == "models/rod.yaml:4: mesh.sizes.web");
+  CHECK(file.mesh.sizes.at("web").subject == "mesh.sizes.web");
   check("order: 2", "order: 3", "4: mesh.order: expected 1 or 2, found 3");
   check("size: 3e-3", "size: 0", "4: mesh.size: expected a number greater than 0");
   check("order: 2", "ordre: 2", "4: mesh: 'ordre' is not a key of the mesh; did you mean 'order'?");

@@ -49,7 +49,7 @@ TEST_CASE("planes by point and normal, and normal to an axis") {
   CHECK(cuts[0].name == "waist");
   CHECK(cuts[0].point == Eigen::Vector3d(1, 2, 3));
   CHECK(cuts[0].normal == Eigen::Vector3d(0, 0, 1));
-  CHECK(cuts[0].located == "rod.yaml:9: pieces.planes[1]");
+  CHECK(cuts[0].subject == "pieces.planes[1]");
   CHECK(cuts[1].name == "cut_2");
   CHECK(cuts[1].point == Eigen::Vector3d(0, 0.5, 0));
   CHECK(cuts[3].name == "cut_4");

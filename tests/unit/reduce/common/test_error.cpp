@@ -54,6 +54,28 @@ TEST_CASE("A message offers the nearest name, or the names that exist") {
   CHECK(nearest.find("and 5 more") != std::string::npos);
 }
 
+TEST_CASE("An error about a key keeps it, and begins with it unless it is hidden") {
+  const bielle::InputError shown("modes.count", "too many"), hidden("modes", "too many", bielle::Subject::hidden);
+  CHECK(std::string(shown.what()) == "modes.count: too many");
+  CHECK(shown.subject() == "modes.count");
+  CHECK(std::string(hidden.what()) == "too many");
+  CHECK(hidden.subject() == "modes");
+  CHECK(std::string(bielle::InputError("", "too many").what()) == "too many");
+  CHECK(bielle::ComputationError("failed").subject().empty());
+}
+
+TEST_CASE("Errors of work about a key get the key; other failures pass") {
+  CHECK(bielle::about("modes", [] { return 7; }) == 7);
+  try {
+    bielle::about("modes", [] { throw bielle::InputError("too many"); });
+    FAIL("nothing thrown");
+  } catch (const bielle::InputError& error) {
+    CHECK(std::string(error.what()) == "modes: too many");
+    CHECK(error.subject() == "modes");
+  }
+  CHECK_THROWS_WITH(bielle::about("modes", [] { throw bielle::ComputationError("failed"); }), "failed");
+}
+
 TEST_CASE("A program's exit status tells a wrong input from a failed computation") {
   const auto status = [](int (*body)(int, char**)) { return bielle::run_program("bielle-test", body, 0, nullptr); };
   CHECK(status([](int, char**) { return 0; }) == 0);

@@ -82,6 +82,24 @@ TEST_CASE("On a terminal, a phase is one line that is redrawn, with the time lef
 
 TEST_CASE("A quiet run prints warnings only") { CHECK(printed_by_work(false, true) == "warning: beware\n"); }
 
+TEST_CASE("A warning about a key begins with it, and with its place where this is known") {
+  const auto printed_with = [](const Progress::Locator& located) {
+    return printed(false, [&] {
+      Progress progress(true, located);
+      progress.warn("mesh", "coarse");
+      progress.warn("damping", "weak", bielle::Subject::hidden);
+      progress.warn("", "plain");
+      progress.warn("beware");
+    });
+  };
+  CHECK(printed_with({}) == "warning: mesh: coarse\nwarning: weak\nwarning: plain\nwarning: beware\n");
+  const auto located = [](const std::string& subject, const std::string& message) {
+    return "<" + subject + "> " + message;
+  };
+  CHECK(printed_with(located) ==
+        "warning: <mesh> mesh: coarse\nwarning: <damping> weak\nwarning: <> plain\nwarning: beware\n");
+}
+
 TEST_CASE("An exception leaves the bar's line, so that its message starts on a new one") {
   const std::string text = printed(true, [] {
     try {

@@ -19,7 +19,7 @@ using Catch::Contains;
 namespace {
 
 CutPlane plane(const std::string& name, const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
-  return {name, point, normal.normalized(), "rod.yaml:9: pieces." + name};
+  return {name, point, normal.normalized(), "pieces." + name};
 }
 
 CutPlane across(const std::string& name, double x) { return plane(name, {x, 0, 0}, {1, 0, 0}); }
@@ -107,7 +107,7 @@ TEST_CASE("planes that cannot cut the body say why") {
     return message_of<InputError>([&] { cut_mesh(mesh, planes, "x0"); });
   };
   CHECK_THAT(message({across("cut_1", 0.5), across("far", 1.5)}),
-             Contains("rod.yaml:9: pieces.far: 'far' does not cut the body, which lies between -1.5 m and -0.5 m"));
+             Contains("pieces.far: 'far' does not cut the body, which lies between -1.5 m and -0.5 m"));
   // The end face is no cut.
   CHECK_THAT(message({across("end", 1)}), Contains("does not cut the body"));
   // Two planes in one layer of cells leave no piece between them.

@@ -19,7 +19,7 @@ inline reduce::InterfaceRequest interface(const std::string& name, const std::st
   request.name = name;
   request.group = group;
   request.tie = tie;
-  request.located = "body.yaml:7: interfaces." + name;
+  request.subject = "interfaces." + name;
   return request;
 }
 
@@ -39,7 +39,7 @@ inline reduce::PointRequest point_on(const std::string& name, const std::string&
   reduce::PointRequest request;
   request.name = name;
   request.group = group;
-  request.located = "body.yaml:9: points." + name;
+  request.subject = "points." + name;
   return request;
 }
 

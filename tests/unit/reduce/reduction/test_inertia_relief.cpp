@@ -169,9 +169,9 @@ TEST_CASE("Each piece of a body gets its own inertia relief") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 3);
   options.inertia_relief = true;
   Progress quiet(true);
-  const CutBody body = reduce_pieces(test::box_mesh({{0.8, 0.1, 0.1}, {8, 1, 1}}),
-                                     {{"cut_1", {0.3, 0, 0}, {1, 0, 0}, "body.yaml:12: pieces.planes"}}, options,
-                                     {Tie::rigid, false}, quiet, 2);
+  const CutBody body =
+      reduce_pieces(test::box_mesh({{0.8, 0.1, 0.1}, {8, 1, 1}}), {{"cut_1", {0.3, 0, 0}, {1, 0, 0}, "pieces.planes"}},
+                    options, {Tie::rigid, false}, quiet, 2);
   REQUIRE(body.pieces.size() == 2);
   for (const Superelement& piece : body.pieces) {
     CHECK(piece.residual_vectors > 0);

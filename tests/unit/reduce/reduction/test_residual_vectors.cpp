@@ -145,8 +145,8 @@ TEST_CASE("Residual vectors are orthogonal in stiffness and mass among themselve
 TEST_CASE("With residual vectors the static answer to a load pattern is that of the mesh, along any axis") {
   const FullMesh full;
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 3);
-  LoadRequest traction{"wind", "z1", {}, Eigen::Vector3d(1e5, -2e5, 3e5), {}, "body.yaml:12: loads.wind", true};
-  LoadRequest pressure{"gas", "y0", 1e5, {}, {}, "body.yaml:13: loads.gas", true};
+  LoadRequest traction{"wind", "z1", {}, Eigen::Vector3d(1e5, -2e5, 3e5), {}, "loads.wind", true};
+  LoadRequest pressure{"gas", "y0", 1e5, {}, {}, "loads.gas", true};
   options.loads = {traction, pressure};
   const Superelement body = test::reduced(full.mesh, options);
   // The nine combinations of a traction are three loads; the normals of the twisted side have all directions.
@@ -179,7 +179,7 @@ TEST_CASE("Loads that depend on each other share their residual vectors") {
 
 TEST_CASE("A pressure on a plane has one component, which may act along three axes") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 2);
-  options.loads = {{"gas", "z1", 1e5, {}, {}, "body.yaml:13: loads.gas", true}};
+  options.loads = {{"gas", "z1", 1e5, {}, {}, "loads.gas", true}};
   CHECK(test::reduced(test::box_mesh({{0.3, 0.1, 0.1}, {3, 1, 1}}), options).residual_vectors == 3);
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("Where interfaces or modes leave nothing, residual vectors are refused
     options.points.front().residual.fill(true);
     return message_of<InputError>([&] { test::reduced(mesh, options); });
   };
-  const std::string says = "body.yaml:9: points.pin: its loads leave nothing for residual vectors";
+  const std::string says = "points.pin: its loads leave nothing for residual vectors";
   CHECK_THAT(refusal(Tie::rigid, 2, "x0"), Contains(says));
   CHECK_THAT(refusal(Tie::average, 2, "x1"), Contains(says));
   const int every = 3 * 9 * 5;  // five layers of nine nodes, mid-side ones included, are not tied

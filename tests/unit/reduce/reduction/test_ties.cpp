@@ -76,16 +76,16 @@ TEST_CASE("A free interface makes a node of every node") {
   CHECK(ties.interfaces[3].kept == std::array<bool, 6>{true, true, true, false, false, false});
 }
 
-TEST_CASE("Interfaces that cannot be are refused with the place in the input file") {
+TEST_CASE("Interfaces that cannot be are refused with their key") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}});
   const Solid solid = test::steel_solid(mesh);
   const auto a = test::interface("a", "x0", Tie::rigid);
   CHECK_THROWS_WITH(make_ties(solid, {}), Contains("interfaces: there is none"));
-  CHECK_THROWS_WITH(make_ties(solid, {a, test::interface("b", "y0", Tie::average)}),
-                    Contains("body.yaml:7: interfaces.b: surface 'y0' shares 5 points with interface 'a'") &&
-                        Contains("leave a row of elements"));
+  CHECK_THROWS_WITH(
+      make_ties(solid, {a, test::interface("b", "y0", Tie::average)}),
+      Contains("interfaces.b: surface 'y0' shares 5 points with interface 'a'") && Contains("leave a row of elements"));
   CHECK_THROWS_WITH(make_ties(solid, {test::interface("b", "y3", Tie::rigid)}),
-                    Contains("body.yaml:7: interfaces.b: the mesh has no surface group 'y3'"));
+                    Contains("interfaces.b: the mesh has no surface group 'y3'"));
   auto none = a;
   none.kept.fill(false);
   CHECK_THROWS_WITH(make_ties(solid, {none}), Contains("no direction of the interface is kept"));

@@ -1,9 +1,11 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <new>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -27,6 +29,17 @@ std::string ended_by(void (*end)(), const ChildLimits& limits = {}) {
       return std::string("not lost");
     });
   });
+}
+
+/// Returns the subject and the message of the failure of `work` in a child process.
+template <class Error>
+std::pair<std::string, std::string> failure(const ChildLoss& lost, const std::function<std::string()>& work) {
+  try {
+    in_child_process(lost, {}, work);
+  } catch (const Error& error) {
+    return {error.subject(), error.what()};
+  }
+  return {};
 }
 
 struct Part {
@@ -54,6 +67,20 @@ TEST_CASE("child process: what the work returns and throws arrives", "[common]")
           in_child_process("lost", {}, []() -> std::string { throw ComputationError("failed"); });
         }) == "failed");
   CHECK_THROWS_AS(in_child_process("lost", {}, []() -> std::string { throw std::bad_alloc(); }), std::bad_alloc);
+}
+
+TEST_CASE("child process: failures keep their subjects", "[common]") {
+  using Told = std::pair<std::string, std::string>;
+  ChildLoss loss("lost");
+  loss.subject = "geometry";
+  CHECK(failure<InputError>(loss, []() -> std::string { throw InputError("mesh", "wrong"); }) ==
+        Told("mesh", "mesh: wrong"));
+  CHECK(failure<InputError>(loss, []() -> std::string { throw InputError("mesh", "wrong", Subject::hidden); }) ==
+        Told("mesh", "wrong"));
+  CHECK(failure<InputError>(loss, []() -> std::string { throw InputError("wrong"); }) == Told("", "wrong"));
+  CHECK(failure<ComputationError>(loss, []() -> std::string { throw ComputationError("mesh", "failed"); }) ==
+        Told("mesh", "mesh: failed"));
+  CHECK(failure<InputError>(loss, []() -> std::string { std::abort(); }) == Told("geometry", "geometry: lost"));
 }
 
 TEST_CASE("child process: a crash is a sentence, however it comes", "[common]") {
