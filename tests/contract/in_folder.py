@@ -4,6 +4,11 @@ import os
 import tempfile
 import unittest
 
+# bielle-reduce restarts itself with settings of its libraries unless they are set: with them, each run starts in half the
+# time.
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")
+
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 
 

@@ -23,7 +23,7 @@ namespace bielle {
 namespace {
 
 /// Outcome of the work.
-enum Outcome : char { value = 'v', input = 'i', computation = 'c', memory = 'm', unforeseen = 'u' };
+enum Outcome : std::uint64_t { value = 'v', input = 'i', computation = 'c', memory = 'm', unforeseen = 'u' };
 
 void write_all(int target, const char* data, std::size_t size) {
   while (size > 0) {
@@ -48,8 +48,7 @@ std::string read_all(int source) {
 
 /// Begins an answer; the subject of a failure and the text follow.
 struct Head {
-  Outcome outcome;
-  std::uint64_t subject_size, text_size;
+  std::uint64_t outcome, subject_size, text_size;
 };
 
 void send(int pipe, Outcome outcome, const std::string& text, const std::string& subject = "") {

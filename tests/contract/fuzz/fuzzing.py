@@ -6,6 +6,7 @@ BIELLE_FUZZ_PATIENCE the time that a program may take (default 1; sanitizers nee
 its file is kept under BIELLE_FUZZ_KEEP if that is set.
 """
 
+import math
 import os
 import random
 import shutil
@@ -20,7 +21,7 @@ sys.path.insert(0, os.path.join(HERE, "..", "tools"))
 from command import PROGRAMS, InFolder  # noqa: E402
 
 SEED = int(os.environ.get("BIELLE_FUZZ_SEED", "0"))
-TIMES = int(os.environ.get("BIELLE_FUZZ_CASES", "1"))
+TIMES = float(os.environ.get("BIELLE_FUZZ_CASES", "1"))
 PATIENCE = float(os.environ.get("BIELLE_FUZZ_PATIENCE", "1"))
 KEEP = os.environ.get("BIELLE_FUZZ_KEEP")
 NEVER = ("unforeseen", "Traceback", "AddressSanitizer", "runtime error:", "terminate called", "Assertion")
@@ -55,7 +56,7 @@ class FuzzTest(InFolder):
     def cases(self, number):
         """Numbers of cases with a source of random numbers for each: a case does not depend on the ones that ran
         before."""
-        for case in range(number * TIMES):
+        for case in range(math.ceil(number * TIMES)):
             yield case, random.Random(f"{SEED} {self.id().rsplit('.', 1)[1]} {case}")
 
     def judge(self, note, keep, program, *arguments):
