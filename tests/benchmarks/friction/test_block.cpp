@@ -75,6 +75,19 @@ TEST_CASE("above the angle of friction a block slides by the closed form") {
   });
 }
 
+TEST_CASE("viscous friction on a slope lets a block come to its speed exponentially") {
+  // v' = a - v/tau with a = g (sin - mu cos) and 1/tau = sigma_2 g cos. The scheme's error is of the order of
+  // (h/tau)^2.
+  const double mu = 0.15, viscous = 0.1, h = 5e-3, end = 2;
+  const double a = g * (std::sin(angle) - mu * std::cos(angle)), tau = 1 / (viscous * g * std::cos(angle));
+  const double v = a * tau * (1 - std::exp(-end / tau)), x = tau * (a * end - v);
+  move_to(block("model: stick_slip, coefficient: 0.15, viscous: 0.1"), h, end, [&](const Session& session) {
+    CHECK_THAT(read(session, "rate"), WithinRel(v, h * h / (tau * tau)));
+    CHECK_THAT(read(session, "coordinate"), WithinRel(x, h * h / (tau * tau)));
+    CHECK_THAT(read(session, "friction"), WithinRel(-N * (mu + viscous * read(session, "rate")), 1e-9));
+  });
+}
+
 TEST_CASE("a block that is thrown uphill comes to rest and stays, or slides back") {
   // Up: a = -g (sin + mu cos); at rest after v/|a|.
   const double v = 1.5;

@@ -156,6 +156,10 @@ TEST_CASE("the loss of a pipe: laminar, rough and turbulent") {
     return pipe_loss({1, d, roughness * d}, 1000, 1000 * nu, w * S).R / (1 / d * 500 * w * w);
   };
   CHECK(factor(500, 0) == Approx(64. / 500).epsilon(1e-6));
+  // Hagen and Poiseuille, down to no flow, where Churchill's formula is not evaluated: R = 128 mu L/(pi d^4) q.
+  for (const double Re : {1e-3, 0.5, 0.999, 1.001, 20.}) CHECK(factor(Re, 0.001) == Approx(64 / Re).epsilon(1e-6));
+  const double resistance = 128 * 1000 * nu / (M_PI * std::pow(d, 4));
+  CHECK(pipe_loss({1, d, 1e-5}, 1000, 1000 * nu, 0).R_q == Approx(resistance).epsilon(1e-12));
   // Colebrook's equation by iteration; Churchill's fit is within half a per cent (his paper), 1 % with its own error.
   const auto colebrook = [](double Re, double k) {
     double x = 8;

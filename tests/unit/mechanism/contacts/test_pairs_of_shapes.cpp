@@ -39,6 +39,9 @@ Vector3 projected(const ContactShape& shape, const Vector3& p) {
   return q;
 }
 
+/// The distance of a point, in the axes of the shape, from its core.
+double from_core(const ContactShape& shape, const Vector3& p) { return (p - projected(shape, p)).norm(); }
+
 /// The distance of two cores, by projections from one to the other in turn, with steps that run ahead.
 double searched_distance(const ContactShape& a, const ContactShape& b, const Vector3& x, const Matrix3& A) {
   Vector3 p = Vector3::Zero(), before = p;
@@ -77,7 +80,7 @@ std::vector<Pair> pairs() {
 
 }  // namespace
 
-TEST_CASE("gaps of any two shapes are the distances of their surfaces") {
+TEST_CASE("gaps of any two shapes are the distances of their surfaces, with the place halfway between them") {
   for (const auto& [name, a, b] : pairs()) {
     CAPTURE(name);
     Random random(3);
@@ -94,9 +97,14 @@ TEST_CASE("gaps of any two shapes are the distances of their surfaces") {
       const double expected = apart - a->skin() - b->skin();
       for (const bool first : {true, false}) {
         const PlacedShape<double> one = placed_at(*a, Vector3::Zero()), other = placed_at(*b, x, A);
-        const double gap = -(first ? find_nearest_place(one, other) : find_nearest_place(other, one)).depth;
+        const Touch<double> found = first ? find_nearest_place(one, other) : find_nearest_place(other, one);
+        const double gap = -found.depth;
         CHECK(gap > expected - 1e-5);
         CHECK(gap < expected + domes + 1e-9);
+        // The surfaces lie half the gap to either side of the place along the normal, and a skin away from their cores.
+        const Vector3 half = (first ? 0.5 : -0.5) * gap * value_of(found.normal), place = value_of(found.place);
+        CHECK_THAT(from_core(*a, place - half), Catch::WithinAbs(a->skin(), domes + 1e-5));
+        CHECK_THAT(from_core(*b, A.transpose() * (place + half - x)), Catch::WithinAbs(b->skin(), domes + 1e-5));
       }
     }
     CHECK(compared > 50);

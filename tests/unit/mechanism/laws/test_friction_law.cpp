@@ -3,10 +3,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "mechanism/laws/bristle_step.hpp"
 #include "mechanism/laws/friction_law.hpp"
 #include "tests/support/finite_difference.hpp"
 
+using bielle::mechanism::BristleStep;
 using bielle::mechanism::FrictionLaw;
+using bielle::mechanism::Vector3;
 using Catch::WithinAbs;
 using Catch::WithinRel;
 
@@ -89,4 +92,23 @@ TEST_CASE("bristles take power at any deflection and speed") {
         CAPTURE(v, z);
         CHECK(lost >= 0);
       }
+}
+
+TEST_CASE("a step of bristles is one of the implicit Euler method of their equation") {
+  // zdot = v - sigma_0 |v| z/mu(|v|), f = sigma_0 z + sigma_1 zdot + sigma_2 v (C. Canudas de Wit et al., IEEE Trans.
+  // Automatic Control 40 (1995) 419), with zdot = (z - z_0)/h, and sigma_1/sqrt(1 + (sigma_1 |v|/(4 mu_k))^2).
+  for (const double h : {1e-3, 0.1, 2.0})
+    for (const Vector3& v : {Vector3(0, 0, 0), Vector3(0.02, -0.01, 0.03), Vector3(-0.7, 0.4, 1.1)}) {
+      const Vector3 before(0.004, 0.009, -0.002);
+      const double s = v.norm(), mu = 0.3 + 0.2 * std::exp(-std::pow(s / 0.2, 2));
+      const double damping = 12 / std::hypot(1, 12 * s / (4 * 0.3));
+      const BristleStep step(law(), before, v, h);
+      const Vector3 zdot = (step.z - before) / h, force = 40 * step.z + damping * zdot + 0.1 * v;
+      CAPTURE(h, s);
+      CHECK((zdot - (v - 40 * s / mu * step.z)).norm() < 1e-12 * (1 + 1 / h));
+      CHECK((step.force - force).norm() < 1e-12 * (1 + 12 / h));
+      CHECK_THAT(step.stored, WithinAbs(40 * step.z.dot(zdot), 1e-12 * (1 + 1 / h)));
+      CHECK_THAT(step.lost, WithinAbs(force.dot(v) - 40 * step.z.dot(zdot), 1e-12 * (1 + 12 / h)));
+      CHECK(step.lost >= 0);
+    }
 }

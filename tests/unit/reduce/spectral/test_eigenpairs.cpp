@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -169,6 +171,40 @@ TEST_CASE("Constraints worked into the solution remove their directions from the
       CHECK(std::abs(pairs.vectors(400, k)) < 1e-12);
     }
   }
+}
+
+TEST_CASE("Vectors of one eigenvalue that an iteration leaves a little skew are made orthonormal") {
+  // On a square grid, sin(i pi x) sin(j pi y) and sin(j pi x) sin(i pi y) have the same eigenvalue, and so has each of
+  // their combinations: an iteration may return two that are not orthogonal, which no further solution changes.
+  constexpr int points = 20;
+  const GridProblem square({points, points, 1}, 2.5);
+  constexpr double skew = 1e-4;
+  const auto vector = [&](int i, int j) {
+    Eigen::VectorXd phi(points * points);
+    for (int y = 0; y < points; ++y) {
+      for (int x = 0; x < points; ++x) {
+        phi(x + points * y) = std::sin(i * std::numbers::pi * (x + 1) / (points + 1)) *
+                              std::sin(j * std::numbers::pi * (y + 1) / (points + 1));
+      }
+    }
+    return phi;
+  };
+  EigenpairOptions options;
+  options.iteration = [&](const ShiftInvertProblem&, int count, const EigenpairOptions&) {
+    Eigenpairs pairs;
+    pairs.values = Eigen::VectorXd::Ones(count);
+    pairs.vectors.resize(points * points, count);
+    pairs.vectors << vector(1, 1), vector(1, 2), vector(2, 1) + skew * vector(1, 2);
+    return pairs;
+  };
+  const Eigenpairs pairs = shift_invert_eigenpairs(square.problem(), 3, options);
+  const std::vector<double> exact = square.exact();
+  for (int k = 0; k < 3; ++k) {
+    CHECK(pairs.values(k) == Approx(exact[k]).epsilon(1e-12));
+  }
+  // V (I - E/2) with the small off-diagonal part E of the Gram matrix leaves a part of the order of E^2.
+  const Eigen::MatrixXd gram = 2.5 * pairs.vectors.transpose() * pairs.vectors;
+  CHECK((gram - Eigen::MatrixXd::Identity(3, 3)).cwiseAbs().maxCoeff() < 2 * skew * skew);
 }
 
 TEST_CASE("An iteration that is cut off says how far it came") {
