@@ -6,8 +6,8 @@ import unittest
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 FOLDERS = ("laws", "contacts", "measures", "elements", "joints", "hydraulics", "analyses", "session", "io", "python")
-# Functions that write the equations of motion or parts of them.
-EQUATIONS = {"add_residual", "add_tangent", "add_kept", "add_kept_tangent", "evaluate_motion"}
+# Functions that write the equations of motion or parts of them, or compare the unknowns that these read.
+EQUATIONS = {"add_residual", "add_tangent", "add_kept", "add_kept_tangent", "evaluate_motion", "collect_unknowns"}
 FUNCTION = re.compile(r"(\w+)\([^()]*\bLocalState& ")
 MULTIPLIERS = re.compile(r"[.>]multiplier\(\)")
 

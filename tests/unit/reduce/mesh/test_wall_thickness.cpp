@@ -14,8 +14,8 @@ TEST_CASE("A plate one element thick is so below most of its surface, one of two
 }
 
 TEST_CASE("A single flat cell is one element thick everywhere, whatever the areas of its sides") {
-  // The three sides have unlike areas, and are inclined to the base by less than 30 degrees. The base is opposite to each
-  // of them, and they are opposite to the base.
+  // The three sides have unlike areas, and are inclined to the base by less than 30 degrees. The base is opposite to
+  // each of them, and they are opposite to the base.
   Mesh mesh;
   mesh.points.resize(3, 4);
   mesh.points << 0, 1, 0, 0.4,  //
