@@ -77,6 +77,7 @@ def write_models(folder, programs, shorter=1):
               "100 spherical": (lambda steps: chain(100, "spherical", steps), 2000),
               "100 spherical, stacked": (lambda steps: chain(100, "spherical", steps, "stacked"), 2000),
               "100 hinges": (lambda steps: chain(100, "hinge", steps), 2000),
+              "100 hinges, stacked": (lambda steps: chain(100, "hinge", steps, "stacked"), 2000),
               "500 spherical": (lambda steps: chain(500, "spherical", steps), 2000)}
     models = {}
     for name, (make, steps) in makers.items():
