@@ -26,7 +26,6 @@ class Recorder {
 
   /// @param goes_on  a sink in which the analysis is already open
   void begin_analysis(const std::string& type, std::size_t expected_rows, const ResultSink* goes_on);
-  bool open() const { return open_; }  ///< an analysis is open
   /// Returns the sinks of the open analysis; none if no analysis is open.
   std::vector<ResultSink*> open_sinks() const { return open_ ? sinks_ : std::vector<ResultSink*>(); }
   void record(const State& state, const Environment& environment, const StepRecord& step);  ///< sends a row

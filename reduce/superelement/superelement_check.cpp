@@ -20,14 +20,17 @@ struct Fault {
   std::string message;
 };
 
-void require(bool condition, const std::string& dataset, const std::string& message) {
-  if (!condition) throw Fault{dataset + ": " + message};
+/// The message is formatted only when it is needed: some conditions are checked for each entry of a matrix.
+template <class... Values>
+void require(bool condition, const std::string& dataset, fmt::format_string<const Values&...> message,
+             const Values&... values) {
+  if (!condition) throw Fault{dataset + ": " + fmt::format(message, values...)};
 }
 
 template <class Matrix>
 void check_matrix(const Matrix& matrix, Index rows, Index columns, const std::string& dataset) {
-  require(matrix.rows() == rows && matrix.cols() == columns, dataset,
-          fmt::format("expected {} x {} numbers, found {} x {}", rows, columns, matrix.rows(), matrix.cols()));
+  require(matrix.rows() == rows && matrix.cols() == columns, dataset, "expected {} x {} numbers, found {} x {}", rows,
+          columns, matrix.rows(), matrix.cols());
   require(matrix.allFinite(), dataset, "holds numbers that are not finite");
 }
 
@@ -36,21 +39,21 @@ void check_matrix(const Matrix& matrix, Index rows, Index columns, const std::st
 void check_symmetric(const Eigen::MatrixXd& matrix, const std::string& dataset) {
   for (Index i = 0; i < matrix.rows(); ++i)
     for (Index j = 0; j < i; ++j)
-      if (!(std::abs(matrix(i, j) - matrix(j, i)) <= 1e-8 * std::sqrt(std::abs(matrix(i, i) * matrix(j, j)))))
-        throw Fault{fmt::format("{0}: is not symmetric: entries ({1}, {2}) and ({2}, {1}) are {3} and {4}", dataset,
-                                i + 1, j + 1, matrix(i, j), matrix(j, i))};
+      require(std::abs(matrix(i, j) - matrix(j, i)) <= 1e-8 * std::sqrt(std::abs(matrix(i, i) * matrix(j, j))), dataset,
+              "is not symmetric: entries ({0}, {1}) and ({1}, {0}) are {2} and {3}", i + 1, j + 1, matrix(i, j),
+              matrix(j, i));
 }
 
 void check_interfaces(const Superelement& body) {
   std::set<std::string> names;
   for (const Interface& interface : body.interfaces) {
     require(!interface.name.empty(), "/interface/names", "an interface has no name");
-    require(names.insert(interface.name).second, "/interface/names",
-            fmt::format("the name '{}' stands there twice", interface.name));
+    require(names.insert(interface.name).second, "/interface/names", "the name '{}' stands there twice",
+            interface.name);
     require(interface.position.allFinite(), "/interface/positions", "holds numbers that are not finite");
     const Eigen::Matrix3d& R = interface.rotation;
     require((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < 1e-9 && R.determinant() > 0,
-            "/interface/rotations", fmt::format("that of '{}' is no rotation matrix", interface.name));
+            "/interface/rotations", "that of '{}' is no rotation matrix", interface.name);
   }
 }
 
@@ -59,9 +62,8 @@ void check_reduced(const Superelement& body) {
   Index directions = 0;
   for (const Interface& interface : body.interfaces)
     for (const bool kept : interface.kept) directions += kept ? 1 : 0;
-  require(directions + m == n, "/reduced/stiffness",
-          fmt::format("expected {} for {} and {}, found {}", counted(directions + m, "row"),
-                      counted(directions, "interface direction"), counted(m, "mode"), n));
+  require(directions + m == n, "/reduced/stiffness", "expected {} for {} and {}, found {}",
+          counted(directions + m, "row"), counted(directions, "interface direction"), counted(m, "mode"), n);
   check_matrix(body.stiffness, n, n, "/reduced/stiffness");
   check_matrix(body.mass, n, n, "/reduced/mass");
   check_matrix(body.damping, n, n, "/reduced/damping");
@@ -76,22 +78,21 @@ void check_reduced(const Superelement& body) {
     check_symmetric(body.spin_stiffness[k], "/reduced/geometric_stiffness/spin");
   }
   require(body.load_stiffness.empty() || static_cast<Index>(body.load_stiffness.size()) == directions,
-          "/reduced/geometric_stiffness/load",
-          fmt::format("expected {}, found {}", counted(directions, "matrix", "matrices"), body.load_stiffness.size()));
+          "/reduced/geometric_stiffness/load", "expected {}, found {}", counted(directions, "matrix", "matrices"),
+          body.load_stiffness.size());
   for (const Eigen::MatrixXd& stiffness : body.load_stiffness) {
     check_matrix(stiffness, n, n, "/reduced/geometric_stiffness/load");
     check_symmetric(stiffness, "/reduced/geometric_stiffness/load");
   }
   require(body.surface_rotations.empty() || body.surface_rotations.size() == body.interfaces.size(),
-          "/interface/surface_rotations",
-          fmt::format("expected {}, found {}", counted(body.interfaces.size(), "matrix", "matrices"),
-                      body.surface_rotations.size()));
+          "/interface/surface_rotations", "expected {}, found {}",
+          counted(body.interfaces.size(), "matrix", "matrices"), body.surface_rotations.size());
   for (const Eigen::MatrixXd& rotation : body.surface_rotations)
     check_matrix(rotation, 3, n, "/interface/surface_rotations");
   check_matrix(body.frequencies, m, 1, "/modes/frequencies");
   require(m == 0 || body.frequencies.minCoeff() >= 0, "/modes/frequencies", "holds negative numbers");
-  require(body.residual_vectors >= 0 && body.residual_vectors <= m, "/modes",
-          fmt::format("of {}, {} cannot be residual vectors", counted(m, "mode"), body.residual_vectors));
+  require(body.residual_vectors >= 0 && body.residual_vectors <= m, "/modes", "of {}, {} cannot be residual vectors",
+          counted(m, "mode"), body.residual_vectors);
   check_matrix(body.effective_mass, m, 6, "/modes/effective_mass");
   if (body.mode_turns.size() > 0) check_matrix(body.mode_turns, body.mode_turns.rows() / 3 * 3, m, "/modes/turns");
   if (body.strains.size() > 0) check_matrix(body.strains, body.strains.rows() / 6 * 6, n, "/reduced/strain");
@@ -109,7 +110,7 @@ void check_reduced(const Superelement& body) {
 
 void check_mass_properties(const Superelement& body) {
   require(std::isfinite(body.total_mass) && body.total_mass > 0, "/mass_properties/mass",
-          fmt::format("expected a positive number, found {}", body.total_mass));
+          "expected a positive number, found {}", body.total_mass);
   require(body.centre.allFinite(), "/mass_properties/centre", "holds numbers that are not finite");
   check_matrix(body.inertia, 3, 3, "/mass_properties/inertia");
   check_symmetric(body.inertia, "/mass_properties/inertia");
@@ -142,12 +143,11 @@ void check_stress_origin(const Superelement& body) {
     const Eigen::MatrixXd elasticity = material.elasticity;
     check_matrix(elasticity, 6, 6, "/recovery/elasticity");
     check_symmetric(elasticity, "/recovery/elasticity");
-    require(elasticity.determinant() > 0, "/recovery/elasticity",
-            fmt::format("that of '{}' does not resist every strain", material.name));
+    require(elasticity.determinant() > 0, "/recovery/elasticity", "that of '{}' does not resist every strain",
+            material.name);
   }
   require(static_cast<int>(origin.material_of.size()) == stressed, "/recovery/stress_materials",
-          fmt::format("expected one for each of {}, found {}", counted(stressed, "stress node"),
-                      origin.material_of.size()));
+          "expected one for each of {}, found {}", counted(stressed, "stress node"), origin.material_of.size());
   for (const int material : origin.material_of)
     require(material >= 0 && material < materials, "/recovery/stress_materials",
             "names materials that are not in /recovery/materials");

@@ -1,4 +1,4 @@
-"""The data and programs for compare_reduction: the rod, other programs run alone, matrices in files."""
+"""Programs run alone, for compare_reduction and race; the rod of compare_reduction, and its matrices in files."""
 
 import glob
 import os
@@ -25,7 +25,7 @@ recovery: {{displacement: all, stress: surface}}
 
 
 class Run:
-    """One run of a program: its output, elapsed seconds, and the largest memory of its processes together [GB]."""
+    """One run of a program: its output, elapsed and processor seconds, and the largest memory of its processes together [GB]."""
 
     def __init__(self, command, folder, processes=1, **environment):
         variables = {k: v for k, v in os.environ.items() if not k.startswith("OPENBLAS_")}
@@ -35,6 +35,7 @@ class Run:
             process = subprocess.Popen(command, cwd=folder, env=variables | environment, stdout=file, stderr=file)
             _, status, usage = os.wait4(process.pid, 0)
             self.seconds = time.monotonic() - start
+        self.processor_seconds = usage.ru_utime + usage.ru_stime
         process.returncode = os.waitstatus_to_exitcode(status)
         with open(log, encoding="utf-8") as file:
             self.text = file.read()
