@@ -51,7 +51,27 @@ bielle_find_package(yaml-cpp "yaml-cpp" libyaml-cpp-dev)
 bielle_find_package(CLI11 "CLI11" libcli11-dev)
 bielle_find_package(muparser "muParser" libmuparser-dev)
 # If an MPI build of HDF5 is installed as well, plain `hdf5` may be the parallel one: name the serial one.
-bielle_find_pkgconfig(hdf5 hdf5-serial "HDF5, serial" libhdf5-dev)
+bielle_find_pkgconfig(hdf5_shared hdf5-serial "HDF5, serial" libhdf5-dev)
+# Debian's shared HDF5 loads curl and, with it, thirty libraries: half of the start of a program. Programs link the
+# static one if it is installed. The Python module cannot, because it is not position-independent.
+if(hdf5_shared_FOUND)
+  find_library(hdf5_STATIC libhdf5.a PATHS ${hdf5_shared_LIBRARY_DIRS} NO_DEFAULT_PATH)
+  find_library(hdf5_SZIP sz)
+  find_package(ZLIB QUIET)
+  mark_as_advanced(hdf5_STATIC hdf5_SZIP)
+  add_library(bielle_hdf5 INTERFACE IMPORTED GLOBAL)
+  add_library(Bielle::hdf5 ALIAS bielle_hdf5)
+  if(hdf5_STATIC AND hdf5_SZIP AND ZLIB_FOUND)
+    target_include_directories(bielle_hdf5 INTERFACE ${hdf5_shared_INCLUDE_DIRS})
+    set(executable "$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>")
+    target_link_libraries(bielle_hdf5 INTERFACE "$<${executable}:${hdf5_STATIC};${hdf5_SZIP};ZLIB::ZLIB;${CMAKE_DL_LIBS};m>"
+                                                "$<$<NOT:${executable}>:Bielle::hdf5_shared>")
+    # Libraries that link a shared HDF5 of their own (PETSc, some builds of gmsh) go on calling that one.
+    target_link_options(bielle_hdf5 INTERFACE "$<${executable}:LINKER:--exclude-libs,libhdf5.a>")
+  else()
+    target_link_libraries(bielle_hdf5 INTERFACE Bielle::hdf5_shared)
+  endif()
+endif()
 bielle_find_pkgconfig(arpack arpack "ARPACK-NG" libarpack2-dev)
 bielle_find_pkgconfig(openblas openblas "OpenBLAS" libopenblas-dev)
 bielle_find_plain(cholmod cholmod.h suitesparse cholmod "CHOLMOD" libsuitesparse-dev)

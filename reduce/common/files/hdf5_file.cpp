@@ -23,6 +23,8 @@ Hdf5File Hdf5File::create(const std::string& path) {
   handle->path = path;
   handle->writing = true;
   const Hdf5Id creation = ordered_group_properties(H5P_FILE_CREATE), access = access_properties();
+  // Datasets have few chunks. By default a node of their index has room for 64 of them and takes 20 kB of memory.
+  H5Pset_istore_k(creation, 2);
   handle->file = Hdf5Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   if (!handle->file.valid())
     handle->fail(
@@ -102,7 +104,8 @@ void Hdf5File::close() {
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, const std::string& value) {
   const Hdf5Id opened = handle_->open_object(object);
-  handle_->write_text_attribute(opened, object, name, value);
+  if (H5Aexists(opened, name.c_str()) > 0) H5Adelete(opened, name.c_str());
+  handle_->add_text_attribute(opened, object, name, value);
 }
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, std::int64_t value) {
@@ -157,25 +160,33 @@ std::int64_t Hdf5File::read_integer_attribute(const std::string& object, const s
 
 // -- datasets that grow
 
+const RowsTemplate& Hdf5File::Handle::rows_template(const Shape& row_shape, std::size_t rows_per_chunk) {
+  std::vector<hsize_t> size{rows_per_chunk};
+  size.insert(size.end(), row_shape.begin(), row_shape.end());
+  RowsTemplate& made = templates[size];
+  if (made.creation.valid()) return made;
+  std::vector<hsize_t> chunk = size, most = size;
+  for (hsize_t& extent : chunk) extent = std::max<hsize_t>(extent, 1);
+  size[0] = 0;
+  most[0] = H5S_UNLIMITED;
+  const int rank = static_cast<int>(size.size());
+  made.space = Hdf5Id(H5Screate_simple(rank, size.data(), most.data()), H5Sclose);
+  made.creation = dataset_properties();
+  H5Pset_chunk(made.creation, rank, chunk.data());
+  H5Pset_fill_time(made.creation, H5D_FILL_TIME_NEVER);
+  // Without a chunk cache rows are written to the file at once, and a flush only has to write the index.
+  made.access = Hdf5Id(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(made.access, 0, 0, 1);
+  return made;
+}
+
 void Hdf5File::create_rows(const std::string& dataset, const Shape& row_shape, const std::string& units,
                            const std::string& description, std::size_t rows_per_chunk) {
-  std::vector<hsize_t> size{0};
-  std::vector<hsize_t> most{H5S_UNLIMITED}, chunk{rows_per_chunk};
-  for (const std::size_t extent : row_shape) {
-    size.push_back(extent);
-    most.push_back(extent);
-    chunk.push_back(std::max<std::size_t>(extent, 1));
-  }
-  const Hdf5Id space(H5Screate_simple(static_cast<int>(size.size()), size.data(), most.data()), H5Sclose);
-  const Hdf5Id creation = dataset_properties(), access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-  H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
-  // Without a chunk cache rows are written to the file at once, and a flush only has to write the index.
-  H5Pset_chunk_cache(access, 0, 0, 1);
-  H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+  const RowsTemplate& rows = handle_->rows_template(row_shape, rows_per_chunk);
   handle_->make_groups_above(dataset);
-  Hdf5Id made(
-      H5Dcreate2(handle_->file, handle_->at(dataset).c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, access),
-      H5Dclose);
+  Hdf5Id made(H5Dcreate2(handle_->file, handle_->at(dataset).c_str(), H5T_IEEE_F64LE, rows.space, H5P_DEFAULT,
+                         rows.creation, rows.access),
+              H5Dclose);
   if (!made.valid()) handle_->fail(dataset, "cannot be made; is there one of that name already?");
   handle_->describe(made, dataset, units, description);
   handle_->growing.insert_or_assign(handle_->at(dataset), handle_->growing_from(std::move(made), dataset));

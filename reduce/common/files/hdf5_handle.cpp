@@ -106,21 +106,19 @@ void Hdf5File::Handle::make_groups_above(const std::string& object) const {
   }
 }
 
-void Hdf5File::Handle::write_text_attribute(hid_t object, const std::string& path_of_object, const std::string& name,
-                                            const std::string& value) const {
-  const Hdf5Id type = hdf5_text_type(), space = hdf5_space({});
-  if (H5Aexists(object, name.c_str()) > 0) H5Adelete(object, name.c_str());
-  const Hdf5Id attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+void Hdf5File::Handle::add_text_attribute(hid_t object, const std::string& path_of_object, const std::string& name,
+                                          const std::string& value) const {
+  const Hdf5Id attribute(H5Acreate2(object, name.c_str(), text_type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const char* text = value.c_str();
-  if (!attribute.valid() || H5Awrite(attribute, type, &text) < 0)
+  if (!attribute.valid() || H5Awrite(attribute, text_type, &text) < 0)
     fail(path_of_object, fmt::format("the attribute '{}' cannot be written", name));
 }
 
 void Hdf5File::Handle::describe(hid_t object, const std::string& dataset, const std::string& units,
                                 const std::string& description) const {
   if (units.empty()) throw std::logic_error(fmt::format("the dataset '{}' has no units", dataset));
-  write_text_attribute(object, dataset, "units", units);
-  if (!description.empty()) write_text_attribute(object, dataset, "description", description);
+  add_text_attribute(object, dataset, "units", units);
+  if (!description.empty()) add_text_attribute(object, dataset, "description", description);
 }
 
 void Hdf5File::Handle::write_values(const std::string& dataset, hid_t memory_type, hid_t file_type, const void* values,

@@ -55,7 +55,7 @@ Hdf5Id dataset_properties();
 /// Makes properties of a transfer of `count` texts: its buffer for conversion is as large as they need. HDF5's default
 /// clears a megabyte each time.
 Hdf5Id text_transfer_properties(std::size_t count);
-/// Makes the properties with which files are opened: their format can be read by every HDF5 since 1.0, and stays
+/// Makes the properties with which files are opened: their format can be read by every HDF5 since 1.8, and stays
 /// readable if the writer is killed after a flush.
 Hdf5Id access_properties();
 /// Stops HDF5 from printing its own errors on standard error. It is called in each thread.
@@ -69,6 +69,12 @@ struct GrowingDataset {
   std::size_t row_size = 1;
 };
 
+/// The dataspace and the properties of new datasets that grow. They are made once for all datasets of a shape, because
+/// HDF5 copies whole properties whenever one of them is set.
+struct RowsTemplate {
+  Hdf5Id space, creation, access;
+};
+
 struct Hdf5File::Handle {
   std::string path;
   std::string base;  ///< group at which all paths start: "" or "/pieces/2"
@@ -76,6 +82,8 @@ struct Hdf5File::Handle {
   Hdf5Id file;
   std::map<std::string, GrowingDataset> growing;  // after `file`: closed before it
   mutable std::set<std::string> known_groups;     ///< groups that were found or made, by their paths in the file
+  std::map<std::vector<hsize_t>, RowsTemplate> templates;  ///< by the shape of the rows of a chunk
+  const Hdf5Id text_type = hdf5_text_type(), scalar = hdf5_space({});
 
   [[noreturn]] void fail(const std::string& object, const std::string& what) const {
     const std::string message = fmt::format("{}: {}{}{}", path, at(object), object.empty() ? "" : ": ", what);
@@ -99,8 +107,10 @@ struct Hdf5File::Handle {
   Hdf5Id open_object(const std::string& object) const;
   Hdf5Id open_dataset(const std::string& dataset) const;
   void make_groups_above(const std::string& object) const;
-  void write_text_attribute(hid_t object, const std::string& path, const std::string& name,
-                            const std::string& value) const;
+  const RowsTemplate& rows_template(const Shape& row_shape, std::size_t rows_per_chunk);
+  /// Adds an attribute that the object does not have yet.
+  void add_text_attribute(hid_t object, const std::string& path, const std::string& name,
+                          const std::string& value) const;
   void write_values(const std::string& dataset, hid_t memory_type, hid_t file_type, const void* values,
                     std::size_t count, const Shape& shape, const std::string& units, const std::string& description,
                     hid_t transfer = H5P_DEFAULT) const;
