@@ -9,6 +9,7 @@
 #include "mechanism/io/run_analyses.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/process/library_settings.hpp"
 #include "reduce/common/process/run_program.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/dense/blas.hpp"
@@ -78,4 +79,7 @@ int body(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return bielle::run_program("bielle-mechanism", body, argc, argv); }
+int main(int argc, char** argv) {
+  bielle::keep_freed_memory();
+  return bielle::run_program("bielle-mechanism", body, argc, argv);
+}

@@ -35,7 +35,10 @@ if(BIELLE_NATIVE)
   target_compile_options(bielle_options INTERFACE -march=native)
 endif()
 if(BIELLE_SANITIZE)
-  target_compile_options(bielle_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  # Checks of each pointer before its use (null, aligned, of the right class) triple the time of a build; the address
+  # sanitizer finds most of these faults.
+  target_compile_options(bielle_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined
+    -fno-sanitize=null,alignment,vptr,object-size,pointer-overflow,nonnull-attribute,returns-nonnull-attribute)
   target_link_options(bielle_options INTERFACE -fsanitize=address,undefined)
 endif()
 

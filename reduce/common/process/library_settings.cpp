@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include <malloc.h>
 #include <unistd.h>
 
 namespace bielle {
@@ -19,6 +20,11 @@ void apply_library_settings(char** argv) {
   std::error_code unknown;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
   if (changed && !unknown) execv(program.c_str(), argv);
+}
+
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 64 << 20);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
 }  // namespace bielle

@@ -12,4 +12,8 @@ namespace bielle {
 /// Then it executes the program once more. It returns if nothing is to be set, or if the program cannot be executed.
 void apply_library_settings(char** argv);
 
+/// Lets malloc keep the memory that is freed, for programs that do not call `apply_library_settings`: matrices that are
+/// made anew at each step would otherwise be new pages each time.
+void keep_freed_memory();
+
 }  // namespace bielle
