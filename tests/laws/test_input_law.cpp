@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include <catch2/catch.hpp>
-#include <yaml-cpp/yaml.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/input/yaml_node.hpp"
 #include "tests/laws/subject.hpp"
 #include "tests/support/messages.hpp"
 
@@ -42,53 +42,112 @@ std::string place_of(const Sample& sample) {
   return sample.place.empty() ? bielle::mechanism::section_name(sample.section) : sample.place;
 }
 
+/// A value of a model that may be changed.
+struct Value {
+  std::string scalar;  ///< as it is written in YAML
+  std::vector<std::pair<std::string, Value>> pairs;
+  std::vector<Value> items;
+
+  explicit Value(const bielle::YamlNode& node) {
+    scalar = node.kind == bielle::YamlNode::Kind::scalar ? quoted(node.scalar)
+             : node.kind == bielle::YamlNode::Kind::map  ? "{}"
+             : node.kind == bielle::YamlNode::Kind::null ? "~"
+                                                         : "[]";
+    for (const auto& [key, value] : node.pairs) pairs.emplace_back(key->scalar, Value(*value));
+    for (const auto& item : node.items) items.emplace_back(*item);
+  }
+  explicit Value(const std::string& text) : Value(*bielle::parse_yaml(text, "model.yaml")) {}
+
+  static std::string quoted(const std::string& text) {
+    std::string result = "'";
+    for (const char letter : text) result += letter == '\'' ? "''" : std::string(1, letter);
+    return result + "'";
+  }
+  auto find(const std::string& key) {
+    return std::find_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.first == key; });
+  }
+  Value& at(const std::string& part) {
+    if (!items.empty()) return items.at(std::stoul(part));
+    const auto found = find(part);
+    if (found == pairs.end()) throw std::logic_error("the sample has no '" + part + "'");
+    return found->second;
+  }
+  void set(const std::string& key, const Value& value) {
+    if (is_index(key) && !items.empty()) {
+      const std::size_t k = std::stoul(key);
+      k < items.size() ? void(items[k] = value) : items.push_back(value);
+    } else if (const auto found = find(key); found != pairs.end()) {
+      found->second = value;
+    } else {
+      pairs.emplace_back(key, value);
+    }
+  }
+  void write(std::string& out) const {
+    if (items.empty() && pairs.empty()) {
+      out += scalar;
+      return;
+    }
+    out += items.empty() ? "{" : "[";
+    for (const auto& [key, value] : pairs) {
+      out += "\n " + quoted(key) + ": ";
+      value.write(out);
+      out += ",";
+    }
+    for (const Value& item : items) {
+      item.write(out);
+      out += ",";
+    }
+    out += items.empty() ? "}" : "]";
+  }
+};
+
 /// The entry `it` of a model.
-YAML::Node entry_in(const YAML::Node& root, const Sample& sample) {
-  YAML::Node node = root;
-  for (const std::string& part : split(place_of(sample))) node.reset(node[part]);
-  node.reset(node["it"]);
-  return node;
+Value& entry_in(Value& root, const Sample& sample) {
+  Value* value = &root;
+  for (const std::string& part : split(place_of(sample))) value = &value->at(part);
+  return value->at("it");
 }
 
 /// The sample's model with one value of `it` changed; an empty value leaves the key out.
 std::string changed(const Sample& sample, const std::string& key, const std::string& value) {
-  YAML::Node root = YAML::Load(sample.model);
-  YAML::Node entry = entry_in(root, sample);
+  Value root(sample.model);
+  Value* entry = &entry_in(root, sample);
   std::vector<std::string> parts = split(key);
   const std::string last = parts.back();
   parts.pop_back();
-  for (const std::string& part : parts) entry.reset(entry.IsSequence() ? entry[std::stoul(part)] : entry[part]);
-  if (value.empty())
-    entry.remove(last);
-  else
-    entry[last] = YAML::Load(value);
-  YAML::Emitter out;
-  out << root;
-  return out.c_str();
+  for (const std::string& part : parts) entry = &entry->at(part);
+  if (value.empty()) {
+    if (const auto found = entry->find(last); found != entry->pairs.end()) entry->pairs.erase(found);
+  } else {
+    entry->set(last, Value(value));
+  }
+  std::string out;
+  root.write(out);
+  return out;
 }
 
 std::string message(const Sample& sample, const std::string& text) {
   return bielle::test::message_of<bielle::InputError>([&] { read_sample(sample, text); });
 }
 
-/// Paths of all keys below a node, and of the maps that hold them ("" the component itself).
-void collect(const YAML::Node& node, const std::string& path, std::vector<std::string>& keys,
+/// Paths of all keys below a value, and of the maps that hold them ("" the component itself).
+void collect(const Value& value, const std::string& path, std::vector<std::string>& keys,
              std::vector<std::string>& maps) {
   const std::string prefix = path.empty() ? "" : path + ".";
-  if (node.IsMap()) {
-    maps.push_back(path);
-    for (const auto& item : node) {
-      keys.push_back(prefix + item.first.as<std::string>());
-      collect(item.second, keys.back(), keys, maps);
-    }
-  } else if (node.IsSequence()) {
-    for (std::size_t k = 0; k < node.size(); ++k) collect(node[k], prefix + std::to_string(k), keys, maps);
+  if (!value.pairs.empty() || value.scalar == "{}") maps.push_back(path);
+  for (const auto& [key, below] : value.pairs) {
+    keys.push_back(prefix + key);
+    collect(below, prefix + key, keys, maps);
   }
+  for (std::size_t k = 0; k < value.items.size(); ++k) collect(value.items[k], prefix + std::to_string(k), keys, maps);
 }
 
 struct Keys {
   std::vector<std::string> paths, maps;
-  explicit Keys(const Sample& sample) { collect(entry_in(YAML::Load(sample.model), sample), "", paths, maps); }
+  explicit Keys(const Sample& sample) {
+    Value root(sample.model);
+    collect(entry_in(root, sample), "", paths, maps);
+  }
 };
 
 /// Keys of a type, without indices, for which some sample of the type has an invalid value.

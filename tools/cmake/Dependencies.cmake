@@ -47,9 +47,9 @@ find_package(Threads REQUIRED)
 find_package(OpenMP QUIET COMPONENTS CXX)
 bielle_find_package(Eigen3 "Eigen 3.4" libeigen3-dev)
 bielle_find_package(fmt "{fmt}" libfmt-dev)
-bielle_find_package(yaml-cpp "yaml-cpp" libyaml-cpp-dev)
 bielle_find_package(CLI11 "CLI11" libcli11-dev)
 bielle_find_package(muparser "muParser" libmuparser-dev)
+bielle_find_pkgconfig(yaml yaml-0.1 "libyaml" libyaml-dev)
 # If an MPI build of HDF5 is installed as well, plain `hdf5` may be the parallel one: name the serial one.
 bielle_find_pkgconfig(hdf5_shared hdf5-serial "HDF5, serial" libhdf5-dev)
 # Debian's shared HDF5 loads curl and, with it, thirty libraries: half of the start of a program. Programs link the

@@ -7,12 +7,14 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <string_view>
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/input/yaml_node.hpp"
 #include "reduce/common/shortened.hpp"
 
 namespace bielle {
@@ -25,25 +27,10 @@ struct YamlValue::Document {
 
 namespace {
 
-/// Deeper nesting is an error; an anchor that contains itself is nested infinitely.
-constexpr int deepest = 50;
-
 std::string joined(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
 
 std::string located_at(const std::string& file, int line, const std::string& path, const std::string& message) {
   return fmt::format("{}:{}: {}{}{}", file, line, path, path.empty() ? "" : ": ", message);
-}
-
-/// The parser's message about a tab in the indentation does not mention the tab, and may refer to a later line.
-std::string hint_at_tabs(const std::string& text, int up_to_line) {
-  std::istringstream lines(text);
-  std::string line;
-  for (int number = 1; number <= up_to_line && std::getline(lines, line); ++number) {
-    const std::size_t word = line.find_first_not_of(" \t");
-    if (line.substr(0, word).find('\t') != std::string::npos)
-      return fmt::format(" (line {} begins with a tab; YAML wants spaces there)", number);
-  }
-  return "";
 }
 
 /// Explains an unknown key that is a number: it is probably the second half of "1,5", or of a formula.
@@ -55,42 +42,35 @@ std::string hint_at_comma(const std::string& key) {
 /// Upper bound of nodes that aliases repeat; larger files are not input files but attempts to exhaust the memory.
 constexpr std::size_t most_repeated = 100'000;
 
-/// yaml-cpp accepts duplicate keys and treats `<<` as an ordinary key: this function refuses both, and keys that are no
-/// words.
+/// Refuses what YAML permits and no input file means: repeated keys, merge keys (`<<`), and keys that are no words.
 /// @param budget  number of nodes that may still follow
-void check_keys_of_all_maps(const YAML::Node& node, const std::string& file, const std::string& path, int depth,
+void check_keys_of_all_maps(const YamlNode& node, const std::string& file, const std::string& path,
                             std::size_t& budget) {
   if (budget-- == 0)
-    throw InputError(located_at(file, node.Mark().line + 1, path.substr(0, 60),
+    throw InputError(located_at(file, node.line, path.substr(0, 60),
                                 fmt::format("aliases (`*name`) repeat more than {} values", most_repeated)));
-  if (depth > deepest)
-    throw InputError(located_at(file, node.Mark().line + 1, path.substr(0, 60),
-                                fmt::format("nested more than {} levels deep, or an anchor contains itself", deepest)));
-  if (node.IsSequence()) {
-    int index = 0;
-    for (const YAML::Node& item : node)
-      check_keys_of_all_maps(item, file, fmt::format("{}[{}]", path, ++index), depth + 1, budget);
-  }
-  if (!node.IsMap()) return;
-  std::map<std::string, int> lines;
-  for (const auto& entry : node) {
-    const int line = entry.first.Mark().line + 1;
-    if (!entry.first.IsScalar())
-      throw InputError(located_at(file, line, path, "a key must be a word; is something missing in front of ':'?"));
-    const std::string& key = entry.first.Scalar();
-    if (key == "<<")
-      throw InputError(located_at(file, line, path, "'<<' (merging of maps) is not supported; write the keys out"));
-    const auto [first, is_new] = lines.emplace(key, line);
+  for (std::size_t k = 0; k < node.items.size(); ++k)
+    check_keys_of_all_maps(*node.items[k], file, fmt::format("{}[{}]", path, k + 1), budget);
+  std::map<std::string_view, int> lines;
+  for (const auto& [key, value] : node.pairs) {
+    if (key->kind != YamlNode::Kind::scalar)
+      throw InputError(
+          located_at(file, key->line, path, "a key must be a word; is something missing in front of ':'?"));
+    if (key->scalar == "<<")
+      throw InputError(
+          located_at(file, key->line, path, "'<<' (merging of maps) is not supported; write the keys out"));
+    const auto [first, is_new] = lines.emplace(key->scalar, key->line);
     if (!is_new)
-      throw InputError(located_at(file, line, joined(path, key),
+      throw InputError(located_at(file, key->line, joined(path, key->scalar),
                                   fmt::format("this key stands here twice; first on line {}", first->second)));
-    check_keys_of_all_maps(entry.second, file, joined(path, key), depth + 1, budget);
+    check_keys_of_all_maps(*value, file, joined(path, key->scalar), budget);
   }
 }
 
 }  // namespace
 
-YamlValue::YamlValue(std::shared_ptr<Document> document, std::shared_ptr<YAML::Node> node, std::string path, int line)
+YamlValue::YamlValue(std::shared_ptr<Document> document, std::shared_ptr<const YamlNode> node, std::string path,
+                     int line)
     : document_(std::move(document)), node_(std::move(node)), path_(std::move(path)), line_(line) {}
 
 YamlValue YamlValue::load(const std::string& path) {
@@ -103,30 +83,21 @@ YamlValue YamlValue::load(const std::string& path) {
 
 YamlValue YamlValue::parse(const std::string& text, const std::string& name) {
   auto document = std::make_shared<Document>(Document{name, text, {}, {}});
-  std::vector<YAML::Node> roots;
-  try {
-    roots = YAML::LoadAll(text);
-  } catch (const YAML::Exception& error) {
-    const int line = std::max(error.mark.line, 0) + 1;
-    throw InputError(located_at(name, line, "", "no valid YAML: " + error.msg + hint_at_tabs(text, line)));
-  }
-  if (roots.empty()) throw InputError(fmt::format("{}: the file is empty", name));
-  if (roots.size() > 1)
-    throw InputError(located_at(name, roots[1].Mark().line + 1, "", "a second document begins; a file holds one"));
+  std::shared_ptr<const YamlNode> root = parse_yaml(text, name);
   std::size_t budget = text.size() + most_repeated;  // without aliases each node has a letter of its own
-  check_keys_of_all_maps(roots[0], name, "", 0, budget);
-  const int line = roots[0].IsNull() ? 1 : roots[0].Mark().line + 1;
-  return {document, std::make_shared<YAML::Node>(roots[0]), "", line};
+  check_keys_of_all_maps(*root, name, "", budget);
+  const int line = root->kind == YamlNode::Kind::null ? 1 : root->line;
+  return {document, std::move(root), "", line};
 }
 
 void YamlValue::set_parameters(Parameters parameters) { document_->parameters = std::move(parameters); }
 void YamlValue::set_parameter(const std::string& name, double value) { document_->parameters[name] = value; }
 const Parameters& YamlValue::parameters() const { return document_->parameters; }
 
-bool YamlValue::is_map() const { return node_->IsMap(); }
-bool YamlValue::is_sequence() const { return node_->IsSequence(); }
-bool YamlValue::is_scalar() const { return node_->IsScalar(); }
-bool YamlValue::is_null() const { return node_->IsNull(); }
+bool YamlValue::is_map() const { return node_->kind == YamlNode::Kind::map; }
+bool YamlValue::is_sequence() const { return node_->kind == YamlNode::Kind::sequence; }
+bool YamlValue::is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }
+bool YamlValue::is_null() const { return node_->kind == YamlNode::Kind::null; }
 
 // -- maps
 
@@ -139,24 +110,22 @@ YamlValue YamlValue::at(const std::string& key) const {
 
 std::optional<YamlValue> YamlValue::find(const std::string& key) const {
   check_map("keys with values (`key: value`)");
-  if (is_map())
-    for (const auto& entry : *node_)
-      if (entry.first.Scalar() == key) return child(entry.first, entry.second);
+  for (const auto& [found, value] : node_->pairs)
+    if (found->scalar == key) return child(*found, value);
   return std::nullopt;
 }
 
 std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
   check_map("keys with values (`key: value`)");
   std::vector<std::pair<std::string, YamlValue>> result;
-  if (is_map())
-    for (const auto& entry : *node_) result.emplace_back(entry.first.Scalar(), child(entry.first, entry.second));
+  result.reserve(node_->pairs.size());
+  for (const auto& [key, value] : node_->pairs) result.emplace_back(key->scalar, child(*key, value));
   return result;
 }
 
-YamlValue YamlValue::child(const YAML::Node& key, const YAML::Node& value) const {
-  // yaml-cpp gives a null value the position of the next token.
-  const YAML::Mark mark = value.IsNull() ? key.Mark() : value.Mark();
-  return {document_, std::make_shared<YAML::Node>(value), joined(path_, key.Scalar()), mark.line + 1};
+YamlValue YamlValue::child(const YamlNode& key, std::shared_ptr<const YamlNode> value) const {
+  const int line = value->kind == YamlNode::Kind::null ? key.line : value->line;  // nothing stands somewhere after it
+  return {document_, std::move(value), joined(path_, key.scalar), line};
 }
 
 void YamlValue::check_map(const std::string& expected) const {
@@ -166,11 +135,11 @@ void YamlValue::check_map(const std::string& expected) const {
 void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::string& of) const {
   check_map(of + " as keys with values (`key: value`)");
   if (is_null()) return;
-  for (const auto& entry : *node_) {
-    const std::string& key = entry.first.Scalar();
+  for (const YamlNode::Pair& entry : node_->pairs) {
+    const std::string& key = entry.key->scalar;
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
     const std::string comma = hint_at_comma(key);
-    throw InputError(located_at(document_->file, entry.first.Mark().line + 1, path_,
+    throw InputError(located_at(document_->file, entry.key->line, path_,
                                 fmt::format("'{}' is not a key of {}{}", shortened(key), of,
                                             comma.empty() ? did_you_mean(key, allowed) : comma)));
   }
@@ -180,7 +149,7 @@ void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::s
 
 std::size_t YamlValue::size() const {
   if (!is_sequence()) fail("expected a list (`[a, b]`)");
-  return node_->size();
+  return node_->items.size();
 }
 
 YamlValue YamlValue::at(std::size_t index) const {
@@ -192,10 +161,9 @@ YamlValue YamlValue::at(std::size_t index) const {
 std::vector<YamlValue> YamlValue::items() const {
   std::vector<YamlValue> result;
   result.reserve(size());
-  for (const YAML::Node& item : *node_) {
-    const int line = item.IsNull() ? line_ : item.Mark().line + 1;
-    result.push_back(YamlValue(document_, std::make_shared<YAML::Node>(item),
-                               fmt::format("{}[{}]", path_, result.size() + 1), line));
+  for (const std::shared_ptr<const YamlNode>& item : node_->items) {
+    const int line = item->kind == YamlNode::Kind::null ? line_ : item->line;
+    result.push_back(YamlValue(document_, item, fmt::format("{}[{}]", path_, result.size() + 1), line));
   }
   return result;
 }
@@ -204,7 +172,7 @@ std::vector<YamlValue> YamlValue::items() const {
 
 double YamlValue::number() const {
   if (!is_scalar()) fail(is_null() ? "expected a number, found nothing" : "expected a number");
-  const std::string& written = node_->Scalar();
+  const std::string& written = node_->scalar;
   double value = 0;
   const char* begin = written.data() + (written.starts_with('+') ? 1 : 0);
   const char* end = written.data() + written.size();
@@ -239,7 +207,7 @@ int YamlValue::integer() const {
 
 bool YamlValue::boolean() const {
   if (is_scalar()) {
-    const std::string& written = node_->Scalar();
+    const std::string& written = node_->scalar;
     if (written == "true" || written == "True" || written == "TRUE") return true;
     if (written == "false" || written == "False" || written == "FALSE") return false;
     fail(fmt::format("expected true or false, found '{}'", shortened(written)));
@@ -249,7 +217,7 @@ bool YamlValue::boolean() const {
 
 std::string YamlValue::text() const {
   if (!is_scalar()) fail("expected a text");
-  return node_->Scalar();
+  return node_->scalar;
 }
 
 std::string YamlValue::word(const std::vector<std::string>& allowed, const std::string& what) const {
@@ -304,7 +272,7 @@ Eigen::MatrixXd YamlValue::matrix(Eigen::Index rows, Eigen::Index columns) const
 
 Expression YamlValue::expression(const std::vector<std::string>& variables) const {
   if (!is_scalar()) fail("expected a number or a formula");
-  return expression(variables, {node_->Scalar(), node_->Scalar(), {}});
+  return expression(variables, {node_->scalar, node_->scalar, {}});
 }
 
 FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
@@ -313,9 +281,9 @@ FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
   std::vector<std::string> plain_names = variables;
   for (const auto& [name, value] : document_->parameters) plain_names.push_back(name);
   try {
-    return find_references(node_->Scalar(), plain_names, functions);
+    return find_references(node_->scalar, plain_names, functions);
   } catch (const InputError& error) {
-    fail(fmt::format("in '{}': {}", shortened(node_->Scalar()), error.what()));
+    fail(fmt::format("in '{}': {}", shortened(node_->scalar), error.what()));
   }
 }
 

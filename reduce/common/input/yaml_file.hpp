@@ -1,4 +1,4 @@
-// Input files: yaml-cpp with file and line in every message, suggestions for unknown keys, and numbers that may be
+// Input files: YAML with file and line in every message, suggestions for unknown keys, and numbers that may be
 // expressions of the file's parameters.
 #pragma once
 
@@ -14,11 +14,9 @@
 #include "reduce/common/formula/expression.hpp"
 #include "reduce/common/formula/formula_references.hpp"
 
-namespace YAML {
-class Node;
-}
-
 namespace bielle {
+
+struct YamlNode;
 
 /// A value in an input file, with its position. Cheap to copy.
 ///
@@ -103,11 +101,11 @@ class YamlValue {
 
  private:
   struct Document;
-  YamlValue(std::shared_ptr<Document> document, std::shared_ptr<YAML::Node> node, std::string path, int line);
-  YamlValue child(const YAML::Node& key, const YAML::Node& value) const;
+  YamlValue(std::shared_ptr<Document> document, std::shared_ptr<const YamlNode> node, std::string path, int line);
+  YamlValue child(const YamlNode& key, std::shared_ptr<const YamlNode> value) const;
   void check_map(const std::string& expected) const;
   std::shared_ptr<Document> document_;
-  std::shared_ptr<YAML::Node> node_;
+  std::shared_ptr<const YamlNode> node_;
   std::string path_;
   int line_ = 0;
 };
