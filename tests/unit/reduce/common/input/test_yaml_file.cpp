@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "reduce/common/input/yaml_file.hpp"
 #include "tests/support/messages.hpp"
@@ -64,6 +65,27 @@ TEST_CASE("Invalid YAML is an error with its line") {
   CHECK_THAT(why_wrong("a: [1\tb: {"), !Contains("tab"));
   CHECK_THAT(why_wrong("a: *nowhere\n"), Contains("crank.yaml:1: no valid YAML"));
   CHECK_THAT(why_wrong("a: 1\n---\nb: 2\n"), Contains("crank.yaml:3: a second document"));
+}
+
+TEST_CASE("Tags, bytes that are no text, and deep nesting are refused with their line") {
+  CHECK(why_wrong("a: 1\nb: !include c.yaml\n") == "crank.yaml:2: tags ('!include') are not supported");
+  CHECK(parsed("a: !!str 5\n").at("a").number() == 5);
+  CHECK_THAT(why_wrong("a: 1\nb: \xff\n"), Contains("crank.yaml:2: no valid YAML: invalid leading UTF-8 octet"));
+  CHECK_THAT(why_wrong("a: 1\nb: \x01\n"), Contains("crank.yaml:2: no valid YAML: control characters"));
+  CHECK_THAT(why_wrong("a: " + std::string(51, '[')), Contains("crank.yaml:1: nested more than 50 levels deep"));
+  CHECK_THAT(why_wrong("a: " + std::string(50'000, '[')), Contains("nested more than 50 levels deep"));
+  CHECK_THAT(why_wrong("a: " + std::string(50, '[')), Contains("no valid YAML: while parsing a flow"));
+  std::string laughs = "a0: &a0 [x, x]\n";
+  for (int k = 1; k < 30; ++k) laughs += fmt::format("a{0}: &a{0} [*a{1}, *a{1}]\n", k, k - 1);
+  CHECK_THAT(why_wrong(laughs), Contains("aliases (`*name`) repeat more than 100000 values"));
+}
+
+TEST_CASE("Nothing, ~ and null are null, quoted ones are texts") {
+  const YamlValue file = parsed("list: [~, null, 'null', '', \"~\"]\n");
+  CHECK(file.at("list").at(0).is_null());
+  CHECK(file.at("list").at(1).is_null());
+  for (const std::size_t k : {2, 3, 4}) CHECK(file.at("list").at(k).is_scalar());
+  CHECK_THAT(why_wrong("~: 1\n"), Contains("a key must be a word"));
 }
 
 TEST_CASE("Duplicate keys, merge keys and keys that are no words are refused at any depth") {
