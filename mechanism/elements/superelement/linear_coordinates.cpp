@@ -71,7 +71,7 @@ void LinearCoordinates::solve(const SuperelementMatrices& body, const VectorX& q
                          : rate_is_known && step < slow * before ? step * step <= last_error * size * before
                                                                  : step <= last_step_of_series * size;
     if (is_last) {
-      if (!factorise()) break;  // see above
+      if (!factorise()) break;  // the determinant is checked as above
       body.add_load_stiffness_modes(eps_.head(b), gradient_.modes);
       return;
     }
