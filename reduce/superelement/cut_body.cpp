@@ -9,6 +9,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/files/atomic_output.hpp"
+#include "reduce/common/files/byte_sum.hpp"
 #include "reduce/common/files/hdf5_file.hpp"
 #include "reduce/superelement/modal_damping.hpp"
 #include "reduce/superelement/superelement_file.hpp"
@@ -132,6 +133,7 @@ void write_cut_body(const CutBody& body, const std::string& path) {
                "least and largest stiffness between the interfaces over that of the uncut body");
   file.write_attribute("/", "complete", std::int64_t{1});
   file.close();
+  append_byte_sum(output.temporary_path());
   output.commit();
 }
 
@@ -141,6 +143,12 @@ bool holds_pieces(const std::string& path) {
   } catch (const InputError&) {
     return false;  // the reader of the file reports the fault
   }
+}
+
+std::optional<Superelement> read_whole_for_motion(const std::string& path) {
+  const Hdf5File file = Hdf5File::open(path);
+  if (has_format(file)) return {};
+  return read_parts_of_motion(file);
 }
 
 CutBody read_cut_body(const std::string& path) {

@@ -2,6 +2,7 @@
 // reduce/superelement/README.md.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,10 @@ void write_cut_body(const CutBody& body, const std::string& path);
 
 /// Tells whether a file holds a cut body. The result is false for every other file, readable or not.
 bool holds_pieces(const std::string& path);
+
+/// Reads the parts of a superelement that a mechanism needs in every run (superelement_file.hpp), or nothing if the
+/// file holds pieces. @throws InputError as read_superelement
+std::optional<Superelement> read_whole_for_motion(const std::string& path);
 
 /// @throws InputError as read_superelement, and if pieces that share an interface have it at different places
 CutBody read_cut_body(const std::string& path);

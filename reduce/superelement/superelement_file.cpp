@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "reduce/common/files/atomic_output.hpp"
+#include "reduce/common/files/byte_sum.hpp"
 #include "reduce/common/files/hdf5_file.hpp"
+#include "reduce/common/files/hdf5_soundness.hpp"
 #include "reduce/superelement/adequacy_in_file.hpp"
 #include "reduce/superelement/named_points.hpp"
 #include "reduce/superelement/physical_check.hpp"
@@ -276,10 +278,6 @@ void read_reduced(const Hdf5File& file, const Reader& reader, Superelement& body
     body.load_stiffness.resize(shape.empty() ? 0 : shape[0]);
     reader.matrices("/reduced/geometric_stiffness/load", body.load_stiffness, n, n);
   }
-  if (file.has("/interface/surface_rotations")) {
-    body.surface_rotations.resize(body.interfaces.size());
-    reader.matrices("/interface/surface_rotations", body.surface_rotations, 3, n);
-  }
   for (const std::string& link : reader.members("/loads")) {
     const std::vector<double> values = reader.numbers("/loads/" + link, {3, 3, n});
     LoadPattern& pattern = body.loads[name_of_link(link)];
@@ -364,6 +362,7 @@ void write_superelement(const Superelement& superelement, const std::string& pat
   Hdf5File file = Hdf5File::create(output.temporary_path());
   write_superelement(superelement, file);
   file.close();
+  append_byte_sum(output.temporary_path());
   output.commit();
 }
 
@@ -373,13 +372,15 @@ Superelement read_superelement(const SuperelementPlace& place) {
   return read_superelement(file);
 }
 
-Superelement read_superelement(const Hdf5File& file) {
-  const Reader reader(file);
-  check_head(file, reader);
-  Superelement body;
+namespace {
+
+void read_head(const Hdf5File& file, Superelement& body) {
   body.name = file.read_text_attribute("/", "name");
   body.created_by = file.read_text_attribute("/", "created_by");
-  body.input = file.read_text("/input");
+}
+
+/// Reads the parts that a mechanism needs in every run.
+void read_parts_of_motion(const Hdf5File& file, const Reader& reader, Superelement& body) {
   body.frequencies = file.read_vector("/modes/frequencies");
   if (file.has_attribute("/modes", "residual_vectors"))
     body.residual_vectors = file.read_integer_attribute("/modes", "residual_vectors");
@@ -393,6 +394,21 @@ Superelement read_superelement(const Hdf5File& file) {
   read_interfaces(file, reader, body);
   read_reduced(file, reader, body);
   read_mass_properties(file, reader, body);
+}
+
+}  // namespace
+
+Superelement read_superelement(const Hdf5File& file) {
+  const Reader reader(file);
+  check_head(file, reader);
+  Superelement body;
+  read_head(file, body);
+  body.input = file.read_text("/input");
+  read_parts_of_motion(file, reader, body);
+  if (file.has("/interface/surface_rotations")) {
+    body.surface_rotations.resize(body.interfaces.size());
+    reader.matrices("/interface/surface_rotations", body.surface_rotations, 3, size(body.size()));
+  }
   body.points = read_named_points(file);
   read_mesh(file, reader, body.mesh);
   if (file.has("/recovery/displacement")) body.displacement_recovery = file.read_matrix("/recovery/displacement");
@@ -406,6 +422,17 @@ Superelement read_superelement(const Hdf5File& file) {
   body.adequacy = read_adequacy(file);
   if (const std::string fault = first_fault(body); !fault.empty()) reader.fail(fault);
   check_sum(file, reader, body);
+  return body;
+}
+
+Superelement read_parts_of_motion(const Hdf5File& file) {
+  if (!is_as_written(file.path())) return read_superelement(file);
+  const Reader reader(file);
+  check_head(file, reader);
+  Superelement body;
+  read_head(file, body);
+  read_parts_of_motion(file, reader, body);
+  if (const std::string fault = fault_of(body); !fault.empty()) reader.fail(fault);
   return body;
 }
 

@@ -17,4 +17,9 @@ void write_superelement(const Superelement& superelement, Hdf5File& file);
 /// Reads from the group that the file has entered. @throws InputError as for a whole file
 Superelement read_superelement(const Hdf5File& file);
 
+/// Reads what a mechanism needs in every run: interfaces, reduced matrices and loads, modes, mass properties. The
+/// file's sum of bytes vouches for the rest; a file without it is read and checked as a whole.
+/// @throws InputError as for a whole file
+Superelement read_parts_of_motion(const Hdf5File& file);
+
 }  // namespace bielle

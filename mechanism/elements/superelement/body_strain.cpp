@@ -13,6 +13,12 @@ double size_of(const double* strain) {
   return std::max({std::abs(e[0]), std::abs(e[2]), 2.0 / 3 * (e[0] - e[2])});
 }
 
+/// Returns the square of the tensor's norm, which no principal value and no two thirds of a difference of two exceeds.
+double square_norm(const double* strain) {
+  const Eigen::Map<const Vector3> stretch(strain), shear(strain + 3);
+  return stretch.squaredNorm() + 0.5 * shear.squaredNorm();
+}
+
 }  // namespace
 
 BodyStrain::BodyStrain(const SuperelementMatrices& matrices) {
@@ -25,7 +31,9 @@ StrainSizes BodyStrain::calc(const VectorX& eps) const {
   thread_local VectorX strain;
   strain.noalias() = *strains_ * eps;
   const Eigen::Index last = strain.size() - 6;
-  for (Eigen::Index k = 0; k < last; k += 6) sizes.largest = std::max(sizes.largest, size_of(strain.data() + k));
+  for (Eigen::Index k = 0; k < last; k += 6)
+    if (square_norm(strain.data() + k) > sizes.largest * sizes.largest)
+      sizes.largest = std::max(sizes.largest, size_of(strain.data() + k));
   sizes.mean = size_of(strain.data() + last);
   return sizes;
 }

@@ -1,13 +1,13 @@
 #include "mechanism/elements/superelement/corotated_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
-#include "mechanism/math/inverse.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/dense/dense_products.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -15,6 +15,28 @@ namespace {
 /// Weight in the closest placement of an interface that determines it only in part (its free directions may be far
 /// away).
 constexpr double partial_weight = 1e-3;
+
+/// Returns the rotation R that maximises tr(R^T M).
+Matrix3 nearest_turn(const Matrix3& M) {
+  // Newton's method for the orthogonal factor (N. J. Higham, SIAM J. Sci. Stat. Comput. 7 (1986) 1160). It takes many
+  // iterations for nearly singular matrices and gives a reflection for negative determinants.
+  const double determinant = M.determinant(), size = M.norm();
+  constexpr double regular = 1e-3, last_step = 1e-8;
+  constexpr int most_iterations = 20;
+  if (determinant > regular * size * size * size) {
+    Matrix3 R = M / std::cbrt(determinant);
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      const Matrix3 next = 0.5 * (R + Matrix3(R.inverse().transpose()));
+      const double step = (next - R).norm();
+      R = next;
+      if (step < last_step) return R;  // the error after a step is about its square
+    }
+  }
+  const Eigen::JacobiSVD<Matrix3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3 sign(1, 1, 1);
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign.z() = -1;
+  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+}
 
 }  // namespace
 
@@ -25,6 +47,15 @@ CorotatedFrame::CorotatedFrame(std::vector<BodyPoint> points, const MatrixX6& A,
   double largest = 0;
   for (const BodyPoint& point : points_) largest = std::max(largest, (point.X - centre).norm());
   if (largest > coincident_interfaces * size) size_ = largest;
+  rows_ = At_.cols();
+  while (rows_ > 0 && At_.col(rows_ - 1).isZero(0)) --rows_;
+  Matrix3 translation = Matrix3::Zero(), moment = Matrix3::Zero();
+  for (const BodyPoint& point : points_) {
+    translation += At_.block<3, 3>(0, point.u);
+    moment += At_.block<3, 3>(3, point.u);
+  }
+  translation_inverse_ = translation.inverse();
+  lever_ = moment * translation_inverse_;
 }
 
 Frame CorotatedFrame::closest_placement(const LocalState& state) const {
@@ -62,11 +93,8 @@ Frame CorotatedFrame::closest_placement(const LocalState& state) const {
         break;
     }
   }
-  const Eigen::JacobiSVD<Matrix3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vector3 sign(1, 1, 1);
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign.z() = -1;
   Frame frame;
-  frame.R = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  frame.R = nearest_turn(M);
   frame.x = x_mean - frame.R * X_mean;
   return frame;
 }
@@ -81,8 +109,7 @@ void CorotatedFrame::update(const LocalState& state, CorotatedGeometry& geometry
     geometry.V.block<3, 3>(point.u, 3) = -skew(geometry.y[k]);
     if (point.theta < 0) continue;
     geometry.E[k] = frame.R.transpose() * node.R * point.R_ref.transpose();
-    geometry.D[k] = point.rotation.differential(geometry.E[k]);
-    geometry.q.segment<3>(point.theta) = point.rotation.coordinate(geometry.E[k]);
+    point.rotation.evaluate(geometry.E[k], geometry.q.segment<3>(point.theta), geometry.D[k]);
     geometry.V.block<3, 3>(point.theta, 3) = geometry.D[k];
   }
 }
@@ -102,6 +129,15 @@ std::string CorotatedFrame::misfit(const LocalState& state, CorotatedGeometry& g
       size_, distance, angle);
 }
 
+Eigen::Matrix<double, 6, 3> CorotatedFrame::turning(const CorotatedGeometry& geometry) const {
+  Eigen::Matrix<double, 6, 3> columns = Eigen::Matrix<double, 6, 3>::Zero();
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    columns.noalias() -= At_.middleCols<3>(points_[k].u) * skew(geometry.y[k]);
+    if (points_[k].theta >= 0) columns.noalias() += At_.middleCols<3>(points_[k].theta) * geometry.D[k];
+  }
+  return columns;
+}
+
 void CorotatedFrame::solve(const LocalState& state, CorotatedGeometry& geometry) const {
   const auto count = points_.size();
   geometry.q.resize(At_.cols());
@@ -116,17 +152,27 @@ void CorotatedFrame::solve(const LocalState& state, CorotatedGeometry& geometry)
   bool last = false;
   for (int iteration = 0; iteration < 50; ++iteration) {
     update(state, geometry);
-    Matrix6 S = Matrix6::Zero();
-    add_product(S, At_, geometry.V);
-    const Matrix6 S_inverse = inverse(S);
+    // The translations are eliminated.
+    const Eigen::Matrix<double, 6, 3> columns = turning(geometry);
+    const Matrix3 moved = translation_inverse_ * columns.topRows<3>();
+    const Matrix3 remaining = columns.bottomRows<3>() - lever_ * columns.topRows<3>();
+    const Matrix3 turn_inverse = remaining.inverse();
     if (last) {
+      const auto top = At_.topLeftCorner(3, rows_), bottom = At_.bottomLeftCorner(3, rows_);
       geometry.Sigma.setZero(6, At_.cols());
-      add_product(geometry.Sigma, S_inverse, At_);
+      auto sigma = geometry.Sigma.leftCols(rows_);
+      const Matrix3 turn_by_top = -turn_inverse * lever_;
+      sigma.bottomRows<3>().noalias() = turn_inverse * bottom;
+      sigma.bottomRows<3>().noalias() += turn_by_top * top;
+      const Matrix3 top_by_top = translation_inverse_ - moved * turn_by_top, top_by_bottom = -moved * turn_inverse;
+      sigma.topRows<3>().noalias() = top_by_top * top;
+      sigma.topRows<3>().noalias() += top_by_bottom * bottom;
       return;
     }
-    Vector6 gap = Vector6::Zero();
-    add_product(gap, At_, geometry.q);
-    Vector6 step = S_inverse * gap;
+    const Vector6 gap = At_.leftCols(rows_) * geometry.q.head(rows_);
+    Vector6 step;
+    step.tail<3>() = turn_inverse * (gap.tail<3>() - lever_ * gap.head<3>());
+    step.head<3>() = translation_inverse_ * gap.head<3>() - moved * step.tail<3>();
     if (!step.allFinite()) break;
     // Newton's method converges from any nearby value; the problem is no longer linear for steps beyond half a radian.
     const double angle = step.tail<3>().norm();

@@ -78,9 +78,14 @@ class CorotatedFrame {
 
  private:
   void update(const LocalState& state, CorotatedGeometry& geometry) const;
+  /// Returns the last three columns of A^T V; the first three, [T; M], are constant.
+  Eigen::Matrix<double, 6, 3> turning(const CorotatedGeometry& geometry) const;
   std::vector<BodyPoint> points_;
-  Matrix6X At_;      ///< A^T
-  double size_ = 1;  ///< [m]: scale of translations and lever of rotations
+  Matrix6X At_;                                        ///< A^T
+  Eigen::Index rows_ = 0;                              ///< number of columns of A^T up to its last nonzero one
+  Matrix3 translation_inverse_ = Matrix3::Identity();  ///< T^-1
+  Matrix3 lever_ = Matrix3::Zero();                    ///< M T^-1
+  double size_ = 1;                                    ///< [m]: scale of translations and lever of rotations
 };
 
 }  // namespace bielle::mechanism

@@ -65,6 +65,17 @@ Matrix3 InterfaceRotation::differential(const Matrix3& E) const {
   return Matrix3::Zero();
 }
 
+void InterfaceRotation::evaluate(const Matrix3& E, Eigen::Ref<Vector3> t, Matrix3& D) const {
+  if (kind_ == Kind::vector) {
+    const Vector3 theta = log_so3(E);
+    t = theta;
+    D = tangent_inverse(theta).transpose();
+    return;
+  }
+  t = coordinate(E);
+  D = differential(E);
+}
+
 Matrix3 InterfaceRotation::gradient(const Matrix3& E, const Vector3& r) const {
   switch (kind_) {
     case Kind::vector: {

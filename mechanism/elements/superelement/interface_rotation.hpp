@@ -35,6 +35,8 @@ class InterfaceRotation {
   Vector3 coordinate(const Matrix3& E) const;
   /// Returns D(E): dt = D phi.
   Matrix3 differential(const Matrix3& E) const;
+  /// Computes t(E) and D(E).
+  void evaluate(const Matrix3& E, Eigen::Ref<Vector3> t, Matrix3& D) const;
   /// Returns d(D r)/dphi at fixed r.
   Matrix3 gradient(const Matrix3& E, const Vector3& r) const;
   /// Returns d(D^T m)/dphi at fixed m.

@@ -11,37 +11,45 @@
 // With G(x): rows r (K_r x)^T, zero for the modes,
 //     deps = J dq,   J = (I - G(eps))^-1,   phi = J^T K~ eps,   dphi = J^T (K~ + phi_r K_r) J dq,
 //     epsdot = J qdot,   eps'' = J (qddot + G(epsdot) epsdot).
+// Only the rows of the interfaces are unknown. With the modes' part of G computed once, an iteration costs no more than
+// products of the size of the interfaces.
 #pragma once
 
 #include "mechanism/elements/superelement/superelement_body_matrices.hpp"
-#include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/small_lu.hpp"
 
 namespace bielle::mechanism {
 
 class LinearCoordinates {
  public:
-  /// Solves q = eps - g(eps) by Newton's method from eps = q. Only the first call allocates memory.
+  /// Solves q = eps - g(eps) by Newton's method. Only the first call allocates memory.
   /// @throws ComputationError if there is no solution near q: the body is deformed beyond the theory of second order
   void solve(const SuperelementMatrices& body, const VectorX& q);
 
   const VectorX& eps() const { return eps_; }
   /// Number of rows of interfaces; 0 for a body without geometric stiffness, whose eps is q.
-  Eigen::Index rows() const { return J_.rows(); }
+  Eigen::Index rows() const { return gradient_.interfaces.rows(); }
   /// The nonzero rows of J - I (rows, n). They are valid after set_excess.
   const MatrixX& excess() const { return excess_; }
   void set_excess();
-  /// Computes the nonzero rows of J G(x). @param gradient  G(x)^T (n, rows); @param product  (rows, n)
-  void multiply_gradient(const MatrixX& gradient, MatrixX& product) const;
+  /// Computes the nonzero rows of J G(x), after set_excess. @param gradient  G(x)^T; @param product  (rows, n)
+  void multiply_gradient(const PrestressGradient& gradient, MatrixX& product) const;
   /// v <- J v
-  void multiply(VectorX& v);
+  void multiply(VectorX& v) const;
   /// v <- J^T v
-  void multiply_transposed(VectorX& v);
+  void multiply_transposed(VectorX& v) const;
 
  private:
-  VectorX eps_, step_, residual_;
-  MatrixX gradient_;  ///< G(eps)^T (n, rows)
-  LUFactors factors_;
-  MatrixX J_;  ///< its block for the interfaces
+  /// Computes g(eps) and G(eps) in the rows of the interfaces.
+  void set_shortening(const SuperelementMatrices& body);
+  /// Factorises I - G(eps). @returns whether its determinant is positive
+  bool factorise();
+
+  VectorX eps_, step_, product_, sum_, shortening_, by_modes_;
+  PrestressGradient gradient_;   ///< G(eps)^T
+  MatrixX interfaces_by_modes_;  ///< the part of gradient_.interfaces due to the modes
+  SmallLU factors_;              ///< factors of I - G(eps), rows of the interfaces
+  MatrixX J_;                    ///< its inverse, after set_excess; before, the matrix that is factorised
   MatrixX excess_;
 };
 

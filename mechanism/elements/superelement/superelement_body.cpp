@@ -24,8 +24,23 @@ struct SuperelementBody::Workspace {
   SuperelementTangent tangent;
   std::vector<AttachedPoint> points;
   FrameBlock frames;
-  KnownState state;             ///< state of `motion` and `points`
-  bool forces_are_set = false;  ///< whether the forces of `motion` are known, too
+  KnownState state;  ///< state of `motion` and `points`
+  /// Parts of `motion` that are known at this state; `motion` stands for accelerations and points.
+  struct {
+    bool positions = false, products = false, velocities = false, mean_turning = false, motion = false, loads = false,
+         forces = false;
+  } known;
+
+  /// Forgets the parts that depend on numbers in which a state differs from the one before.
+  void forget(KnownState::Change change) {
+    using enum KnownState::Change;
+    if (change == none) return;
+    known.motion = known.loads = known.forces = false;
+    if (change == others) return;
+    known.velocities = known.mean_turning = false;
+    if (change == velocities) return;
+    known.positions = known.products = false;
+  }
 };
 
 /// One workspace for each thread that has evaluated the body at the same time; they are kept, so that only first
@@ -134,31 +149,71 @@ void SuperelementBody::declare(Declaration& declaration) const {
   declaration.stiffness = declaration.damping = declaration.mass = true;
 }
 
-SuperelementBody::Loan SuperelementBody::evaluate_motion(const LocalState& state) const {
+SuperelementBody::Loan SuperelementBody::evaluate_positions(const LocalState& state) const {
   Loan work(*workspaces_);
-  if (work->state.is(state)) return work;
-  work->state.forget();
-  work->forces_are_set = false;
+  work->forget(work->state.next(state));
+  if (work->known.positions) return work;
   try {
-    work->motion.set_motion(*matrices_, frame_, state);
+    work->motion.set_positions(*matrices_, frame_, state);
   } catch (const ComputationError& error) {
     throw ComputationError(fmt::format(
         "t = {:.6g} s: superelement '{}': {}. What drives them there is the cause: a step too long, nodes that "
         "no joint holds, or a body far too soft for its loads (young in Pa?)",
         state.time(), name(), error.what()));
   }
+  work->known.positions = true;
+  return work;
+}
+
+void SuperelementBody::complete_velocities(const Loan& work, const LocalState& state) const {
+  if (work->known.velocities) return;
+  work->motion.set_velocities(*matrices_, frame_, state);
+  work->known.velocities = true;
+}
+
+void SuperelementBody::complete_products(const Loan& work) const {
+  if (work->known.products) return;
+  work->motion.set_products(*matrices_);
+  work->known.products = true;
+}
+
+void SuperelementBody::complete_mean_turning(const Loan& work, const LocalState& state) const {
+  if (work->known.mean_turning) return;
+  complete_velocities(work, state);
+  complete_products(work);
+  work->motion.set_mean_turning(*matrices_);
+  work->known.mean_turning = true;
+}
+
+void SuperelementBody::complete_loads(const Loan& work, const LocalState& state) const {
+  if (work->known.loads) return;
+  work->motion.loads.clear();
+  for (const Load& load : loads_)
+    work->motion.loads.push_back({&matrices_->patterns[load.pattern],
+                                  state.environment().load_factor * load.factor(state.time()), load.follows});
+  work->motion.set_loads(*matrices_);
+  work->known.loads = true;
+}
+
+SuperelementBody::Loan SuperelementBody::evaluate_motion(const LocalState& state) const {
+  Loan work = evaluate_positions(state);
+  if (work->known.motion) return work;
+  complete_velocities(work, state);
+  work->motion.set_accelerations(*matrices_, frame_, state);
   work->points.clear();
   for (std::size_t i = 0; i < points_.size(); ++i)
     work->points.emplace_back(points_[i].place, work->motion, state.node(static_cast<int>(nodes_.size() + i)),
                               state.multiplier().segment<6>(6 * static_cast<Eigen::Index>(i)),
                               state.environment().gravity);
-  work->state.keep();
+  work->known.motion = true;
   return work;
 }
 
 SuperelementBody::Loan SuperelementBody::evaluate(const LocalState& state) const {
   Loan work = evaluate_motion(state);
-  if (work->forces_are_set) return work;
+  if (work->known.forces) return work;
+  complete_mean_turning(work, state);
+  complete_loads(work, state);
   SuperelementMotion& motion = work->motion;
   if (!work->points.empty()) {
     motion.attached_force.setZero(matrices_->size());
@@ -168,12 +223,8 @@ SuperelementBody::Loan SuperelementBody::evaluate(const LocalState& state) const
     motion.attached_force += point.body_force();
     motion.attached_wrench += point.wrench();
   }
-  motion.loads.clear();
-  for (const Load& load : loads_)
-    motion.loads.push_back({&matrices_->patterns[load.pattern],
-                            state.environment().load_factor * load.factor(state.time()), load.follows});
   motion.set_forces(*matrices_, damping());
-  work->forces_are_set = true;
+  work->known.forces = true;
   return work;
 }
 
@@ -209,20 +260,24 @@ void SuperelementBody::add_constraint_rates(const LocalState& state, Eigen::Ref<
 }
 
 void SuperelementBody::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  const Loan work = evaluate(state);
+  const bool mass_alone = !tangent.wants_C && !tangent.wants_K;
+  const Loan work = mass_alone ? evaluate_positions(state) : evaluate(state);
+  complete_products(work);
   work->tangent.add(*matrices_, damping(), work->motion, state, work->points, tangent);
 }
 
 void SuperelementBody::add_energy(const LocalState& state, Energy& energy) const {
-  const Loan work = evaluate(state);
-  const SuperelementMotion& motion = work->motion;
+  const Loan work = evaluate_positions(state);
+  complete_mean_turning(work, state);
+  complete_loads(work, state);
+  SuperelementMotion& motion = work->motion;
   const Frame& frame = motion.geometry.frame;
   const VectorX& eps = motion.coordinates.eps();
   energy.kinetic += motion.kinetic_energy(*matrices_);
-  energy.elastic += 0.5 * eps.dot(motion.elastic_force);
+  energy.elastic += motion.elastic_energy();
   const Vector3 moment = matrices_->mass * matrices_->centre + matrices_->MU.leftCols<3>().transpose() * eps;
   energy.gravity -= state.environment().gravity.dot(matrices_->mass * frame.x + frame.R * moment);
-  energy.dissipation += motion.eps_rate.dot(damping() * motion.eps_rate);
+  energy.dissipation += motion.dissipation(damping());
   energy.input += motion.rigid_load.dot(motion.nu) + motion.load.dot(motion.eps_rate);
 }
 
@@ -298,15 +353,14 @@ void SuperelementBody::record_peaks(const std::vector<std::string>& quantities) 
 
 void SuperelementBody::read_deformation(const LocalState& state, BodyDeformation& deformation) const {
   const Loan work = evaluate_motion(state);
+  complete_products(work);
   const SuperelementMotion& motion = work->motion;
   deformation.eps = motion.coordinates.eps();
   const Vector3 v_0 = motion.nu.head<3>(), Om = motion.nu.tail<3>(), Om_rate = motion.nu_rate.tail<3>();
   const Matrix3 gradient = skew(Om_rate) + skew(Om) * skew(Om);
   const Vector3 at_centre = motion.nu_rate.head<3>() + Om.cross(v_0) + gradient * matrices_->centre;
   for (int i = 0; i < 3; ++i) deformation.acceleration.segment<4>(4 * i) << at_centre[i], gradient.row(i).transpose();
-  thread_local VectorX force;
-  force.noalias() = matrices_->K * deformation.eps;
-  deformation.elastic = 0.5 * deformation.eps.dot(force);
+  deformation.elastic = motion.elastic_energy();
 }
 
 std::unique_ptr<StepRecorder> SuperelementBody::make_step_recorder() const {

@@ -116,9 +116,17 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   struct Workspace;
   class Workspaces;
   class Loan;
-  /// Returns working memory with the motion, or with motion and forces, at a state.
+  /// Returns working memory with the frame and the linear coordinates at a state.
+  Loan evaluate_positions(const LocalState& state) const;
+  /// Returns the same with the motion and the attached points.
   Loan evaluate_motion(const LocalState& state) const;
+  /// Returns the same with motion and forces.
   Loan evaluate(const LocalState& state) const;
+  /// Computes further parts of an evaluation unless they are known.
+  void complete_velocities(const Loan& work, const LocalState& state) const;
+  void complete_products(const Loan& work) const;
+  void complete_mean_turning(const Loan& work, const LocalState& state) const;
+  void complete_loads(const Loan& work, const LocalState& state) const;
   void read_deformation(const LocalState& state, BodyDeformation& deformation) const;
   Eigen::Index coordinates() const;  ///< number of local coordinates in the file's order
   /// Writes the outputs that do not require the mesh. @returns the local coordinates among the values

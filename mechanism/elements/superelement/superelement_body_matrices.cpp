@@ -65,7 +65,7 @@ SuperelementMatrices::SuperelementMatrices(const Superelement& body) : modes(sta
   M = symmetric(congruent(body.mass, P));
   MU.setZero(n, 6);
   add_product(MU, M, U);
-  Matrix6 rigid = Matrix6::Zero();
+  rigid.setZero();
   add_transposed_product(rigid, U, MU);
   if (!is_positive_definite(rigid))
     throw InputError(fmt::format("superelement '{}': its mass matrix gives no positive mass and inertia", body.name));
@@ -117,12 +117,22 @@ void SuperelementMatrices::set_load_stiffness(const Superelement& body, const Ma
   for (const BodyPoint& point : points)
     if (point.theta >= 0) interface_scale.segment<3>(point.theta).setConstant(gyration);
   if (body.load_stiffness.empty()) return;
-  const Eigen::Index n = size();
-  load_stiffness.setZero(n * interface_rows(), n);
+  const Eigen::Index n = size(), b = interface_rows(), m = modes;
+  load_stiffness.setZero(n * b, n);
+  load_stiffness_forms.setZero(n * (n + 1) / 2, b);
   for (std::size_t j = 0; j < directions.size(); ++j) {
     const MatrixX stiffness = symmetric(congruent(body.load_stiffness[j], P));
-    for (int i = 0; i < 3; ++i)
-      load_stiffness.middleRows((directions[j].row + i) * n, n) += directions[j].axis[i] * stiffness;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Index row = directions[j].row + i;
+      const double part = directions[j].axis[i];
+      load_stiffness.middleRows(row * b, b) += part * stiffness.topRows(b);
+      load_stiffness.middleRows(b * b + row * m, m) += part * stiffness.bottomRows(m);
+      Eigen::Index next = 0;
+      for (Eigen::Index k = 0; k < n; next += n - k, ++k) {
+        load_stiffness_forms(next, row) += part * stiffness(k, k);
+        load_stiffness_forms.col(row).segment(next + 1, n - k - 1) += 2 * part * stiffness.col(k).tail(n - k - 1);
+      }
+    }
   }
 }
 
@@ -133,24 +143,61 @@ void SuperelementMatrices::set_stacked() {
   if (stiffened_by_spin())
     for (const MatrixX& each : spin) all.push_back(&each);
   for (const MatrixX& each : G) all.push_back(&each);
-  all.push_back(&M);
   stacked.resize(n * static_cast<Eigen::Index>(all.size()), n);
   for (std::size_t k = 0; k < all.size(); ++k) stacked.middleRows(static_cast<Eigen::Index>(k) * n, n) = *all[k];
+  in_a_row.resize(n, 4 * n);
+  in_a_row << M, G[0], G[1], G[2];
+  rigid_columns.resize(n, 27);
+  rigid_columns << MU, mean_turning.transpose(), GU[0], GU[1], GU[2];
 }
 
-void SuperelementMatrices::multiply_load_stiffness(const VectorX& x, MatrixX& product) const {
-  product.setZero();
-  add_product(Eigen::Map<VectorX>(product.data(), product.size()), load_stiffness, x);
+namespace {
+
+Eigen::Map<VectorX> as_vector(MatrixX& matrix) { return {matrix.data(), matrix.size()}; }
+
+}  // namespace
+
+void SuperelementMatrices::multiply_load_stiffness(const VectorX& x, PrestressGradient& product) const {
+  multiply_load_stiffness_by_modes(x.tail(modes), product);
+  add_load_stiffness_interfaces(x.head(interface_rows()), product.interfaces);
+  add_load_stiffness_modes(x.head(interface_rows()), product.modes);
 }
 
-void SuperelementMatrices::subtract_load_stiffness(const VectorX& x, MatrixX& product) const {
-  add_product(Eigen::Map<VectorX>(product.data(), product.size()), load_stiffness.leftCols(x.size()), x, -1);
+void SuperelementMatrices::multiply_load_stiffness_by_modes(const Eigen::Ref<const VectorX>& x,
+                                                            PrestressGradient& product) const {
+  const Eigen::Index b = interface_rows();
+  product.interfaces.setZero(b, b);
+  product.modes.setZero(modes, b);
+  add_product(as_vector(product.interfaces), load_stiffness.topRightCorner(b * b, modes), x);
+  add_product(as_vector(product.modes), load_stiffness.bottomRightCorner(modes * b, modes), x);
+}
+
+void SuperelementMatrices::add_load_stiffness_interfaces(const Eigen::Ref<const VectorX>& x,
+                                                         MatrixX& interfaces) const {
+  const Eigen::Index b = interface_rows();
+  add_product(as_vector(interfaces), load_stiffness.topLeftCorner(b * b, b), x);
+}
+
+void SuperelementMatrices::add_load_stiffness_modes(const Eigen::Ref<const VectorX>& x, MatrixX& into) const {
+  const Eigen::Index b = interface_rows();
+  add_product(as_vector(into), load_stiffness.bottomLeftCorner(modes * b, b), x);
+}
+
+void SuperelementMatrices::add_load_stiffness_forms(const VectorX& x, VectorX& products,
+                                                    Eigen::Ref<VectorX> forms) const {
+  const Eigen::Index n = size();
+  products.resize(load_stiffness_forms.rows());
+  Eigen::Index next = 0;
+  for (Eigen::Index k = 0; k < n; next += n - k, ++k) products.segment(next, n - k) = x[k] * x.tail(n - k);
+  add_transposed_product(forms, load_stiffness_forms, products);
 }
 
 void SuperelementMatrices::add_load_stiffness(const Eigen::Ref<const VectorX>& weights, MatrixX& X) const {
+  const Eigen::Index b = interface_rows();
   for (Eigen::Index j = 0; j < X.cols(); ++j) {
-    const Eigen::Map<const MatrixX> columns(load_stiffness.col(j).data(), X.rows(), weights.size());
-    X.col(j).noalias() += columns * weights;
+    const double* column = load_stiffness.col(j).data();
+    X.col(j).head(b).noalias() += Eigen::Map<const MatrixX>(column, b, b) * weights;
+    X.col(j).tail(modes).noalias() += Eigen::Map<const MatrixX>(column + b * b, modes, b) * weights;
   }
 }
 

@@ -29,6 +29,12 @@ namespace bielle::mechanism {
 /// Index of the pair (k, l) in the order 11 22 33 23 13 12.
 inline constexpr int pair_index(int k, int l) { return k == l ? k : 6 - k - l; }
 
+/// K_r x for each interface row r: the rows of the interfaces and of the modes.
+struct PrestressGradient {
+  MatrixX interfaces;  ///< (rows, rows): column r
+  MatrixX modes;       ///< (modes, rows): column r
+};
+
 struct SuperelementMatrices {
   /// A kept direction of the file: q_file = axis . q(row .. row + 2).
   struct Direction {
@@ -60,11 +66,18 @@ struct SuperelementMatrices {
   std::array<MatrixX, 6> H;
   std::array<MatrixX, 6> spin;                            ///< K_sigma; empty if the file has none
   Eigen::Matrix<double, 3, Eigen::Dynamic> mean_turning;  ///< Lambda
-  /// K, H_11 .. H_12, K_sigma,11 .. (if the file has them), G_1 .. G_3 and M, one below the other: one product with
-  /// this matrix takes less time than products with each of them.
+  /// K, H_11 .. H_12, K_sigma,11 .. (if the file has them), G_1 .. G_3, one below the other: one product with this
+  /// matrix takes less time than products with each of them.
   MatrixX stacked;
-  /// Column j: column j of each K_r, one below the other; (n rows, n), empty if the file has none.
+  MatrixX in_a_row;                   ///< M, G_1, G_2, G_3 side by side (n, 4 n)
+  Eigen::Matrix<double, 6, 6> rigid;  ///< U^T M~ U
+  /// M U, Lambda^T, G_1 U, G_2 U, G_3 U side by side (n, 27)
+  MatrixX rigid_columns;
+  /// Column j: column j of each K_r; first the rows of the interfaces of all of them, one below the other, then the
+  /// rows of the modes; (n rows, n), empty if the file has none.
   MatrixX load_stiffness;
+  /// Column r: the lower half of K_r by columns, twice its entries off the diagonal; (n (n + 1)/2, rows)
+  MatrixX load_stiffness_forms;
   MatrixX strains;  ///< (6 (q + 1), n) strain at places, then its mean, see Superelement; may be empty
   std::vector<std::string> pattern_names;
   std::vector<Pattern> patterns;
@@ -73,11 +86,17 @@ struct SuperelementMatrices {
   Eigen::Index interface_rows() const { return kept.rows(); }
   /// Number of interface rows with a geometric stiffness: all or none.
   Eigen::Index prestress_rows() const { return load_stiffness.size() > 0 ? interface_rows() : 0; }
-  Eigen::Index stacked_G() const { return stacked.rows() - 4 * size(); }  ///< row of G_1 in `stacked`
-  /// product.col(r) = K_r x; (n, prestress_rows)
-  void multiply_load_stiffness(const VectorX& x, MatrixX& product) const;
-  /// product.col(r) -= K_r x, x zero but for the interface rows. @param x  (prestress_rows)
-  void subtract_load_stiffness(const VectorX& x, MatrixX& product) const;
+  Eigen::Index products() const { return stacked.rows() / size(); }  ///< number of matrices in `stacked`
+  /// Computes K_r x. @param x  (n)
+  void multiply_load_stiffness(const VectorX& x, PrestressGradient& product) const;
+  /// Computes K_r x for an x that is zero in the rows of the interfaces. @param x  (modes)
+  void multiply_load_stiffness_by_modes(const Eigen::Ref<const VectorX>& x, PrestressGradient& product) const;
+  /// interfaces += the rows of the interfaces of K_r x for an x that is zero in the modes. @param x  (rows)
+  void add_load_stiffness_interfaces(const Eigen::Ref<const VectorX>& x, MatrixX& interfaces) const;
+  /// modes += the rows of the modes of K_r x for an x that is zero in the modes. @param x  (rows)
+  void add_load_stiffness_modes(const Eigen::Ref<const VectorX>& x, MatrixX& modes) const;
+  /// forms += x^T K_r x (rows). @param products  a buffer for the products of the entries of x
+  void add_load_stiffness_forms(const VectorX& x, VectorX& products, Eigen::Ref<VectorX> forms) const;
   /// X += sum over r of weights_r K_r
   void add_load_stiffness(const Eigen::Ref<const VectorX>& weights, MatrixX& X) const;
   /// Transforms a matrix with columns of the file's coordinates to the present layout.

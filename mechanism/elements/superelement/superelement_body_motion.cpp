@@ -10,128 +10,161 @@ Vector3 load_direction(const ActingLoad& load, const Matrix3& R_0, int k) {
   return load.follows ? Vector3(Vector3::Unit(k)) : Vector3(R_0.row(k).transpose());
 }
 
-void SuperelementMotion::set_motion(const SuperelementMatrices& body, const CorotatedFrame& frame,
-                                    const LocalState& state) {
+void SuperelementMotion::set_positions(const SuperelementMatrices& body, const CorotatedFrame& frame,
+                                       const LocalState& state) {
   frame.solve(state, geometry);
   coordinates.solve(body, geometry.q);
-  set_node_motion(frame, state);
-  set_coordinates(body);
 }
 
-void SuperelementMotion::set_node_motion(const CorotatedFrame& body_frame, const LocalState& state) {
-  const auto& points = body_frame.points();
-  const Eigen::Index n = geometry.q.size(), modes = state.slots().amplitudes;
+void SuperelementMotion::set_velocities(const SuperelementMatrices& body, const CorotatedFrame& frame,
+                                        const LocalState& state) {
+  const auto& points = frame.points();
+  const Eigen::Index n = geometry.q.size(), modes = state.slots().amplitudes, rows = n - modes;
   const Matrix3 R_0t = geometry.frame.R.transpose();
-  for (VectorX* vector : {&w, &w_rel, &a, &a_rel, &eps_rate, &eps_acceleration}) vector->resize(n);
-
-  // They first contain D w and b, then qdot and qddot.
-  VectorX &q_rate = eps_rate, &q_acceleration = eps_acceleration;
+  w.resize(n);
+  eps_rate.resize(n);
+  VectorX& q_rate = eps_rate;  // first D w, then qdot
   w.tail(modes) = state.amplitude_rate();
-  a.tail(modes) = state.amplitude_acceleration();
   q_rate.tail(modes) = w.tail(modes);
-  q_acceleration.tail(modes) = a.tail(modes);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const NodeState& node = state.node(static_cast<int>(k));
     const int u = points[k].u, theta = points[k].theta;
     w.segment<3>(u) = R_0t * node.v;
-    a.segment<3>(u) = R_0t * (node.a - state.environment().gravity);
     q_rate.segment<3>(u) = w.segment<3>(u);
     if (theta < 0) continue;
-    const Matrix3 Q = R_0t * node.R;
-    w.segment<3>(theta) = Q * node.Omega;
-    a.segment<3>(theta) = Q * node.Omegadot;
+    w.segment<3>(theta) = R_0t * (node.R * node.Omega);
     q_rate.segment<3>(theta) = geometry.D[k] * w.segment<3>(theta);
   }
   nu.noalias() = geometry.Sigma * q_rate;
-  q_rate.noalias() -= geometry.V * nu;
+  q_rate.head(rows).noalias() -= geometry.V.topRows(rows) * nu;
   const Vector3 v_0 = nu.head<3>(), Om_0 = nu.tail<3>();
-
   w_rel = w;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    w_rel.segment<3>(points[k].u) -= v_0 + Om_0.cross(geometry.y[k]);
+    if (points[k].theta >= 0) w_rel.segment<3>(points[k].theta) -= Om_0;
+  }
+  coordinates.multiply(eps_rate);
+  s = eps_rate;
+  s.head(rows).noalias() += body.U.topRows(rows) * nu;
+}
+
+void SuperelementMotion::set_accelerations(const SuperelementMatrices& body, const CorotatedFrame& frame,
+                                           const LocalState& state) {
+  const auto& points = frame.points();
+  const Eigen::Index n = geometry.q.size(), modes = state.slots().amplitudes, rows = n - modes;
+  const Matrix3 R_0t = geometry.frame.R.transpose();
+  const Vector3 Om_0 = nu.tail<3>();
+  a.resize(n);
+  eps_acceleration.resize(n);
+  VectorX& q_acceleration = eps_acceleration;  // first b, then qddot
+  a.tail(modes) = state.amplitude_acceleration();
+  q_acceleration.tail(modes) = a.tail(modes);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const NodeState& node = state.node(static_cast<int>(k));
+    a.segment<3>(points[k].u) = R_0t * (node.a - state.environment().gravity);
+    if (points[k].theta >= 0) a.segment<3>(points[k].theta) = R_0t * (node.R * node.Omegadot);
+  }
   a_rel = a;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const int u = points[k].u, theta = points[k].theta;
-    w_rel.segment<3>(u) -= v_0 + Om_0.cross(geometry.y[k]);
     a_rel.segment<3>(u) -= Om_0.cross(w.segment<3>(u) + w_rel.segment<3>(u));
     q_acceleration.segment<3>(u) = a_rel.segment<3>(u);
     if (theta < 0) continue;
-    w_rel.segment<3>(theta) -= Om_0;
     a_rel.segment<3>(theta) -= Om_0.cross(w.segment<3>(theta));
     const Vector3 turning = w_rel.segment<3>(theta);
     q_acceleration.segment<3>(theta) = geometry.D[k] * a_rel.segment<3>(theta) +
                                        points[k].rotation.differential_rate(geometry.E[k], turning) * turning;
   }
   nu_rate.noalias() = geometry.Sigma * q_acceleration;
-  q_acceleration.noalias() -= geometry.V * nu_rate;
+  q_acceleration.head(rows).noalias() -= geometry.V.topRows(rows) * nu_rate;
   for (std::size_t k = 0; k < points.size(); ++k) {
     a_rel.segment<3>(points[k].u) -= nu_rate.head<3>() + Vector3(nu_rate.tail<3>()).cross(geometry.y[k]);
     if (points[k].theta >= 0) a_rel.segment<3>(points[k].theta) -= nu_rate.tail<3>();
   }
-}
-
-void SuperelementMotion::set_coordinates(const SuperelementMatrices& body) {
-  const Eigen::Index b = coordinates.rows();
-  if (b == 0) return;
-  coordinates.multiply(eps_rate);
-  rate_gradient.resize(eps_rate.size(), b);
-  body.multiply_load_stiffness(eps_rate, rate_gradient);
-  eps_acceleration.head(b).noalias() += rate_gradient.transpose() * eps_rate;
+  if (coordinates.rows() == 0) return;
+  body.add_load_stiffness_forms(eps_rate, entries_, eps_acceleration.head(rows));
   coordinates.multiply(eps_acceleration);
 }
 
 void SuperelementMotion::set_products(const SuperelementMatrices& body) {
   const VectorX& eps = coordinates.eps();
-  const Eigen::Index n = eps.size();
-  s = eps_rate;
-  s.noalias() += body.U * nu;
-  s_rate = eps_acceleration;
-  s_rate.noalias() += body.U * nu_rate;
-
-  const Eigen::Index first = body.stacked_G();
-  eps_products.setZero(first + 3 * n);
-  add_product(eps_products, body.stacked.topRows(first + 3 * n), eps);
-  elastic_force = eps_products.head(n);
-  Heps = Eigen::Map<const MatrixX6>(eps_products.data() + n, n, 6);
-  if (body.stiffened_by_spin()) spin_eps = Eigen::Map<const MatrixX6>(eps_products.data() + 7 * n, n, 6);
-  Geps = Eigen::Map<const MatrixX3>(eps_products.data() + first, n, 3);
-  s_products.setZero(4 * n);
-  add_product(s_products, body.stacked.bottomRows(4 * n), s);
-  Gs = Eigen::Map<const MatrixX3>(s_products.data(), n, 3);
-  Geps_rate.setZero(n, 3);
-  add_product(Eigen::Map<VectorX>(Geps_rate.data(), 3 * n), body.stacked.middleRows(first, 3 * n), eps_rate);
+  const Eigen::Index n = eps.size(), rows = body.interface_rows();
+  products.setZero(n, body.products());
+  add_product(Eigen::Map<VectorX>(products.data(), products.size()), body.stacked, eps);
+  eps_forms.setZero(products.cols());
+  add_transposed_product(eps_forms, products, eps);
+  UGeps.noalias() = body.U.topRows(rows).transpose() * Geps().topRows(rows);
+  if (!body.stiffened_by_spin()) return;
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) kappa(k, l) = eps_forms[7 + pair_index(k, l)];
 }
 
-void SuperelementMotion::set_forces(const SuperelementMatrices& body, const MatrixX& damping) {
-  const VectorX& eps = coordinates.eps();
-  const Vector3 v_0 = nu.head<3>(), Om_0 = nu.tail<3>(), Om_rate = nu_rate.tail<3>();
-  set_products(body);
-  p = s_products.tail(eps.size());
-  p.noalias() += Geps * Om_0;
-  p_rate.noalias() = body.M * s_rate;
-  p_rate.noalias() += Geps * Om_rate;
-  p_rate.noalias() += Geps_rate * Om_0;
-  if (body.stiffened_by_spin()) add_spin_momentum(body);
-  pi.noalias() = body.U.transpose() * p;
-  pi_rate.noalias() = body.U.transpose() * p_rate;
+void SuperelementMotion::set_mean_turning(const SuperelementMatrices& body) {
+  rates_of_rigid_.setZero();
+  add_transposed_product(rates_of_rigid_, body.rigid_columns, eps_rate);
+  rate_forms_.setZero(products.cols());
+  add_transposed_product(rate_forms_, products, eps_rate);
+  // Lambda U = [0, I]
+  Om_mean = nu.tail<3>() + rates_of_rigid_.segment<3>(6);
+}
 
-  r = p_rate + elastic_force;
-  r.noalias() += Gs * Om_0;
-  if (body.stiffened_by_spin()) r.noalias() += spin_force * Om_mean;
-  r.noalias() += damping * eps_rate;
+void SuperelementMotion::set_momentum(const SuperelementMatrices& body) {
+  const Vector3 Om_0 = nu.tail<3>(), Om_rate = nu_rate.tail<3>();
+  const Eigen::Index first_G = products.cols() - 3;
+  accelerations_of_rigid_.setZero();
+  add_transposed_product(accelerations_of_rigid_, body.rigid_columns.leftCols(9), eps_acceleration);
+  Om_mean_rate = Om_rate + accelerations_of_rigid_.segment<3>(6);
+  pi = body.rigid * nu + rates_of_rigid_.head<6>() + UGeps * Om_0;
+  pi_rate = body.rigid * nu_rate + accelerations_of_rigid_.head<6>() + UGeps * Om_rate;
+  const Vector3 accelerations = Geps().transpose() * eps_acceleration;
   for (int k = 0; k < 3; ++k) {
-    double moment = s.dot(Geps.col(k));
-    double moment_rate = s_rate.dot(Geps.col(k)) + s.dot(Geps_rate.col(k));
+    const Vector6 UG_rate = -rates_of_rigid_.segment<6>(9 + 6 * k);  // U^T G_k epsdot
+    pi_rate += Om_0[k] * UG_rate;
+    // s.G_k eps and its rate; epsdot.G_k epsdot = 0
+    double moment = nu.dot(UGeps.col(k)) + rate_forms_[first_G + k];
+    double moment_rate = nu_rate.dot(UGeps.col(k)) + accelerations[k] + nu.dot(UG_rate);
     for (int l = 0; l < 3; ++l) {
-      const auto Heps_kl = Heps.col(pair_index(k, l));
-      r -= (Om_0[k] * Om_0[l]) * Heps_kl;
-      const double eps_H_eps = eps.dot(Heps_kl);
-      moment += Om_0[l] * eps_H_eps;
-      moment_rate += Om_rate[l] * eps_H_eps + 2 * Om_0[l] * eps_rate.dot(Heps_kl);
+      const int i = 1 + pair_index(k, l);
+      moment += Om_0[l] * eps_forms[i];
+      moment_rate += Om_rate[l] * eps_forms[i] + 2 * Om_0[l] * rate_forms_[i];
     }
     pi[3 + k] += moment;
     pi_rate[3 + k] += moment_rate;
   }
+  if (!body.stiffened_by_spin()) return;
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) kappa_rate(k, l) = 2 * rate_forms_[7 + pair_index(k, l)];
+  pi.tail<3>() -= kappa * Om_mean;
+  pi_rate.tail<3>() -= kappa_rate * Om_mean + kappa * Om_mean_rate;
+}
 
-  set_loads(body);
+void SuperelementMotion::set_forces(const SuperelementMatrices& body, const MatrixX& damping) {
+  const Eigen::Index n = eps_rate.size(), rows = body.interface_rows();
+  const Vector3 v_0 = nu.head<3>(), Om_0 = nu.tail<3>(), Om_rate = nu_rate.tail<3>();
+  set_momentum(body);
+
+  // M s' + G(Om_0) (epsdot + s)
+  four_.resize(4 * n);
+  four_.head(n) = eps_acceleration;
+  four_.head(rows).noalias() += body.U.topRows(rows) * nu_rate;
+  for (int k = 0; k < 3; ++k) four_.segment((k + 1) * n, n) = Om_0[k] * (eps_rate + s);
+  r.setZero(n);
+  add_product(r, body.in_a_row, four_);
+  // (K - H(Om_0) + K_sigma(Om_m) + G(Om_0')) eps
+  weights_.resize(products.cols());
+  weights_[0] = 1;
+  for (int k = 0; k < 3; ++k)
+    for (int l = k; l < 3; ++l) {
+      const int i = pair_index(k, l);
+      const double twice = k == l ? 1 : 2;
+      weights_[1 + i] = -twice * Om_0[k] * Om_0[l];
+      if (body.stiffened_by_spin()) weights_[7 + i] = twice * Om_mean[k] * Om_mean[l];
+    }
+  weights_.tail<3>() = Om_rate;
+  add_product(r, products, weights_);
+  add_product(r, damping, eps_rate);
+  if (body.stiffened_by_spin())
+    r.noalias() -= body.mean_turning.transpose() * (kappa_rate * Om_mean + kappa * Om_mean_rate);
   r -= load;
 
   e = pi_rate - rigid_load;
@@ -144,25 +177,10 @@ void SuperelementMotion::set_forces(const SuperelementMatrices& body, const Matr
   set_node_force(body);
 }
 
-void SuperelementMotion::add_spin_momentum(const SuperelementMatrices& body) {
-  const VectorX& eps = coordinates.eps();
-  Om_mean.noalias() = body.mean_turning * s;
-  Om_mean_rate.noalias() = body.mean_turning * s_rate;
-  spin_force.setZero(eps.size(), 3);
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l) {
-      const auto column = spin_eps.col(pair_index(k, l));
-      spin_force.col(k) += Om_mean[l] * column;
-      kappa(k, l) = eps.dot(column);
-      kappa_rate(k, l) = 2 * eps_rate.dot(column);
-    }
-  p.noalias() -= body.mean_turning.transpose() * (kappa * Om_mean);
-  p_rate.noalias() -= body.mean_turning.transpose() * (kappa_rate * Om_mean + kappa * Om_mean_rate);
-}
-
 void SuperelementMotion::set_loads(const SuperelementMatrices& body) {
   load.setZero(coordinates.eps().size());
   rigid_load.setZero();
+  if (loads.empty()) return;
   for (const ActingLoad& acting : loads)
     for (int k = 0; k < 3; ++k) {
       const Vector3 direction = load_direction(acting, geometry.frame.R, k);
@@ -175,10 +193,11 @@ void SuperelementMotion::set_loads(const SuperelementMatrices& body) {
 }
 
 void SuperelementMotion::set_node_force(const SuperelementMatrices& body) {
+  const Eigen::Index rows = body.interface_rows();
   phi = r;
   coordinates.multiply_transposed(phi);
   Vector6 rest = e;
-  rest.noalias() -= geometry.V.transpose() * phi;
+  rest.noalias() -= geometry.V.topRows(rows).transpose() * phi.head(rows);
   force = phi;
   force.noalias() += geometry.Sigma.transpose() * rest;
   node_force = force;
@@ -187,12 +206,22 @@ void SuperelementMotion::set_node_force(const SuperelementMatrices& body) {
       node_force.segment<3>(theta) = geometry.D[k].transpose() * force.segment<3>(theta);
 }
 
-double SuperelementMotion::kinetic_energy(const SuperelementMatrices& body) const {
+double SuperelementMotion::kinetic_energy(const SuperelementMatrices& body) {
   const Vector3 Om_0 = nu.tail<3>();
-  double energy = 0.5 * s.dot(s_products.tail(s.size())) + s.dot(Geps * Om_0);
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l) energy += 0.5 * Om_0[k] * Om_0[l] * coordinates.eps().dot(Heps.col(pair_index(k, l)));
+  entries_.setZero(s.size());
+  add_product(entries_, body.M, s);
+  double energy = 0.5 * s.dot(entries_);
+  for (int k = 0; k < 3; ++k) {
+    energy += Om_0[k] * (nu.dot(UGeps.col(k)) + rate_forms_[products.cols() - 3 + k]);
+    for (int l = 0; l < 3; ++l) energy += 0.5 * Om_0[k] * Om_0[l] * eps_forms[1 + pair_index(k, l)];
+  }
   return body.stiffened_by_spin() ? energy - 0.5 * Om_mean.dot(kappa * Om_mean) : energy;
+}
+
+double SuperelementMotion::dissipation(const MatrixX& damping) {
+  entries_.setZero(eps_rate.size());
+  add_product(entries_, damping, eps_rate);
+  return eps_rate.dot(entries_);
 }
 
 }  // namespace bielle::mechanism

@@ -34,42 +34,64 @@ struct ActingLoad {
 
 /// Working memory of one body, kept from one evaluation to the next: only the first one allocates memory.
 struct SuperelementMotion {
+  using Columns = Eigen::Map<const MatrixX>;
+
   CorotatedGeometry geometry;
+  LinearCoordinates coordinates;
   VectorX w, w_rel, a, a_rel;  ///< node triads in body axes
   Vector6 nu, nu_rate;         ///< nu_0 and nu_0'
-  LinearCoordinates coordinates;
-  VectorX eps_rate, eps_acceleration, s, s_rate;
-  MatrixX rate_gradient;          ///< G(epsdot)^T (n, prestress rows)
-  MatrixX3 Geps, Gs, Geps_rate;   ///< columns k: G_k eps, ...
-  MatrixX6 Heps;                  ///< columns: H_kl eps
+  VectorX eps_rate, eps_acceleration, s;
   Vector3 Om_mean, Om_mean_rate;  ///< Om_m and its rate
   Matrix3 kappa, kappa_rate;
-  MatrixX6 spin_eps;                 ///< columns: K_sigma,kl eps
-  MatrixX3 spin_force;               ///< column k: Om_m,l K_sigma,kl eps
-  VectorX eps_products, s_products;  ///< products of the stacked matrices with eps; G_1 .. G_3 and M with s
-  VectorX p, p_rate;
   Vector6 pi, pi_rate, e;
-  VectorX r, load, elastic_force, phi, force, node_force;
+  VectorX r, load, phi, force, node_force;
   Vector6 rigid_load;  ///< U^T f + [0; m]
   std::vector<ActingLoad> loads;
   VectorX attached_force;   ///< force on eps due to nodes attached to points (n); empty: there are none
   Vector6 attached_wrench;  ///< their force on the frame
 
-  /// Solves for the frame and the linear coordinates and computes the motion. @throws ComputationError
-  void set_motion(const SuperelementMatrices& body, const CorotatedFrame& frame, const LocalState& state);
-  /// Computes the forces of the motion. `loads` must be set.
+  /// Solves for the frame and the linear coordinates. @throws ComputationError
+  void set_positions(const SuperelementMatrices& body, const CorotatedFrame& frame, const LocalState& state);
+  /// Computes nu_0, w, epsdot and s, after set_positions.
+  void set_velocities(const SuperelementMatrices& body, const CorotatedFrame& frame, const LocalState& state);
+  /// Computes nu_0', a and eps'', after set_velocities.
+  void set_accelerations(const SuperelementMatrices& body, const CorotatedFrame& frame, const LocalState& state);
+  /// Computes the products of the body's matrices with eps, after set_positions.
+  void set_products(const SuperelementMatrices& body);
+  /// Computes the forces of the load patterns, after set_positions. `loads` must be set.
+  void set_loads(const SuperelementMatrices& body);
+  /// Computes Om_m, after set_velocities and set_products.
+  void set_mean_turning(const SuperelementMatrices& body);
+  /// Computes the forces of the motion, after everything above.
   /// @param damping  C~
   void set_forces(const SuperelementMatrices& body, const MatrixX& damping);
 
-  double kinetic_energy(const SuperelementMatrices& body) const;  ///< call it after set_forces
+  // Products of the matrices with eps: columns K eps; H_kl eps; K_sigma,kl eps; G_k eps.
+  Columns elastic_force() const { return columns(0, 1); }
+  Columns Heps() const { return columns(1, 6); }
+  Columns spin_eps() const { return columns(7, 6); }  ///< only if the body is stiffened by spin
+  Columns Geps() const { return columns(products.cols() - 3, 3); }
+
+  double elastic_energy() const { return 0.5 * eps_forms[0]; }  ///< [J], after set_products
+  double kinetic_energy(const SuperelementMatrices& body);      ///< [J], after set_mean_turning
+
+  double dissipation(const MatrixX& damping);  ///< epsdot.C~ epsdot [W], after set_velocities
+
+  MatrixX products;                   ///< the columns above (n, 10 or 16)
+  VectorX eps_forms;                  ///< eps times each of them
+  Eigen::Matrix<double, 6, 3> UGeps;  ///< columns: U^T G_k eps
 
  private:
-  void set_node_motion(const CorotatedFrame& frame, const LocalState& state);  ///< w .. nu_rate; qdot, qddot
-  void set_coordinates(const SuperelementMatrices& body);                      ///< eps and its derivatives
-  void set_products(const SuperelementMatrices& body);  ///< s and its rate; products of G and H with eps, s, eps_rate
-  void add_spin_momentum(const SuperelementMatrices& body);  ///< terms of K_sigma in p and its rate
-  void set_loads(const SuperelementMatrices& body);          ///< load, rigid_load
-  void set_node_force(const SuperelementMatrices& body);     ///< phi, force, node_force from r and e
+  Columns columns(Eigen::Index first, Eigen::Index count) const {
+    return {products.data() + first * products.rows(), products.rows(), count};
+  }
+  void set_momentum(const SuperelementMatrices& body);    ///< pi and its rate
+  void set_node_force(const SuperelementMatrices& body);  ///< phi, force, node_force from r and e
+
+  VectorX rate_forms_;                                  ///< epsdot times each column of `products`
+  Eigen::Matrix<double, 27, 1> rates_of_rigid_;         ///< epsdot times each of the body's `rigid_columns`
+  Eigen::Matrix<double, 9, 1> accelerations_of_rigid_;  ///< eps'' times the first nine of them
+  VectorX four_, weights_, entries_;                    ///< buffers
 };
 
 /// Returns the direction of component k of a load in body axes.

@@ -8,6 +8,7 @@
 //                                                    # file's
 //         loads: {pressure: "1e5*t", wind: {factor: 2, follower: false}}}
 #include <filesystem>
+#include <optional>
 
 #include "mechanism/elements/superelement/shared_matrices.hpp"
 #include "mechanism/elements/superelement/superelement_reading.hpp"
@@ -19,13 +20,14 @@ namespace bielle::mechanism {
 void read_superelement_body(const std::string& name, const YamlValue& entry, Model& model) {
   check_superelement_keys(entry);
   const std::string path = entry.at("file").file_path();
-  if (holds_pieces(path)) return read_superelement_pieces(name, entry, path, model);
-  Superelement body;
+  std::optional<Superelement> whole;
   try {
-    body = read_superelement(path);
+    whole = read_whole_for_motion(path);
   } catch (const InputError& error) {
     entry.at("file").fail(error.what());
   }
+  if (!whole) return read_superelement_pieces(name, entry, path, model);
+  const Superelement& body = *whole;
   const Frame placement = read_frame(entry);
   SuperelementPlacement setup =
       place_superelement(read_interface_nodes(name, entry, body, placement, model), placement, model);

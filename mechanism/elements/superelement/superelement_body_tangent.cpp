@@ -31,13 +31,11 @@ void SuperelementTangent::add(const SuperelementMatrices& body, const MatrixX& d
          motion.geometry,
          state,
          body.size(),
-         motion.nu.head<3>(),
-         motion.nu.tail<3>(),
-         motion.nu_rate.tail<3>(),
+         Vector3::Zero(),
+         Vector3::Zero(),
+         Vector3::Zero(),
          Matrix6::Zero()};
-  v.ad << skew(v.Om), Matrix3::Zero(), skew(v.v_0), skew(v.Om);
-
-  set_rate_blocks(v);
+  set_rotation_blocks(v);
   set_mass_form(v);
   if (tangent.wants_M) {
     multiply_by_D(v, MQ_);
@@ -45,6 +43,12 @@ void SuperelementTangent::add(const SuperelementMatrices& body, const MatrixX& d
     add_to(v, tangent.M.dense());
   }
   if (!tangent.wants_C && !tangent.wants_K) return;
+  v.v_0 = motion.nu.head<3>();
+  v.Om = motion.nu.tail<3>();
+  v.Om_rate = motion.nu_rate.tail<3>();
+  v.ad << skew(v.Om), Matrix3::Zero(), skew(v.v_0), skew(v.Om);
+  set_rate_blocks(v);
+  set_products(v);
   set_coordinate_changes(v);
   set_rate_form(v);
   six_.setZero(v.n, 6);
@@ -116,14 +120,23 @@ void SuperelementTangent::add_points(const View& v, const std::vector<AttachedPo
   }
 }
 
+void SuperelementTangent::set_rotation_blocks(const View& v) {
+  const auto& points = v.body.points;
+  rotation_.resize(points.size());
+  Sigma_D_ = v.geometry.Sigma;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (const int theta = points[k].theta; theta >= 0) {
+      rotation_[k].D = v.geometry.D[k];
+      Sigma_D_.middleCols<3>(theta).noalias() = v.geometry.Sigma.middleCols<3>(theta) * rotation_[k].D;
+    }
+}
+
 void SuperelementTangent::set_rate_blocks(const View& v) {
   const auto& points = v.body.points;
   const SuperelementMotion& m = v.motion;
-  rotation_.resize(points.size());
   B_v_.setZero(v.n, 6);
   B_a_.setZero(v.n, 6);
   H_0_.setZero(v.n, 6);
-  Sigma_D_ = v.geometry.Sigma;
   Sigma_A_v_.setZero(6, v.n);
 
   const Matrix3 Om = skew(v.Om), squared = skew(v.Om_rate) - Om * Om;
@@ -147,7 +160,6 @@ void SuperelementTangent::set_rate_blocks(const View& v) {
     const Matrix3& E = v.geometry.E[k];
     const Vector3 r = m.w_rel.segment<3>(theta);
     RotationBlocks& block = rotation_[k];
-    block.D = v.geometry.D[k];
     block.Z = rotation.transpose_gradient(E, m.force.segment<3>(theta));
     // D' r depends on r through K_r and on E through the rate gradient.
     const Matrix3 D_gradient = rotation.gradient(E, r);
@@ -160,10 +172,29 @@ void SuperelementTangent::set_rate_blocks(const View& v) {
     B_v_.block<3, 3>(theta, 3) = -block.A_v;
     B_a_.block<3, 3>(theta, 3) = -block.A_a;
     H_0_.block<3, 3>(theta, 3) = block.D * turning - K_r;
-    const auto Sigma = v.geometry.Sigma.middleCols<3>(theta);
-    Sigma_D_.middleCols<3>(theta).noalias() = Sigma * block.D;
-    Sigma_A_v_.middleCols<3>(theta).noalias() = Sigma * block.A_v;
+    Sigma_A_v_.middleCols<3>(theta).noalias() = v.geometry.Sigma.middleCols<3>(theta) * block.A_v;
   }
+}
+
+/// Computes the products of the body's matrices that the residual does not need one by one.
+void SuperelementTangent::set_products(const View& v) {
+  const SuperelementMotion& m = v.motion;
+  const auto G = v.body.stacked.bottomRows(3 * v.n);
+  s_rate_ = m.eps_acceleration;
+  s_rate_.noalias() += v.body.U * m.nu_rate;
+  Geps_rate_.setZero(v.n, 3);
+  add_product(Eigen::Map<VectorX>(Geps_rate_.data(), 3 * v.n), G, m.eps_rate);
+  Gs_ = Geps_rate_;
+  for (int k = 0; k < 3; ++k) Gs_.col(k).noalias() += v.body.GU[static_cast<std::size_t>(k)] * m.nu;
+  Gs_rate_.setZero(v.n, 3);
+  add_product(Eigen::Map<VectorX>(Gs_rate_.data(), 3 * v.n), G, s_rate_);
+  Heps_rate_.setZero(v.n, 6);
+  add_product(Eigen::Map<VectorX>(Heps_rate_.data(), 6 * v.n), v.body.stacked.middleRows(v.n, 6 * v.n), m.eps_rate);
+  if (!v.body.stiffened_by_spin()) return;
+  const auto spin_eps = m.spin_eps();
+  spin_force_.setZero(v.n, 3);
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) spin_force_.col(k) += m.Om_mean[l] * spin_eps.col(pair_index(k, l));
 }
 
 /// X <- X J
@@ -220,7 +251,7 @@ void SuperelementTangent::add_spin_to_mass_form(const View& v) {
 
 void SuperelementTangent::add_spin_to_rate_form(const View& v, Matrix6& X_nn) {
   const auto& Lambda = v.body.mean_turning;
-  const MatrixX3& Phi = v.motion.spin_force;
+  const MatrixX3& Phi = spin_force_;
   // dp' = -Lambda^T (kappa' Lambda ds + 2 Phi^T depsdot), d(K_sigma(Om_m) eps) = 2 Phi Lambda ds
   turning_.noalias() = -v.motion.kappa_rate * Lambda;
   X_nn.bottomRightCorner<3, 3>() -= v.motion.kappa_rate;
@@ -234,30 +265,29 @@ void SuperelementTangent::add_spin_to_rate_form(const View& v, Matrix6& X_nn) {
 /// Adds to KQ_ and K_nq_, and to d pi / d eps in rows_.
 void SuperelementTangent::add_spin_to_position_form(const View& v) {
   const SuperelementMotion& m = v.motion;
+  const auto spin_eps = m.spin_eps();
+  left_.setZero(v.n, 6);  // K_sigma,kl epsdot
+  add_product(Eigen::Map<VectorX>(left_.data(), 6 * v.n), v.body.stacked.middleRows(7 * v.n, 6 * v.n), m.eps_rate);
   turning_.setZero(3, v.n);  // Om_m,l K_sigma,kl epsdot + Om_m,l' K_sigma,kl eps
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 3; ++l) {
       const int i = pair_index(k, l);
-      turning_.row(k).noalias() += m.Om_mean[l] * (v.body.spin[static_cast<std::size_t>(i)] * m.eps_rate).transpose();
-      turning_.row(k) += m.Om_mean_rate[l] * m.spin_eps.col(i).transpose();
+      turning_.row(k) += (m.Om_mean[l] * left_.col(i) + m.Om_mean_rate[l] * spin_eps.col(i)).transpose();
     }
-  rows_.bottomRows<3>() -= 2 * m.spin_force.transpose();
+  rows_.bottomRows<3>() -= 2 * spin_force_.transpose();
   K_nq_.bottomRows<3>() -= 2 * turning_;
   add_transposed_product(KQ_, v.body.mean_turning, turning_, -2);
 }
 
 void SuperelementTangent::set_mass_form(const View& v) {
   const SuperelementMotion& m = v.motion;
-  Eigen::Matrix<double, 6, 3> UG = Eigen::Matrix<double, 6, 3>::Zero();
-  add_transposed_product(UG, v.body.U, m.Geps);
-  M_nn_.setZero();
-  add_transposed_product(M_nn_, v.body.U, v.body.MU);
-  M_nn_.rightCols<3>() += UG;
-  M_nn_.bottomRows<3>() += UG.transpose();
+  M_nn_ = v.body.rigid;
+  M_nn_.rightCols<3>() += m.UGeps;
+  M_nn_.bottomRows<3>() += m.UGeps.transpose();
   for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l) M_nn_(3 + k, 3 + l) += v.eps.dot(m.Heps.col(pair_index(k, l)));
+    for (int l = 0; l < 3; ++l) M_nn_(3 + k, 3 + l) += m.eps_forms[1 + pair_index(k, l)];
   M_nq_ = v.body.MU.transpose();
-  M_nq_.bottomRows<3>() += m.Geps.transpose();
+  M_nq_.bottomRows<3>() += m.Geps().transpose();
   MQ_ = v.body.M;
   if (v.body.stiffened_by_spin()) add_spin_to_mass_form(v);
   M_qq_ = MQ_;
@@ -271,10 +301,10 @@ void SuperelementTangent::set_coordinate_changes(const View& v) {
   rate_change_.resize(b, v.n);
   acceleration_change_.resize(b, v.n);
   if (b == 0) return;
-  v.motion.coordinates.multiply_gradient(v.motion.rate_gradient, rate_change_);
-  acceleration_gradient_.resize(v.n, b);
-  v.body.multiply_load_stiffness(v.motion.eps_acceleration, acceleration_gradient_);
-  v.motion.coordinates.multiply_gradient(acceleration_gradient_, acceleration_change_);
+  v.body.multiply_load_stiffness(v.motion.eps_rate, gradient_);
+  v.motion.coordinates.multiply_gradient(gradient_, rate_change_);
+  v.body.multiply_load_stiffness(v.motion.eps_acceleration, gradient_);
+  v.motion.coordinates.multiply_gradient(gradient_, acceleration_change_);
 }
 
 /// Adds the terms due to the change of J to the forms of the rates (CQ_, more_rows_) and of the coordinates (KQ_,
@@ -302,17 +332,18 @@ void SuperelementTangent::set_rate_form(const View& v) {
   six_.setZero(v.n, 6);
   more_rows_.noalias() = v.ad * M_nq_;
   Matrix6 X_nn = v.ad * M_nn_;
+  const auto all_Heps = m.Heps();
   for (int k = 0; k < 3; ++k) {
     const auto index = static_cast<std::size_t>(k);
     six_ += v.Om[k] * v.body.GU[index];
-    six_.col(3 + k) += m.Geps_rate.col(k) + m.Gs.col(k);
+    six_.col(3 + k) += Geps_rate_.col(k) + Gs_.col(k);
     more_rows_ -= v.Om[k] * v.body.GU[index].transpose();
-    more_rows_.row(3 + k) += (m.Geps_rate.col(k) - m.Gs.col(k)).transpose();
-    const Vector6 UG_rate = v.body.U.transpose() * m.Geps_rate.col(k);
+    more_rows_.row(3 + k) += (Geps_rate_.col(k) - Gs_.col(k)).transpose();
+    const Vector6 UG_rate = v.body.U.transpose() * Geps_rate_.col(k);
     X_nn.col(3 + k) += UG_rate;
     X_nn.row(3 + k) += UG_rate.transpose();
     for (int l = 0; l < 3; ++l) {
-      const auto Heps = m.Heps.col(pair_index(k, l));
+      const auto Heps = all_Heps.col(pair_index(k, l));
       six_.col(3 + k) -= (2 * v.Om[l]) * Heps;
       more_rows_.row(3 + k) += (2 * v.Om[l]) * Heps.transpose();
       X_nn(3 + k, 3 + l) += 2 * m.eps_rate.dot(Heps);
@@ -364,10 +395,7 @@ void SuperelementTangent::add_stiffnesses(const View& v) {
 /// K_nq_ += d(pi' + ad pi)/d eps
 void SuperelementTangent::add_momentum_changes(const View& v) {
   const SuperelementMotion& m = v.motion;
-  Gs_rate_.resize(v.n, 3);
-  Heps_rate_.resize(v.n, 6);
-  for (int k = 0; k < 3; ++k) Gs_rate_.col(k).noalias() = v.body.G[static_cast<std::size_t>(k)] * m.s_rate;
-  for (int i = 0; i < 6; ++i) Heps_rate_.col(i).noalias() = v.body.H[static_cast<std::size_t>(i)] * m.eps_rate;
+  const auto Heps = m.Heps();
   rows_.setZero(6, v.n);  // d pi / d eps
   for (int k = 0; k < 3; ++k) {
     const MatrixX6& GU = v.body.GU[static_cast<std::size_t>(k)];
@@ -375,12 +403,12 @@ void SuperelementTangent::add_momentum_changes(const View& v) {
     K_nq_ -= v.Om_rate[k] * GU.transpose();
   }
   for (int k = 0; k < 3; ++k) {
-    rows_.row(3 + k) -= m.Gs.col(k).transpose();
+    rows_.row(3 + k) -= Gs_.col(k).transpose();
     K_nq_.row(3 + k) -= Gs_rate_.col(k).transpose();
     for (int l = 0; l < 3; ++l) {
       const int i = pair_index(k, l);
-      rows_.row(3 + k) += (2 * v.Om[l]) * m.Heps.col(i).transpose();
-      K_nq_.row(3 + k) += 2 * (v.Om_rate[l] * m.Heps.col(i) + v.Om[l] * Heps_rate_.col(i)).transpose();
+      rows_.row(3 + k) += (2 * v.Om[l]) * Heps.col(i).transpose();
+      K_nq_.row(3 + k) += 2 * (v.Om_rate[l] * Heps.col(i) + v.Om[l] * Heps_rate_.col(i)).transpose();
     }
   }
   if (v.body.stiffened_by_spin()) add_spin_to_position_form(v);

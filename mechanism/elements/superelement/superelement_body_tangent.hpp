@@ -32,7 +32,7 @@ namespace bielle::mechanism {
 class SuperelementTangent {
  public:
   /// @param damping  C~
-  /// @param motion   motion with its forces set
+  /// @param motion   motion with its forces set; with its products, if the tangent wants M alone
   void add(const SuperelementMatrices& body, const MatrixX& damping, SuperelementMotion& motion,
            const LocalState& state, const std::vector<AttachedPoint>& points, LocalTangent& tangent);
 
@@ -41,7 +41,9 @@ class SuperelementTangent {
     Matrix3 D, A_v, A_a, H_w, Z;
   };
   struct View;  // arguments of the functions below
+  void set_rotation_blocks(const View& v);
   void set_rate_blocks(const View& v);
+  void set_products(const View& v);
   void set_mass_form(const View& v);
   void add_spin_to_mass_form(const View& v);
   void add_spin_to_rate_form(const View& v, Matrix6& X_nn);
@@ -73,7 +75,7 @@ class SuperelementTangent {
   Matrix6X M_nq_;                              // d pi / d epsdot
   Matrix6X K_nq_;                              // d e / d eps
   MatrixX rate_change_, acceleration_change_;  // nonzero rows of J G(epsdot), J G(eps'')
-  MatrixX acceleration_gradient_;
+  PrestressGradient gradient_;                 // G(epsdot)^T, then G(eps'')^T
   Matrix6X six_left_, point_rows_, frame_motion_, node_motion_, shape_motion_;
   MatrixX6 six_top_;
   MatrixX3 three_top_;
@@ -82,7 +84,9 @@ class SuperelementTangent {
   MatrixX MQ_, CQ_, KQ_, result_;
   MatrixX6 six_, left_;
   Matrix6X rows_, more_rows_;
-  MatrixX3 three_, Gs_rate_;
+  VectorX s_rate_;
+  MatrixX3 three_, Gs_, Gs_rate_, Geps_rate_;  // columns: G_k s, G_k s', G_k epsdot
+  MatrixX3 spin_force_;                        // column k: Om_m,l K_sigma,kl eps
   MatrixX6 Heps_rate_;
   Matrix3X Y_, turning_;
 };

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/files/byte_sum.hpp"
 #include "reduce/common/files/hdf5_handle.hpp"
 #include "reduce/common/process/child_process.hpp"
 
@@ -141,38 +142,47 @@ void walk(const std::string& path) {
   if (!found.damaged.empty()) throw InputError(fmt::format("{}: is damaged: {}", path, found.damaged));
 }
 
-}  // namespace
+/// Findings about a file that was checked.
+struct Finding {
+  std::string fault;        ///< empty if there is none
+  bool as_written = false;  ///< it ends with the sum of its bytes
+};
 
-void check_sound(const std::string& path) {
-  static std::mutex guard;
-  static std::map<Identity, std::string> faults;  // faults of the files that were checked; "" if there is none
-  const Identity identity = identity_of(path);
-  const auto known = [&]() -> std::optional<std::string> {
-    const std::lock_guard lock(guard);
-    const auto found = faults.find(identity);
-    if (found == faults.end()) return {};
-    return found->second;
-  };
-  const auto learn = [&](const std::string& fault) {
-    const std::lock_guard lock(guard);
-    faults[identity] = fault;
-  };
-  if (const std::optional<std::string> fault = known()) {
-    if (!fault->empty()) throw InputError(*fault);
-    return;
-  }
+Finding check(const std::string& path, std::int64_t size) {
+  if (has_own_byte_sum(path)) return {"", true};
   try {
     in_child_process(fmt::format("{}: is damaged: the HDF5 library crashes on it", path),
-                     limits_of_a_walk(static_cast<std::uint64_t>(identity[2])), [&] {
+                     limits_of_a_walk(static_cast<std::uint64_t>(size)), [&] {
                        walk(path);
                        return std::string();
                      });
   } catch (const InputError& error) {
-    learn(error.what());
-    throw;
+    return {error.what(), false};
   }
-  learn("");
+  return {};
 }
+
+/// A file is checked once until it is written again.
+Finding finding_about(const std::string& path) {
+  static std::mutex guard;
+  static std::map<Identity, Finding> findings;
+  const Identity identity = identity_of(path);
+  {
+    const std::lock_guard lock(guard);
+    if (const auto found = findings.find(identity); found != findings.end()) return found->second;
+  }
+  Finding finding = check(path, identity[2]);
+  const std::lock_guard lock(guard);
+  return findings[identity] = std::move(finding);
+}
+
+}  // namespace
+
+void check_sound(const std::string& path) {
+  if (const Finding finding = finding_about(path); !finding.fault.empty()) throw InputError(finding.fault);
+}
+
+bool is_as_written(const std::string& path) { return finding_about(path).as_written; }
 
 std::string root_text_attribute(const std::string& path, const std::string& name) {
   std::error_code none;

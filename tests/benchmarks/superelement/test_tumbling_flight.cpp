@@ -56,7 +56,12 @@ Integrals integrals_of(const ReadyModel& model, const State& state) {
   const auto& body = dynamic_cast<const SuperelementBody&>(*model.file.model.members()[0].component);
   const LocalState local(state, model.system.slots()[0], model.environment());
   SuperelementMotion motion;
-  motion.set_motion(body.matrices(), body.frame(), local);
+  motion.set_positions(body.matrices(), body.frame(), local);
+  motion.set_velocities(body.matrices(), body.frame(), local);
+  motion.set_accelerations(body.matrices(), body.frame(), local);
+  motion.set_products(body.matrices());
+  motion.set_mean_turning(body.matrices());
+  motion.set_loads(body.matrices());
   motion.set_forces(body.matrices(), body.matrices().C);
   const Frame& frame = motion.geometry.frame;
   const Vector3 P = frame.R * motion.pi.head<3>();

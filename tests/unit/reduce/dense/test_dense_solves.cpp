@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/dense/dense_solves.hpp"
+#include "reduce/dense/small_lu.hpp"
 #include "reduce/dense/symmetric_factors.hpp"
 
 using namespace bielle;
@@ -39,6 +40,33 @@ TEST_CASE("dense solves: LU with row exchanges", "[common]") {
     CHECK(factors.sign() == (A.determinant() < 0 ? -1 : 1));
     CHECK(std::abs(factors.pivots().prod()) == Approx(std::abs(A.determinant())));
   }
+}
+
+TEST_CASE("dense solves: LU of few rows", "[common]") {
+  SmallLU factors;
+  for (const Eigen::Index n : {1, 2, 7, 12, 40, 3}) {
+    CAPTURE(n);
+    const MatrixXd A = general_matrix(n), B = MatrixXd::Random(n, 5);
+    factors.compute(A);
+    CHECK(factors.determinant() == Approx(A.determinant()));
+    Eigen::VectorXd x = B.col(0);
+    factors.solve(x);
+    CHECK((A * x - B.col(0)).norm() < 1e-12 * B.norm());
+    x = B.col(1);
+    factors.solve_transposed(x);
+    CHECK((A.transpose() * x - B.col(1)).norm() < 1e-12 * B.norm());
+    MatrixXd X = B;
+    factors.solve_columns(X);
+    CHECK((A * X - B).norm() < 1e-12 * B.norm());
+  }
+  MatrixXd singular = general_matrix(5);
+  singular.col(2) = 2 * singular.col(0);
+  factors.compute(singular);
+  CHECK_FALSE(factors.determinant() > 1e-10);
+  factors.compute(MatrixXd::Zero(3, 3));
+  CHECK_FALSE(factors.determinant() > 0);
+  factors.compute(MatrixXd::Constant(3, 3, std::numeric_limits<double>::quiet_NaN()));
+  CHECK_FALSE(factors.determinant() > 0);
 }
 
 TEST_CASE("dense solves: symmetric matrices, definite or not", "[common]") {

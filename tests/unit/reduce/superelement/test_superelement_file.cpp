@@ -13,6 +13,7 @@
 #include "reduce/common/files/hdf5_file.hpp"
 #include "reduce/superelement/named_points.hpp"
 #include "reduce/superelement/superelement.hpp"
+#include "reduce/superelement/superelement_file.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -254,6 +255,32 @@ TEST_CASE("A file that is missing, damaged or something else is refused with the
         folder / "cut.h5", static_cast<std::uintmax_t>(part * static_cast<double>(std::filesystem::file_size(path))));
     CHECK_THAT(why(folder / "cut.h5"), Contains("truncated, damaged"));
   }
+}
+
+TEST_CASE("The parts for a motion are read alone if the bytes are as written, otherwise with all checks") {
+  const TemporaryFolder folder;
+  const Superelement a = sample();
+  const std::string path = written(folder, a);
+  const Superelement b = read_parts_of_motion(Hdf5File::open(path));
+  CHECK(b.stiffness == a.stiffness);
+  CHECK(b.load_stiffness == a.load_stiffness);
+  CHECK(b.inertia_components == a.inertia_components);
+  CHECK(b.frequencies == a.frequencies);
+  CHECK(b.loads.size() == a.loads.size());
+  CHECK(b.interfaces.size() == a.interfaces.size());
+  CHECK(b.total_mass == a.total_mass);
+  CHECK(b.displacement_recovery.size() == 0);
+  CHECK(b.mesh.points.size() == 0);
+
+  // a number of the recovery, which these parts do not contain
+  Hdf5File::open_to_extend(path).write_attribute("/", "name", a.name);
+  CHECK(read_parts_of_motion(Hdf5File::open(path)).displacement_recovery == a.displacement_recovery);
+  {
+    Hdf5File file = Hdf5File::open_to_extend(path);
+    replace(file, "/recovery/displacement", 2 * a.displacement_recovery);
+  }
+  CHECK_THAT(message_of<InputError>([&] { read_parts_of_motion(Hdf5File::open(path)); }),
+             Contains("its numbers are not those that were written"));
 }
 
 TEST_CASE("An incomplete file or one of another version is refused with what to do") {
