@@ -1,6 +1,14 @@
 #include "mechanism/analyses/newton_reader.hpp"
 
 namespace bielle::mechanism {
+namespace {
+
+Tangent read_tangent(const YamlValue& entry) {
+  const std::string word = entry.word({"automatic", "reused", "renewed"}, "a way with the tangent");
+  return word == "automatic" ? Tangent::automatic : word == "reused" ? Tangent::reused : Tangent::renewed;
+}
+
+}  // namespace
 
 NewtonOptions read_newton(const YamlValue& analysis, bool dynamic) {
   NewtonOptions options;
@@ -15,8 +23,7 @@ NewtonOptions read_newton(const YamlValue& analysis, bool dynamic) {
   if (entry->has("iterations")) options.iterations = entry->at("iterations").integer();
   if (options.iterations < 2) entry->at("iterations").fail("expected at least 2");
   if (entry->has("line_search")) options.line_search = entry->at("line_search").boolean();
-  if (entry->has("tangent"))
-    options.reuse_tangent = entry->at("tangent").word({"reused", "renewed"}, "a way with the tangent") == "reused";
+  if (entry->has("tangent")) options.tangent = read_tangent(entry->at("tangent"));
   return options;
 }
 

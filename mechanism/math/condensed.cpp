@@ -272,6 +272,17 @@ void CondensedLU::solve(Eigen::Ref<VectorX> b) const {
   }
 }
 
+FactorCost CondensedLU::cost() const {
+  if (!condensed_) return whole_.cost();
+  FactorCost cost = rest_.cost();
+  for (const Block& block : blocks_) {
+    const auto m = static_cast<double>(block.below.cols()), n = static_cast<double>(block.below.rows());
+    cost.dense_operations += 2 * m * (m * m / 3 + m * n + n * n);
+    cost.dense_entries += m * (m + 2 * n);
+  }
+  return cost;
+}
+
 int CondensedLU::singular_column() const { return condensed_ ? -1 : whole_.singular_column(); }
 
 int CondensedLU::determinant_sign() const {

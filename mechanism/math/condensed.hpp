@@ -76,6 +76,7 @@ class CondensedLU {
   int singular_column() const;
   int determinant_sign() const;
   double reciprocal_condition() const;
+  FactorCost cost() const;  ///< cost of the last successful factorisation
   /// Whether the blocks are condensed in the last factors.
   bool condensed() const { return condensed_; }
 

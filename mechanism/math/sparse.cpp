@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -101,12 +102,14 @@ struct SparseLU::Factors {
   std::vector<double> scaled;     ///< R D A D, with R of the last choice of pivots
   VectorX row_size, left, right;  ///< 1/R, R D, D
   double trusted_pivots = 0;      ///< reciprocal condition number when element growth was last found harmless
+  std::optional<FactorCost> known_cost;  ///< cost with these pivots
   Factors() = default;
   Factors(const Factors&) = delete;
   Factors& operator=(const Factors&) = delete;
   ~Factors() { drop_numeric(); }
   void drop_numeric() {
     if (numeric) klu_free_numeric(&numeric, &common);
+    known_cost.reset();
   }
   /// Factorises `scaled` with the ordering; false if the matrix is singular, or the limit of entries is exceeded.
   bool factorise(const SparsePattern& pattern) {
@@ -124,8 +127,11 @@ struct SparseLU::Factors {
   }
   bool gave_up() const { return common.status == KLU_TOO_LARGE; }
   FactorCost cost() {
-    klu_flops(symbolic, numeric, &common);
-    return {common.flops, static_cast<double>(numeric->lnz) + static_cast<double>(numeric->unz)};
+    if (!known_cost) {
+      klu_flops(symbolic, numeric, &common);
+      known_cost = {common.flops, static_cast<double>(numeric->lnz) + static_cast<double>(numeric->unz)};
+    }
+    return *known_cost;
   }
 };
 
@@ -219,6 +225,7 @@ void SparseLU::try_minimum_degree() {
   if (!better) return;
   std::swap(f.symbolic, other.symbolic);
   std::swap(f.numeric, other.numeric);
+  std::swap(f.known_cost, other.known_cost);
   f.room = 2 * known.entries;  // pivots of later matrices may leave the diagonal
 }
 

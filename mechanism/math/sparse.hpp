@@ -53,8 +53,10 @@ enum class FactorStatus { good, singular };
 
 /// Cost of a factorisation.
 struct FactorCost {
-  double operations = 0;  ///< operations of one factorisation with known pivots
-  double entries = 0;     ///< number of entries of both factors
+  double operations = 0;        ///< operations of one sparse factorisation with known pivots
+  double entries = 0;           ///< number of entries of both sparse factors
+  double dense_operations = 0;  ///< operations that condense dense blocks
+  double dense_entries = 0;     ///< number of entries of the factors of these blocks and of what couples them
 };
 
 /// LU factors of a sparse unsymmetric matrix (KLU with partial pivoting).

@@ -18,6 +18,7 @@ constexpr double least_saving = 4000;
 void SharedWork::complete() {
   is_costly_.assign(acting_.size(), false);
   costly_.clear();
+  evaluation_size_ = {};
   double all = 0, most = 0;
   const auto cost = [&](std::size_t member) {
     const double rows = unknowns_.slots()[member].size();
@@ -26,6 +27,10 @@ void SharedWork::complete() {
   for (std::size_t m = 0; m < acting_.size(); ++m) {
     if (!acting_[m].acts) continue;
     all += cost(m);
+    if (acting_[m].in_blocks)
+      evaluation_size_.block_rows += unknowns_.slots()[m].size();
+    else
+      evaluation_size_.dense_entries += cost(m);
     // Blocks that are added in place have no buffer of their own.
     if (acting_[m].in_blocks || unknowns_.slots()[m].own_size() < least_rows) continue;
     is_costly_[m] = true;

@@ -17,6 +17,12 @@
 
 namespace bielle::mechanism {
 
+/// Size of the local equations of a model's members: what an evaluation costs is in proportion to it.
+struct EvaluationSize {
+  double block_rows = 0;     ///< local rows of the members that write blocks (Declaration::in_blocks)
+  double dense_entries = 0;  ///< entries of the local matrices of the other members
+};
+
 class SharedWork {
  public:
   /// The object keeps a reference.
@@ -31,6 +37,7 @@ class SharedWork {
   void use_threads(int threads) { workers_ = std::make_unique<Workers>(threads); }
   Workers& workers() const { return *workers_; }
 
+  const EvaluationSize& evaluation_size() const { return evaluation_size_; }
   /// Members that are pieces of work, the most costly first; members of equal cost are in the order of the model.
   const std::vector<std::size_t>& costly() const { return costly_; }
   bool is_costly(std::size_t member) const { return is_costly_[member]; }
@@ -83,6 +90,7 @@ class SharedWork {
   std::vector<bool> is_costly_;
   std::vector<std::size_t> costly_;
   std::vector<int> row_begin_;
+  EvaluationSize evaluation_size_;
   bool worthwhile_ = false;  ///< waking the other threads takes less time than they save
   std::unique_ptr<Workers> workers_ = std::make_unique<Workers>();
 };

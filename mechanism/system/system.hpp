@@ -28,6 +28,7 @@ class System {
   /// Results are the same for any number of threads.
   void use_threads(int threads) { work_.use_threads(threads); }
   Workers& workers() const { return work_.workers(); }
+  const EvaluationSize& evaluation_size() const { return work_.evaluation_size(); }
 
   const Model& model() const { return model_; }
   const NodeKinematics& kinematics() const { return kinematics_; }

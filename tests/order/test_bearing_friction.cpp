@@ -72,7 +72,7 @@ TEST_CASE("friction on a bearing's reaction is of order 2 in the three forms, in
   bielle::test::check_forms_of_order_two(
       {"x", "v", "lambda"}, 8e-3, [&](const bielle::test::FormCase& form, double h) -> std::vector<double> {
         NewtonOptions options;
-        options.reuse_tangent = false;
+        options.tangent = Tangent::renewed;
         TimeIntegration integration(model.system, model.environment(), form.scheme, model.system.start(0), form.form,
                                     options);
         integration.start(h);

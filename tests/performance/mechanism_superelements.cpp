@@ -77,7 +77,7 @@ struct Run {
 
 Run integrate(const MechanismFile& file, const System& system, bool reuse) {
   NewtonOptions newton;
-  newton.reuse_tangent = reuse;
+  newton.tangent = reuse ? Tangent::reused : Tangent::renewed;
   TimeIntegration integration(system, file.model.environment, Scheme::generalized_alpha(0.8), system.start(0),
                               ConstraintForm::corrected, newton);
   integration.start(step);

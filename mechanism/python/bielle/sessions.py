@@ -110,7 +110,8 @@ class Session:
         scheme: "generalized_alpha" (rho), "hht" (alpha) or "newmark". constraints: "corrected", "position",
         "stabilized".
         start: "as_given", "equilibrium", or {"equilibrium": True, "hold": ["shaft"]}, which holds coordinates of joints
-        while the rest moves to equilibrium. newton: {"tolerance": ..., "tangent": "reused" or "renewed", ...}.
+        while the rest moves to equilibrium. newton: {"tolerance": ..., "tangent": "automatic", "reused" or "renewed",
+        ...}.
         saved: a result of `save` in a motion of this model, which the motion continues to the last bit.
         """
         keys = _given(type="dynamic", duration=duration, step=step, tolerance=tolerance, largest_step=largest_step,

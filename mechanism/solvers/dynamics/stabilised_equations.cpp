@@ -175,6 +175,11 @@ const VectorX& StabilisedEquations::judged(const VectorX& r, double h) {
   return judged_;
 }
 
+StepCosts StabilisedEquations::costs() const {
+  constexpr int tangents = 4;  // those of `factor`
+  return count_costs(system_, size(), tangents, factors_.cost());
+}
+
 void StabilisedEquations::choose_pivots_anew() {
   StepEquations::choose_pivots_anew();
   factors_.forget();

@@ -34,6 +34,7 @@ class StabilisedEquations final : public StepEquations {
   void follow(SchemeStep& step) const override { step.follow(&eta_); }
   /// The rates of constraints are judged by their effect on the constraints within a step.
   const VectorX& judged(const VectorX& r, double h) override;
+  StepCosts costs() const override;
   void choose_pivots_anew() override;
 
  private:

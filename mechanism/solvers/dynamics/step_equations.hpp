@@ -7,6 +7,7 @@
 #pragma once
 
 #include "mechanism/solvers/dynamics/scheme_step.hpp"
+#include "mechanism/solvers/dynamics/step_costs.hpp"
 #include "mechanism/solvers/newton/newton_matrix.hpp"
 
 namespace bielle::mechanism {
@@ -36,6 +37,8 @@ class StepEquations {
   virtual void follow(SchemeStep& step) const { step.follow(nullptr); }
   /// Returns the residual that is compared with the tolerance (system.size()). @param h  size of the step [s]
   virtual const VectorX& judged(const VectorX& r, double /*h*/) { return r; }
+  /// Costs of these operations with the last factors.
+  virtual StepCosts costs() const { return count_costs(system_, size(), 1, linear_.factor_cost()); }
   virtual void choose_pivots_anew() { linear_.choose_pivots_anew(); }
   const NewtonMatrix& linear() const { return linear_; }  ///< the tangent of the system's own equations
 

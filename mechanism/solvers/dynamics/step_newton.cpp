@@ -10,17 +10,6 @@ namespace {
 /// Number of steps after which the rounding of residuals is measured again.
 constexpr int floor_lasts = 64;
 
-/// Cost of a factorisation with its tangent, in iterations with old factors (2.5 to 5 for chains of rigid and elastic
-/// links).
-constexpr double factorisation_cost = 4;
-
-/// Whether old factors are good enough in a step: at the rate at which they reduced a residual from `before` to `now`
-/// (over its tolerance), the further iterations cost no more than a factorisation.
-bool worthwhile(double before, double now) {
-  constexpr double slowest = 0.5;
-  return now < slowest * before && std::log(now) < factorisation_cost * std::log(before / now);
-}
-
 }  // namespace
 
 StepNewton::StepNewton(const System& system, const Environment& environment, std::unique_ptr<StepEquations> equations,
@@ -30,12 +19,14 @@ StepNewton::StepNewton(const System& system, const Environment& environment, std
       options_(options),
       equations_(std::move(equations)),
       convergence_(system, options),
-      reactions_(system) {
+      reactions_(system),
+      policy_(options.tangent) {
   for (VectorX* vector : {&r_, &r_evaluated_, &delta_}) vector->setZero(equations_->size());
 }
 
 void StepNewton::begin_anew() {
   equations_->choose_pivots_anew();
+  policy_.begin_anew();
   reactions_.begin_anew();
   factored_for_ = 0;
   floor_age_ = never_measured;
@@ -64,9 +55,11 @@ double StepNewton::size_of_residual() { return convergence_.size_of(equations_->
 
 void StepNewton::factor(SchemeStep& step, StepReport& report) {
   factored_for_ = 0;
+  if (report.factorisations == 0) wasted_ = spent(report);
   equations_->factor(step, environment_);
   factored_for_ = step.trial_size();
   ++report.factorisations;
+  policy_.set_costs(equations_->costs());
   if (floor_age_ < floor_lasts && same_size(step.size(), step.trial_size())) return;
   // The multipliers of the accepted state are used: those of the initial guess may have large errors.
   convergence_.measure_rounding(equations_->linear(), step.state());
@@ -83,7 +76,14 @@ void StepNewton::move_and_follow(SchemeStep& step, double part) {
   equations_->follow(step);
 }
 
+/// Cost of the iterations so far [ns].
+double StepNewton::spent(const StepReport& report) const {
+  return policy_.cost(report.evaluations - evaluations_before_, report.solutions, report.factorisations);
+}
+
 void StepNewton::solve(SchemeStep& step, StepReport& report) {
+  evaluations_before_ = report.evaluations;
+  wasted_ = 0;
   for (;; improve(step, report)) {
     const bool there = reached(step, report);
     if (there && !beyond_bounds(step.trial())) break;
@@ -97,9 +97,9 @@ void StepNewton::solve(SchemeStep& step, StepReport& report) {
   if (report.converged()) {
     // A residual far below the tolerance is harmless.
     constexpr double little = 0.03;
-    if (options_.reuse_tangent && convergence_.worst_ratio() > little) polish(step, report);
+    if (policy_.ever_reuses() && convergence_.worst_ratio() > little) polish(step, report);
     step.check_turns();
-    judge_factors(report);
+    if (!policy_.judge(wasted_, spent(report), report.factorisations)) factored_for_ = 0;
   }
   report.worst_equation = convergence_.worst_equation();
   report.worst_residual = convergence_.worst_residual();
@@ -123,18 +123,6 @@ bool StepNewton::search_balances(bool wanted) {
   searches_ = wanted && !search_->empty();
   factored_for_ = 0;
   return searches_;
-}
-
-/// Factors are discarded when a step with them takes more than the average cost of the steps since they were computed,
-/// their own cost included: from then on the average would grow.
-void StepNewton::judge_factors(const StepReport& report) {
-  if (report.factorisations > 0) {
-    spent_ = factorisation_cost;
-    served_ = 0;
-  }
-  spent_ += report.iterations;
-  ++served_;
-  if (report.factorisations == 0 && report.iterations * served_ > spent_) factored_for_ = 0;
 }
 
 void StepNewton::explain(SchemeStep& step, StepReport& report) {
@@ -197,7 +185,8 @@ void StepNewton::polish(SchemeStep& step, StepReport& report) {
 /// Makes one iteration of Newton's method.
 void StepNewton::improve(SchemeStep& step, StepReport& report) {
   // Old factors are not the cause of slow convergence late in a difficult step.
-  const bool renew = !options_.reuse_tangent || !same_size(step.trial_size(), factored_for_, factors_serve_within_) ||
+  const bool renew = (report.iterations == 0 ? policy_.renews_at_start() : !policy_.ever_reuses()) ||
+                     !same_size(step.trial_size(), factored_for_, factors_serve_within_) ||
                      report.iterations >= options_.iterations / 2;
   if (renew) factor(step, report);
   if (renew || report.iterations == 0) convergence_.measure_terms(equations_->linear(), step.trial());
@@ -220,7 +209,7 @@ void StepNewton::improve(SchemeStep& step, StepReport& report) {
     refusal = std::current_exception();
     size_ = std::numeric_limits<double>::infinity();
   }
-  if (!renew && !worthwhile(before, size_)) {
+  if (!renew && !policy_.worthwhile(before, size_)) {
     factored_for_ = 0;
     if (size_ < before) return;
     // The old tangent gave a wrong direction.

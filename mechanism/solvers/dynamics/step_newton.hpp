@@ -1,9 +1,8 @@
 // Newton's method in a step: from the beginning of a trial to its equilibrium.
 //
-// Factors of the tangent are reused from step to step as long as the residual decreases fast enough with them, and as
-// they save more than they cost. After the last iteration, the remaining residual is corrected once more unless it is
-// small relative to the tolerance: a tangent of another iterate leaves a residual of the tolerance's size, with the
-// same sign in every step.
+// Factors of the tangent are reused from step to step as long as they save more than they cost (tangent_policy.hpp).
+// After the last iteration, the remaining residual is corrected once more unless it is small relative to the tolerance:
+// a tangent of another iterate leaves a residual of the tolerance's size, with the same sign in every step.
 #pragma once
 
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/dynamics/step_equations.hpp"
 #include "mechanism/solvers/dynamics/step_report.hpp"
+#include "mechanism/solvers/dynamics/tangent_policy.hpp"
 #include "mechanism/solvers/newton/balance_search.hpp"
 #include "mechanism/solvers/newton/convergence.hpp"
 
@@ -62,7 +62,7 @@ class StepNewton {
   void shorten(SchemeStep& step, double before, std::exception_ptr refusal, StepReport& report);
   void move_and_follow(SchemeStep& step, double part);
   void polish(SchemeStep& step, StepReport& report);
-  void judge_factors(const StepReport& report);
+  double spent(const StepReport& report) const;
   bool reached(const SchemeStep& step, const StepReport& report);
   bool within_tolerance();
   bool finite(const StepReport& report) const;
@@ -81,9 +81,10 @@ class StepNewton {
   double h_ = 0;                       ///< step size of the trial of r_
   double size_ = 0, size_before_ = 0;  ///< size of the residual, now and one iteration before: Convergence::size_of
   bool measures_ = false;
-  double factored_for_ = 0;                ///< step size of the factors; 0: there are no valid ones
-  double spent_ = 0;                       ///< iterations since then, and the cost of the factors in iterations
-  int served_ = 0;                         ///< number of steps since then
+  double factored_for_ = 0;  ///< step size of the factors; 0: there are no valid ones
+  TangentPolicy policy_;
+  int evaluations_before_ = 0;             ///< number of evaluations in the step before its first iteration
+  double wasted_ = 0;                      ///< cost of the iterations in the step before its first factorisation
   double factors_serve_within_ = same;     ///< relative difference of step sizes for which factors are valid
   std::unique_ptr<BalanceSearch> search_;  ///< created on first use
   bool searches_ = false;

@@ -27,14 +27,19 @@
 
 namespace bielle::mechanism {
 
+/// Lifetime of the factors of the tangent.
+enum class Tangent {
+  automatic,  ///< they are reused while this costs less, by counts of the model's operations, than renewing them
+  reused,     ///< they are reused as long as the residual decreases fast enough with them
+  renewed     ///< they are computed at each iteration
+};
+
 struct NewtonOptions {
   double tolerance = 1e-9;  ///< relative tolerance, see the head of this file
   int iterations = 20;      ///< largest number of iterations
   /// If a full step increases the residual, one half, a quarter and an eighth of it are tried.
   bool line_search = true;
-  /// Factors of the tangent are reused as long as the residual decreases fast enough with them; if false, they are
-  /// computed at each iteration. Only time integration uses this option.
-  bool reuse_tangent = true;
+  Tangent tangent = Tangent::automatic;  ///< only time integration uses this option
   /// Highest order of the extrapolation for the initial guess of a step; 0: unchanged accelerations and multipliers.
   /// Only time integration uses this option, up to order 4.
   int extrapolation = 4;

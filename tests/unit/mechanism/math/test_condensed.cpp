@@ -98,6 +98,21 @@ TEST_CASE("condensed blocks give the solution of the whole") {
   }
 }
 
+TEST_CASE("the cost of factors counts the blocks that are condensed, and what is left") {
+  Random random(4);
+  const MatrixX A = two_blocks(random);
+  Both condensed(A), whole(A, {});
+  REQUIRE(condensed.factor(scale_of(1)) == FactorStatus::good);
+  REQUIRE(whole.factor(scale_of(1)) == FactorStatus::good);
+  const FactorCost cost = condensed.condensed.cost(), of_whole = whole.condensed.cost();
+  CHECK(cost.dense_entries == 2 * block * (block + 2 * outer));
+  CHECK(cost.dense_operations > 2 * 2 * block * outer * outer);
+  CHECK(cost.entries < of_whole.entries);
+  CHECK(cost.operations < of_whole.operations);
+  CHECK(of_whole.dense_entries == 0);
+  CHECK(of_whole.operations == whole.whole.cost().operations);
+}
+
 TEST_CASE("condensed blocks keep their solution when rows have units of their own") {
   Random random(4);
   MatrixX A = two_blocks(random);

@@ -94,7 +94,7 @@ TEST_CASE("tangents that serve several iterations are safe across the kink of |N
   const ReadyModel model(bead);
   const auto run = [&](bool reuse, long& signs) {
     NewtonOptions options;
-    options.reuse_tangent = reuse;
+    options.tangent = reuse ? Tangent::reused : Tangent::renewed;
     TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8),
                                 model.system.start(0), ConstraintForm::corrected, options);
     const double h = 2e-3;

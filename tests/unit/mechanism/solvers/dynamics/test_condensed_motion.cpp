@@ -18,7 +18,7 @@ struct Run {
 
 Run integrate(const ArmsSystem& arms, ConstraintForm form, bool reuse) {
   NewtonOptions options;
-  options.reuse_tangent = reuse;
+  options.tangent = reuse ? Tangent::reused : Tangent::renewed;
   TimeIntegration integration(arms.system, arms.file.model.environment, Scheme::generalized_alpha(0.8),
                               arms.system.start(0), form, options);
   constexpr double h = 2e-3;

@@ -41,7 +41,7 @@ Count run(const ReadyModel& model, int order, double h, double end, ConstraintFo
           bool reuse = true, const Scheme& scheme = Scheme::generalized_alpha(0.8)) {
   NewtonOptions options;
   options.extrapolation = order;
-  options.reuse_tangent = reuse;
+  options.tangent = reuse ? Tangent::reused : Tangent::renewed;
   TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0), form, options);
   integration.start(h);
   Count count;
@@ -126,8 +126,10 @@ joints: {a: {type: hinge, nodes: [ground, a], position: [0, 0, 0], axis: [0, 1, 
   integration.start(h);
   for (int k = 0; k < 20; ++k) integration.step(h);
   const long before = integration.step(h).iterations;
-  integration.change_step(1e-10 * h);
-  integration.step(1e-10 * h);
+  // In steps that are much shorter, accelerations are rounding: the program makes none by the scheme (short_span.hpp).
+  constexpr double left = 1e-4 * h;
+  integration.change_step(left);
+  integration.step(left);
   integration.change_step(h);
   CHECK(integration.step(h).iterations <= before + 2);
 }

@@ -30,7 +30,7 @@ struct Course {
 
 Course run(const ReadyModel& model, ConstraintForm form, bool reuse) {
   NewtonOptions options;
-  options.reuse_tangent = reuse;
+  options.tangent = reuse ? Tangent::reused : Tangent::renewed;
   TimeIntegration integration(model.system, model.environment(), Scheme::generalized_alpha(0.8), model.system.start(0),
                               form, options);
   integration.start(1e-3);

@@ -92,7 +92,7 @@ struct March01 {
 TEST_CASE("Newton's method solves for a bristle as well next to a pressure as alone") {
   for (const bool reuse : {false, true}) {
     NewtonOptions options, strict;
-    options.reuse_tangent = strict.reuse_tangent = reuse;
+    options.tangent = strict.tangent = reuse ? Tangent::reused : Tangent::renewed;
     strict.tolerance = 1e-13;
     const Ready alone(bristle()), together(bristle(), pressure()), other(pressure()), both(pressure(), bristle());
     const std::vector<double> exact = values(alone, strict), exact_pressure = values(other, strict);
@@ -124,7 +124,7 @@ TEST_CASE("Newton's method solves for small amplitudes as well next to large one
     for (const bool reuse : {false, true}) {
       CAPTURE(mass, reuse);
       NewtonOptions options, strict;
-      options.reuse_tangent = strict.reuse_tangent = reuse;
+      options.tangent = strict.tangent = reuse ? Tangent::reused : Tangent::renewed;
       strict.tolerance = 1e-13;
       const Ready alone(amplitude(small, mass)), together(amplitude(small, mass), amplitude(large, 10));
       const std::vector<double> exact = run(alone, strict);
