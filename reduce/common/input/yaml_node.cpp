@@ -109,7 +109,7 @@ class Parser {
   struct Open {
     std::shared_ptr<YamlNode> node;
     std::string anchor;
-    std::shared_ptr<const YamlNode> key;  ///< of a map: the key whose value follows
+    std::shared_ptr<const YamlNode> key;  ///< the key whose value follows, in a map
   };
 
   void next(Event& event) {

@@ -16,7 +16,7 @@ struct YamlNode {
     std::shared_ptr<const YamlNode> key, value;
   };
   Kind kind = Kind::null;
-  int line = 1;                                        ///< where it begins, 1-based
+  int line = 1;                                        ///< line on which it begins, 1-based
   std::string scalar;                                  ///< as written, without quotes
   std::vector<std::shared_ptr<const YamlNode>> items;  ///< of a sequence
   std::vector<Pair> pairs;                             ///< of a map, in the order of the file
