@@ -218,6 +218,8 @@ void StepNewton::improve(SchemeStep& step, StepReport& report) {
     size_ = size_of_residual();
     return;
   }
+  // From a distant start even new factors are soon of no use.
+  if (renew && !policy_.worthwhile(before, size_)) factored_for_ = 0;
   if (options_.line_search && !(size_ <= before)) shorten(step, before, refusal, report);
 }
 
