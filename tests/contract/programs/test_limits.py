@@ -49,8 +49,11 @@ class Limits(BarTest):
         status, said = self.run_limited("bielle-mechanism", {resource.RLIMIT_FSIZE: 300_000}, "model.yaml", "-o", "out.h5")
         self.assertEqual(status, 2, said)
         self.assertIn("is the disk full?", said)
-        with h5py.File(os.path.join(self.folder, "out.h5")) as file:
-            self.assertEqual(file.attrs["complete"], 0)
+        # Beyond a limit of the size (other than on a full disk) HDF5 cannot extend the file to the end that it has noted,
+        # and often cannot open it afterwards: such a file is removed.
+        if os.path.exists(os.path.join(self.folder, "out.h5")):
+            with h5py.File(os.path.join(self.folder, "out.h5")) as file:
+                self.assertEqual(file.attrs["complete"], 0)
 
     def test_every_limit_of_the_address_space_ends_in_a_sentence_or_in_success(self):
         for program, source in (("bielle-mechanism", "model.yaml"), ("bielle-reduce", "body.yaml")):
