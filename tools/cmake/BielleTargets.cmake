@@ -64,19 +64,22 @@ endfunction()
 # bielle_tests(NAME SOURCES a.cpp ... DEPENDS Bielle::x ... [LABELS long] [SERIAL]): one Catch2 program; each test case
 # is a ctest. Tests with SERIAL compare times: no other test runs at the same time.
 function(bielle_tests name)
-  cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPENDS;LABELS;ENVIRONMENT" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main Bielle::test_eigenvalues bielle_warnings bielle_test_options)
   target_compile_definitions(test_${name} PRIVATE BIELLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   BIELLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   bielle_precompile(test_${name} bielle_test_precompiled)
   set_target_properties(test_${name} PROPERTIES UNITY_BUILD ${BIELLE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
-  set(properties "")
+  set(properties PROPERTIES)
   if(ARG_LABELS)
-    set(properties PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 3600)  # long ones take their time on a busy machine
+    list(APPEND properties LABELS "${ARG_LABELS}" TIMEOUT 3600)  # long ones take their time on a busy machine
   endif()
   if(ARG_SERIAL)
     list(APPEND properties RUN_SERIAL TRUE)
+  endif()
+  if(ARG_ENVIRONMENT)
+    list(APPEND properties ENVIRONMENT "${ARG_ENVIRONMENT}")
   endif()
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " ${properties})
 endfunction()
