@@ -28,14 +28,15 @@
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/results/results_file.hpp"
 #include "mechanism/session/energy_balance.hpp"
-#include "tests/performance/chain.hpp"
 #include "tests/performance/processor_time.hpp"
+#include "tests/support/chain.hpp"
 
 namespace {
 
 using namespace bielle;
 using namespace bielle::mechanism;
 using namespace bielle::performance;
+using namespace bielle::test;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

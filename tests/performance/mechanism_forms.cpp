@@ -18,14 +18,15 @@
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/dynamics/time_integration.hpp"
-#include "tests/performance/chain.hpp"
 #include "tests/performance/processor_time.hpp"
+#include "tests/support/chain.hpp"
 
 namespace {
 
 using namespace bielle;
 using namespace bielle::mechanism;
 using namespace bielle::performance;
+using namespace bielle::test;
 
 struct Case {
   const char* name;

@@ -13,8 +13,8 @@
 
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
-#include "tests/performance/chain.hpp"
 #include "tests/performance/processor_time.hpp"
+#include "tests/support/chain.hpp"
 
 namespace {
 
@@ -23,8 +23,8 @@ using namespace bielle::mechanism;
 
 double measure(int links, const std::string& what, const std::string& friction, double compared) {
   const std::string joint =
-      performance::hinge + (friction.empty() ? "" : ", friction: {radius: 0.02, coefficient: 0.1, " + friction + "}");
-  const MechanismFile file = read_mechanism_text(performance::chain(links, joint), "chain.yaml");
+      test::hinge + (friction.empty() ? "" : ", friction: {radius: 0.02, coefficient: 0.1, " + friction + "}");
+  const MechanismFile file = read_mechanism_text(test::chain(links, joint), "chain.yaml");
   double least = std::numeric_limits<double>::infinity();
   MarchLog log;
   for (int round = 0; round < 3; ++round) {

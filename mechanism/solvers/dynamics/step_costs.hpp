@@ -2,7 +2,7 @@
 //
 // They are estimated from the sizes of the members' local equations and from the operations and entries of the factors,
 // with constants that were measured once (step_costs.cpp). No clock is read: a run stays the same to the bit on any
-// machine and beside any other work. Only their ratios matter.
+// machine, whatever other work it does. Only their ratios matter.
 #pragma once
 
 #include "mechanism/system/system.hpp"

@@ -61,12 +61,12 @@ class Parser {
     for (bool more = true; more;) {
       Event event;
       next(event);
+      if (root && has_content(event)) fail(event.line(), "a second document begins; a file holds one");
       switch (event->type) {
         case YAML_STREAM_END_EVENT:
           more = false;
           break;
         case YAML_SCALAR_EVENT: {
-          if (root) fail(event.line(), "a second document begins; a file holds one");
           const auto& scalar = event->data.scalar;
           check_tag(event.line(), scalar.tag);
           auto node = make(event, YamlNode::Kind::scalar);
@@ -80,12 +80,10 @@ class Parser {
           put(anchored(event), root);
           break;
         case YAML_SEQUENCE_START_EVENT:
-          if (root) fail(event.line(), "a second document begins; a file holds one");
           check_tag(event.line(), event->data.sequence_start.tag);
           open(make(event, YamlNode::Kind::sequence), event->data.sequence_start.anchor);
           break;
         case YAML_MAPPING_START_EVENT:
-          if (root) fail(event.line(), "a second document begins; a file holds one");
           check_tag(event.line(), event->data.mapping_start.tag);
           open(make(event, YamlNode::Kind::map), event->data.mapping_start.anchor);
           break;
@@ -123,6 +121,11 @@ class Parser {
     const std::string context = parser_.context == nullptr ? "" : std::string(parser_.context) + ", ";
     fail(line, fmt::format("no valid YAML: {}{}{}", context, parser_.problem == nullptr ? "" : parser_.problem,
                            hint_at_tabs(text_, line)));
+  }
+
+  static bool has_content(const Event& event) {
+    return event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT ||
+           event->type == YAML_SEQUENCE_START_EVENT || event->type == YAML_MAPPING_START_EVENT;
   }
 
   static std::shared_ptr<YamlNode> make(const Event& event, YamlNode::Kind kind) {

@@ -2,12 +2,13 @@
 #include <algorithm>
 
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
 
 #include "mechanism/solvers/dynamics/tangent_policy.hpp"
+#include "tests/support/chain.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::chain;
 using bielle::test::ReadyModel;
 
 namespace test_tangent_policy {
@@ -63,18 +64,6 @@ StepCosts costs_of(const ReadyModel& model, double h) {
   NewtonMatrix linear(model.system);
   linear.factor(model.system.start(0), model.environment(), TangentWeights{1, 2 / h, 4 / (h * h), 2 / h, 1}, nullptr);
   return count_costs(model.system, model.system.size(), 1, linear.factor_cost());
-}
-
-/// Rigid links of 1 m and 1 kg, released from the horizontal.
-std::string chain(int links, const std::string& joint) {
-  std::string nodes, elements, joints;
-  for (int k = 0; k < links; ++k) {
-    nodes += fmt::format("  n{}: {{position: [{}, 0, 0]}}\n", k, k + 0.5);
-    elements += fmt::format("  e{}: {{type: rigid_body, node: n{}, mass: 1, inertia: [1e-3, 1/12, 1/12]}}\n", k, k);
-    joints += fmt::format("  j{}: {{type: {}, nodes: [{}, n{}], position: [{}, 0, 0]}}\n", k, joint,
-                          k == 0 ? "ground" : fmt::format("n{}", k - 1), k, k);
-  }
-  return "gravity: [0, 0, -9.81]\nnodes:\n" + nodes + "elements:\n" + elements + "joints:\n" + joints;
 }
 
 /// An arm of beams that is spun up: factors of one step do not serve the next one while it turns fast.

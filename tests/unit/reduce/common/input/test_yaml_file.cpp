@@ -65,6 +65,7 @@ TEST_CASE("Invalid YAML is an error with its line") {
   CHECK_THAT(why_wrong("a: [1\tb: {"), !Contains("tab"));
   CHECK_THAT(why_wrong("a: *nowhere\n"), Contains("crank.yaml:1: no valid YAML"));
   CHECK_THAT(why_wrong("a: 1\n---\nb: 2\n"), Contains("crank.yaml:3: a second document"));
+  CHECK_THAT(why_wrong("a: &x {b: 1}\n---\n*x\n"), Contains("crank.yaml:3: a second document"));
 }
 
 TEST_CASE("Tags, bytes that are no text, and deep nesting are refused with their line") {

@@ -1,16 +1,16 @@
-// The measured chain: links of 1 m and 1 kg, horizontal along x from the ground, with joints of one type.
+// Chains that are measured: links of 1 m and 1 kg, horizontal along x from the ground, with joints of one type.
 #pragma once
 
 #include <string>
 
 #include <fmt/format.h>
 
-namespace bielle::performance {
+namespace bielle::test {
 
 inline const std::string spherical = "spherical", hinge = "hinge, axis: [0, 1, 0]";
 
 /// Gravity, nodes, elements and joints of a mechanism file.
-/// @param joint  its type, and keys besides nodes and position
+/// @param joint  its type, and keys other than nodes and position
 inline std::string chain(int links, const std::string& joint) {
   std::string nodes, elements, joints;
   for (int k = 0; k < links; ++k) {
@@ -37,4 +37,4 @@ inline std::string flexible_chain(int links) {
   return "gravity: [0, 0, -9.81]\nnodes:\n" + nodes + "elements:\n" + elements + "joints:\n" + joints;
 }
 
-}  // namespace bielle::performance
+}  // namespace bielle::test
