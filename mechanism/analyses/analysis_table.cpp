@@ -8,15 +8,15 @@ AnalysisReader read_assembly, read_static, read_dynamic, read_kinematic, read_in
 
 const std::vector<AnalysisType>& analysis_table() {
   static const std::vector<AnalysisType> table = {
-      {"assembly", read_assembly},
-      {"static", read_static},
-      {"dynamic", read_dynamic},
-      {"kinematic", read_kinematic},
-      {"inverse_dynamics", read_inverse_dynamics},
-      {"eigen", read_eigen},
-      {"campbell", read_campbell},
-      {"frequency_response", read_frequency_response},
-      {"state_space", read_state_space_analysis},
+      {"assembly", read_assembly, nullptr},
+      {"static", read_static, nullptr},
+      {"dynamic", read_dynamic, nullptr},
+      {"kinematic", read_kinematic, nullptr},
+      {"inverse_dynamics", read_inverse_dynamics, nullptr},
+      {"eigen", read_eigen, nullptr},
+      {"campbell", read_campbell, nullptr},
+      {"frequency_response", read_frequency_response, nullptr},
+      {"state_space", read_state_space_analysis, nullptr},
   };
   return table;
 }
@@ -25,7 +25,7 @@ std::unique_ptr<Analysis> read_analysis(const YamlValue& entry, const Model& mod
   const YamlValue type = entry.at("type");
   std::vector<std::string> names;
   for (const AnalysisType& known : analysis_table()) {
-    if (type.text() == known.name) return known.read(entry, model);
+    if (type.text() == known.name) return known.read(known.keys ? entry.keyed(known.keys()) : entry, model);
     names.emplace_back(known.name);
   }
   type.word(names, "a type of analysis");

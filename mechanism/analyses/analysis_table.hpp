@@ -15,6 +15,7 @@ using AnalysisReader = std::unique_ptr<Analysis>(const YamlValue& entry, const M
 struct AnalysisType {
   const char* name;  ///< value of the entry's `type`
   AnalysisReader* read;
+  const KeyTable& (*keys)();  ///< what an entry may contain
 };
 
 const std::vector<AnalysisType>& analysis_table();

@@ -72,7 +72,7 @@ void read_dimensions(const YamlValue& entry, const std::string& word, ContactSha
 ContactShape read_shape(const YamlValue& entry, const Model& model) {
   std::vector<std::string> keys = {"node", "at", "rounding", "units"};
   keys.insert(keys.end(), shape_words.begin(), shape_words.end());
-  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  for (const Key& key : orientation_keys()) keys.push_back(key.name);
   entry.check_keys(keys, "a shape of a contact");
   std::string word;
   for (const std::string& each : shape_words) {

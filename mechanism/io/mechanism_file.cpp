@@ -61,24 +61,55 @@ void check_once(const YamlValue& item, const std::string& name, std::set<std::st
 
 /// Reads a formula of t, or `{table: f.csv}`.
 Expression read_acceleration(const YamlValue& value) {
-  if (!value.is_map()) return value.expression({"t"});
-  value.check_keys({"table"}, "an acceleration");
+  if (!value.is_map()) return value.expression();
   return read_named_file(value.at("table"), [](const std::string& path) {
     return Expression(fmt::format("table('{}', t)", std::filesystem::absolute(path).string()), {"t"});
   });
 }
 
+const KeyTable& acceleration_keys() {
+  using namespace keys;
+  static const KeyTable table{"an acceleration",
+                              "An acceleration that was measured.",
+                              {{"table", file("table of times and values"), required, "Times [s] and values."}}};
+  return table;
+}
+
+const KeyTable& motion_by_acceleration_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a motion by its acceleration",
+      "A motion whose acceleration is known, which the program integrates.",
+      {{"acceleration", {formula("m/s^2 or rad/s^2", {"t"}), nested(acceleration_keys)}, required, "The acceleration."},
+       {"velocity", number("m/s or rad/s"), otherwise("0"), "Velocity at the start."},
+       {"displacement", number("m or rad"), otherwise("0"), "Displacement at the start."}}};
+  return table;
+}
+
+const KeyTable& motion_keys() {
+  using namespace keys;
+  const auto along = [](const char* name, const char* unit, const char* about) {
+    return Key{name, {formula(unit, {"t"}), nested(motion_by_acceleration_keys)}, optional, about};
+  };
+  static const KeyTable table{"`motion`",
+                              "Prescribed motion of a node. Rotations are prescribed all three together.",
+                              {along("x", "m", "Displacement along the inertial x axis."),
+                               along("y", "m", "Displacement along the inertial y axis."),
+                               along("z", "m", "Displacement along the inertial z axis."),
+                               along("rx", "rad", "Component x of the rotation vector."),
+                               along("ry", "rad", "Component y of the rotation vector."),
+                               along("rz", "rad", "Component z of the rotation vector.")}};
+  return table;
+}
+
 PrescribedMotion read_motion(const YamlValue& value) {
   if (!value.is_map()) {
-    const Expression displacement = value.expression({"t"});
+    const Expression displacement = value.expression();
     warn_of_jumps(value, displacement, "the prescribed motion");
     return displacement;
   }
-  value.check_keys({"acceleration", "velocity", "displacement"}, "a motion by its acceleration");
-  const auto velocity = value.find("velocity"), displacement = value.find("displacement");
-  return PrescribedMotion::of_acceleration(read_acceleration(value.at("acceleration")),
-                                           velocity ? velocity->number() : 0,
-                                           displacement ? displacement->number() : 0);
+  return PrescribedMotion::of_acceleration(read_acceleration(value.at("acceleration")), value.at("velocity").number(),
+                                           value.at("displacement").number());
 }
 
 void read_holds(const YamlValue& entry, Node& node) {
@@ -86,7 +117,7 @@ void read_holds(const YamlValue& entry, Node& node) {
     if (fixed->is_sequence()) {
       std::set<std::string> seen;
       for (const YamlValue& item : fixed->items()) {
-        const std::string direction = item.word(directions, "a direction");
+        const std::string direction = item.word();
         check_once(item, direction, seen);
         node.freedom[direction_index(direction)] = Freedom::fixed;
       }
@@ -95,7 +126,6 @@ void read_holds(const YamlValue& entry, Node& node) {
     }
   }
   if (const auto motion = entry.find("motion")) {
-    motion->check_keys(directions, "`motion`");
     for (const auto& [name, value] : motion->entries()) {
       const std::size_t k = direction_index(name);
       if (node.freedom[k] == Freedom::fixed && entry.at("fixed").is_sequence())
@@ -131,16 +161,31 @@ void check_velocities(const YamlValue& entry, const Node& node) {
       entry.at("angular_velocity").fail(fmt::format("the node is held against turning about {}", "xyz"[k]));
 }
 
-void read_node(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = {"position", "velocity", "angular_velocity", "fixed", "motion"};
-  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
-  entry.check_keys(keys, "a node");
+const KeyTable& node_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a node", "A point with axes, which move.",
+      joined({frame_keys(),
+              {{"velocity", vector3("m/s"), otherwise("[0, 0, 0]"), "Velocity at the start, in inertial components."},
+               {"angular_velocity", vector3("rad/s"), otherwise("[0, 0, 0]"),
+                "Angular velocity at the start, in the node's own axes."},
+               {"fixed",
+                {boolean(), list_of(word(directions, "a direction"))},
+                otherwise("false"),
+                "Held directions, `true` for all six: displacements x, y, z and rotations rx, ry, rz."},
+               {"motion", nested(motion_keys), optional,
+                "Prescribed displacements from the place, each as a formula of t or by its acceleration."}}})};
+  return table;
+}
+
+void read_node(const std::string& name, const YamlValue& given, Model& model) {
+  const YamlValue entry = given.keyed(node_keys());
   if (name == "ground") entry.fail("'ground' is the built-in fixed node at the origin; choose another name");
   Node node;
   node.name = name;
   node.frame = read_frame(entry);
-  if (entry.has("velocity")) node.velocity = entry.at("velocity").vector3();
-  if (entry.has("angular_velocity")) node.angular_velocity = entry.at("angular_velocity").vector3();
+  node.velocity = entry.at("velocity").vector3();
+  node.angular_velocity = entry.at("angular_velocity").vector3();
   read_holds(entry, node);
   check_holds(entry, node);
   check_velocities(entry, node);

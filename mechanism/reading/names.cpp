@@ -20,6 +20,8 @@ void check_name(const std::string& name, const YamlValue& entry) {
   }
 }
 
+Key type_key() { return {"type", keys::text(), keys::required, "The type of the entry."}; }
+
 int node_named_by(const YamlValue& value, const Model& model) {
   const std::string name = value.text();
   if (const auto index = model.find_node(name)) return *index;

@@ -25,8 +25,12 @@ std::vector<int> nodes_named_by(const YamlValue& value, std::size_t count, const
 /// @throws InputError naming the nearest name
 Component& component_named_by(Section section, const YamlValue& value, const Model& model);
 
+/// Returns the key that names the type of an element or joint.
+Key type_key();
+
 /// Reads one entry of a section of the mechanism file (`name: {type: ..., ...}`) into the model. Each component type
-/// has a reader, in its own file; io/component_table lists them.
+/// has a reader and a table of its keys, in its own file; io/component_table lists them.
+/// @param entry  bound to the table of the type's keys
 using ComponentReader = void (*)(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -10,6 +10,16 @@
 namespace bielle::mechanism {
 namespace {
 
+const KeyTable& axes_keys() {
+  using namespace keys;
+  static const KeyTable table{"`axes`",
+                              "Two of the axes, in inertial components.",
+                              {{"x", direction(), optional, "Direction of the own x axis."},
+                               {"y", direction(), optional, "Direction of the own y axis."},
+                               {"z", direction(), optional, "Direction of the own z axis."}}};
+  return table;
+}
+
 Matrix3 read_quaternion(const YamlValue& value) {
   const VectorX q = value.vector();
   if (q.size() != 4) value.fail(fmt::format("expected the four numbers w x y z of a quaternion, found {}", q.size()));
@@ -20,7 +30,6 @@ Matrix3 read_quaternion(const YamlValue& value) {
 
 /// Reads two of the axes: the first as given, the second made orthogonal to it.
 Matrix3 read_axes(const YamlValue& value) {
-  value.check_keys({"x", "y", "z"}, "`axes`");
   const std::vector<std::pair<std::string, YamlValue>> entries = value.entries();
   if (entries.size() != 2)
     value.fail("expected two of the axes x, y, z: the first as given, the second made orthogonal to it");
@@ -52,18 +61,27 @@ Matrix3 read_matrix(const YamlValue& value) {
 
 }  // namespace
 
-const std::vector<std::string>& orientation_keys() {
-  static const std::vector<std::string> keys = {"rotation_vector", "quaternion", "bryant",   "euler", "axes",
-                                                "matrix",          "rodrigues",  "conformal"};
-  return keys;
+const std::vector<Key>& orientation_keys() {
+  using namespace keys;
+  static const std::vector<Key> all = {
+      {"rotation_vector", vector3("rad"), optional, "Orientation: the axis of the rotation times its angle."},
+      {"quaternion", list_of(4, number()), optional, "Orientation: `[w, x, y, z]`, of any length but zero."},
+      {"bryant", vector3("rad"), optional, "Orientation: angles about x, the new y and the newest z."},
+      {"euler", vector3("rad"), optional, "Orientation: angles about z, the new x and the newest z."},
+      {"axes", nested(axes_keys), optional,
+       "Orientation: two of the axes; the first as given, the second made orthogonal to it."},
+      {"matrix", matrix(3, 3, ""), optional, "Orientation: the rotation matrix, whose columns are the own axes."},
+      {"rodrigues", vector3(""), optional, "Orientation: tan(angle/2) times the axis."},
+      {"conformal", vector3(""), optional, "Orientation: 4 tan(angle/4) times the axis (Wiener-Milenkovic)."}};
+  return all;
 }
 
 Matrix3 read_orientation(const YamlValue& entry) {
   std::string given;
-  for (const std::string& key : orientation_keys()) {
-    if (!entry.has(key)) continue;
-    if (!given.empty()) entry.fail(fmt::format("has two orientations, `{}` and `{}`", given, key));
-    given = key;
+  for (const Key& key : orientation_keys()) {
+    if (!entry.has(key.name)) continue;
+    if (!given.empty()) entry.fail(fmt::format("has two orientations, `{}` and `{}`", given, key.name));
+    given = key.name;
   }
   if (given.empty()) return Matrix3::Identity();
   const YamlValue value = entry.at(given);
@@ -84,8 +102,11 @@ Matrix3 read_orientation(const YamlValue& entry) {
   return ConformalVector::rotation(p);
 }
 
-Frame read_frame(const YamlValue& entry) {
-  return {entry.has("position") ? Vector3(entry.at("position").vector3()) : Vector3::Zero(), read_orientation(entry)};
+std::vector<Key> frame_keys() {
+  using namespace keys;
+  return joined({{{"position", vector3("m"), otherwise("[0, 0, 0]"), "Position of the origin."}}, orientation_keys()});
 }
+
+Frame read_frame(const YamlValue& entry) { return {entry.at("position").vector3(), read_orientation(entry)}; }
 
 }  // namespace bielle::mechanism

@@ -18,13 +18,16 @@ namespace bielle::mechanism {
 ///   matrix: [[..], [..], [..]]         R itself: columns are the own axes; made orthonormal if the error is below 1e-3
 ///   rodrigues: [..]                    tan(angle/2) times the axis
 ///   conformal: [..]                    4 tan(angle/4) times the axis (Wiener-Milenkovic)
-const std::vector<std::string>& orientation_keys();
+const std::vector<Key>& orientation_keys();
 
 /// Returns the rotation (own axes -> inertial axes) of an entry; identity if it has none of the keys.
 /// @throws InputError if there are two, or one that gives no rotation
 Matrix3 read_orientation(const YamlValue& entry);
 
-/// Reads `position` (default zero) with an orientation.
+/// Returns the keys of a frame: `position` and those of an orientation.
+std::vector<Key> frame_keys();
+
+/// Reads `position` with an orientation, of a map that is bound to a table with `frame_keys`.
 Frame read_frame(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

@@ -204,26 +204,40 @@ ForceLaw read_linear(const YamlValue& entry) {
     return {};
   }
   if (!stiffness && !damping) entry.fail("a spring_damper needs `stiffness`, `damping` or `force`");
-  return {stiffness ? stiffness->non_negative_number() : 0, damping ? damping->non_negative_number() : 0};
+  return {stiffness ? stiffness->number() : 0, damping ? damping->number() : 0};
 }
 
 }  // namespace
 
+const KeyTable& spring_damper_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a spring_damper",
+      "A spring, a damper or a force along the line between points of two nodes.",
+      {type_key(),
+       {"nodes", list_of(2, name_of("node")), required, "The two nodes."},
+       {"at", list_of(2, vector3("m")), otherwise("[[0, 0, 0], [0, 0, 0]]"),
+        "Points of attachment, each in the axes of its node."},
+       {"stiffness", number("N/m").non_negative(), optional, "Force per elongation."},
+       {"damping", number("N s/m").non_negative(), optional, "Force per rate of the length."},
+       {"length", number("m").non_negative(), computed("the distance as placed"), "Free length of the spring."},
+       {"force", state_formula("N", {"e", "v", "t"}), optional,
+        "Tension as a formula of the elongation e, its rate v, the time t and measures, in place of `stiffness` and "
+        "`damping`."}}};
+  return table;
+}
+
 void read_spring_damper(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "at", "stiffness", "damping", "length", "force"}, "a spring_damper");
   const YamlValue node_names = entry.at("nodes");
   const std::vector<int> nodes = nodes_named_by(node_names, 2, model);
   if (nodes[0] == nodes[1]) node_names.fail("a spring_damper joins two different nodes");
-  Vector3 at_a = Vector3::Zero(), at_b = Vector3::Zero();
-  if (const auto at = entry.find("at")) {
-    if (!at->is_sequence() || at->size() != 2) at->fail("expected two points, one in the axes of each node");
-    at_a = at->at(std::size_t{0}).vector3();
-    at_b = at->at(std::size_t{1}).vector3();
-  }
+  const YamlValue at = entry.at("at");
+  if (!at.is_sequence() || at.size() != 2) at.fail("expected two points, one in the axes of each node");
+  const Vector3 at_a = at.at(std::size_t{0}).vector3(), at_b = at.at(std::size_t{1}).vector3();
   const Frame &A = model.node(nodes[0]).frame, &B = model.node(nodes[1]).frame;
   const double placed = (B.x + B.R * at_b - A.x - A.R * at_a).norm();
   const auto length = entry.find("length");
-  const double free_length = length ? length->non_negative_number() : placed;
+  const double free_length = length ? length->number() : placed;
   ForceLaw law = read_linear(entry);
   const auto force = entry.find("force");
   if (placed == 0 && (force || free_length != 0 || law.damping() != 0))

@@ -68,6 +68,7 @@ class SpringDamper : public Component, public TimeDependent {
 
 /// Reads `{type: spring_damper, nodes: [a, b], at, stiffness, damping, length}`, or the same with `force: "N(e, v, t)"`
 /// instead of stiffness and damping.
+const KeyTable& spring_damper_keys();
 void read_spring_damper(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -140,7 +140,7 @@ Matrix6 read_field(const YamlValue& value, const Vector3& way, bool symmetric, c
 
 void read_stiffness_field(const std::string& name, const YamlValue& entry, Model& model) {
   std::vector<std::string> keys = {"type", "nodes", "stiffness", "damping"};
-  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  for (const Key& key : orientation_keys()) keys.push_back(key.name);
   entry.check_keys(keys, "a stiffness_field");
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   if (nodes[0] == nodes[1]) entry.at("nodes").fail("a stiffness_field joins two different nodes");

@@ -46,7 +46,7 @@ Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre)
   const YamlValue value = entry.at("inertia");
   Matrix3 J = inertia_entries(value);
   if (const auto axes = entry.find("inertia_axes")) {
-    axes->check_keys(orientation_keys(), "`inertia_axes`");
+    axes->check_keys(keys::names_of(orientation_keys()), "`inertia_axes`");
     const Matrix3 R = read_orientation(*axes);
     J = R * J * R.transpose();
   }

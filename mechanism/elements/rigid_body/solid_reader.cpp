@@ -77,7 +77,7 @@ struct Solid {
 
 Solid read_solid(const YamlValue& solid) {
   std::vector<std::string> keys = {"density", "mass", "position", "cut"};
-  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  for (const Key& key : orientation_keys()) keys.push_back(key.name);
   std::vector<std::string> names;
   const Shape* given = nullptr;
   int count = 0;

@@ -101,7 +101,7 @@ void follow_rigidly(int node, const RigidlyFollowed& followed, Model& model) {
 
 void check_superelement_keys(const YamlValue& entry) {
   std::vector<std::string> keys = {"type", "file", "nodes", "position", "damping", "loads", "frame", "largest_error"};
-  keys.insert(keys.end(), orientation_keys().begin(), orientation_keys().end());
+  for (const Key& key : orientation_keys()) keys.push_back(key.name);
   entry.check_keys(keys, "a superelement");
 }
 

@@ -14,6 +14,7 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/input/unit.hpp"
 #include "reduce/common/input/yaml_node.hpp"
 #include "reduce/common/shortened.hpp"
 
@@ -82,8 +83,11 @@ YamlValue YamlValue::load(const std::string& path) {
 }
 
 YamlValue YamlValue::parse(const std::string& text, const std::string& name) {
+  return of_tree(parse_yaml(text, name), text, name);
+}
+
+YamlValue YamlValue::of_tree(std::shared_ptr<const YamlNode> root, const std::string& text, const std::string& name) {
   auto document = std::make_shared<Document>(Document{name, text, {}, {}});
-  std::shared_ptr<const YamlNode> root = parse_yaml(text, name);
   std::size_t budget = text.size() + most_repeated;  // without aliases each node has a letter of its own
   check_keys_of_all_maps(*root, name, "", budget);
   const int line = root->kind == YamlNode::Kind::null ? 1 : root->line;
@@ -101,10 +105,36 @@ bool YamlValue::is_null() const { return node_->kind == YamlNode::Kind::null; }
 
 // -- maps
 
-bool YamlValue::has(const std::string& key) const { return find(key).has_value(); }
+const Key& YamlValue::key_of_table(const std::string& key) const {
+  if (const Key* found = table_->find(key)) return *found;
+  throw std::logic_error(fmt::format("the table of {} lacks the key '{}', which is read", table_->of, key));
+}
+
+YamlValue YamlValue::with_forms(const KeyForms& forms) const {
+  YamlValue value = *this;
+  value.forms_ = &forms;
+  if (!is_map()) return value;
+  const KeyForm* only = nullptr;
+  for (const KeyForm& form : forms) {
+    if (form.kind == KeyForm::Kind::entries) return value;
+    if (form.kind != KeyForm::Kind::table) continue;
+    if (only) return value;
+    only = &form;
+  }
+  return only ? value.keyed(only->table()) : value;
+}
+
+bool YamlValue::has(const std::string& key) const {
+  check_map("keys with values (`key: value`)");
+  return std::any_of(node_->pairs.begin(), node_->pairs.end(),
+                     [&](const YamlNode::Pair& pair) { return pair.key->scalar == key; });
+}
 
 YamlValue YamlValue::at(const std::string& key) const {
   if (auto value = find(key)) return *value;
+  if (table_)
+    if (const Key& known = key_of_table(key); known.preset)
+      return YamlValue(document_, known.preset, joined(path_, key), line_).with_forms(known.forms);
   fail(fmt::format("the key '{}' is missing", key));
 }
 
@@ -125,7 +155,10 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
 
 YamlValue YamlValue::child(const YamlNode& key, std::shared_ptr<const YamlNode> value) const {
   const int line = value->kind == YamlNode::Kind::null ? key.line : value->line;  // nothing stands somewhere after it
-  return {document_, std::move(value), joined(path_, key.scalar), line};
+  YamlValue below(document_, std::move(value), joined(path_, key.scalar), line);
+  if (table_) return below.with_forms(key_of_table(key.scalar).forms);
+  const KeyForm* form = form_of([](const KeyForm& each) { return each.kind == KeyForm::Kind::entries; });
+  return form ? below.with_forms(form->items.front()) : below;
 }
 
 void YamlValue::check_map(const std::string& expected) const {
@@ -139,10 +172,57 @@ void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::s
     const std::string& key = entry.key->scalar;
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
     const std::string comma = hint_at_comma(key);
-    throw InputError(located_at(document_->file, entry.key->line, path_,
+    throw InputError(located_at(entry.key->file ? *entry.key->file : document_->file, entry.key->line, path_,
                                 fmt::format("'{}' is not a key of {}{}", shortened(key), of,
                                             comma.empty() ? did_you_mean(key, allowed) : comma)));
   }
+}
+
+YamlValue YamlValue::keyed(const KeyTable& table) const {
+  check_map(table.of + " as keys with values (`key: value`)");
+  YamlValue bound = *this;
+  bound.table_ = &table.of_map(*node_);
+  const bool known = std::all_of(node_->pairs.begin(), node_->pairs.end(), [&](const YamlNode::Pair& pair) {
+    return bound.table_->find(pair.key->scalar) != nullptr;
+  });
+  if (!known) check_keys(bound.table_->names(), bound.table_->of);
+  return bound;
+}
+
+// -- forms
+
+const KeyForm* YamlValue::form_of(bool (*is)(const KeyForm& form)) const {
+  if (!forms_) return nullptr;
+  const auto found = std::find_if(forms_->begin(), forms_->end(), is);
+  return found == forms_->end() ? nullptr : &*found;
+}
+
+const KeyForm* YamlValue::form_that_fits() const {
+  if (!forms_) return nullptr;
+  const auto found =
+      std::find_if(forms_->begin(), forms_->end(), [&](const KeyForm& form) { return form.fits(*node_); });
+  return found == forms_->end() ? nullptr : &*found;
+}
+
+const KeyForm* YamlValue::numeric_form() const {
+  return form_of([](const KeyForm& form) { return form.is_numeric(); });
+}
+
+/// Converts a text that is a number with a unit; returns NaN for any other text.
+double YamlValue::in_si(const std::string& written) const {
+  const auto quantity = quantity_of(written);
+  if (!quantity) return std::numeric_limits<double>::quiet_NaN();
+  const KeyForm* form = numeric_form();
+  try {
+    return to_si(*quantity, form ? form->unit : "");
+  } catch (const InputError& error) {
+    fail(error.what());
+  }
+}
+
+void YamlValue::check_range(double value) const {
+  const KeyForm* form = numeric_form();
+  if (form && !form->in_range(value)) fail(fmt::format("expected a number {}, found {}", form->range_words(), value));
 }
 
 // -- sequences
@@ -161,9 +241,13 @@ YamlValue YamlValue::at(std::size_t index) const {
 std::vector<YamlValue> YamlValue::items() const {
   std::vector<YamlValue> result;
   result.reserve(size());
+  const KeyForm* form = form_that_fits();
+  if (!form) form = form_of([](const KeyForm& each) { return each.kind == KeyForm::Kind::list; });
   for (const std::shared_ptr<const YamlNode>& item : node_->items) {
     const int line = item->kind == YamlNode::Kind::null ? line_ : item->line;
-    result.push_back(YamlValue(document_, item, fmt::format("{}[{}]", path_, result.size() + 1), line));
+    const std::size_t k = result.size();
+    const YamlValue value(document_, item, fmt::format("{}[{}]", path_, k + 1), line);
+    result.push_back(form ? value.with_forms(form->items[std::min(k, form->items.size() - 1)]) : value);
   }
   return result;
 }
@@ -177,10 +261,17 @@ double YamlValue::number() const {
   const char* begin = written.data() + (written.starts_with('+') ? 1 : 0);
   const char* end = written.data() + written.size();
   const auto [stopped, error] = std::from_chars(begin, end, value);
-  if (error == std::errc() && stopped == end && begin != end && std::isfinite(value)) return value;
+  if (error == std::errc() && stopped == end && begin != end && std::isfinite(value)) {
+    check_range(value);
+    return value;
+  }
   if (written == ".inf" || written == "-.inf" || written == "inf" || written == "-inf" || written == ".nan" ||
       written == "nan")
     fail(fmt::format("expected a finite number, found '{}'", shortened(written)));
+  if (const double converted = in_si(written); !std::isnan(converted)) {
+    check_range(converted);
+    return converted;
+  }
   const Expression formula = expression({});
   return formula(std::span<const double>());
 }
@@ -225,6 +316,12 @@ std::string YamlValue::word(const std::vector<std::string>& allowed, const std::
   if (std::find(allowed.begin(), allowed.end(), found) != allowed.end()) return found;
   if (!is_scalar()) fail(fmt::format("expected {} as one word{}", what, did_you_mean("", allowed)));
   fail(fmt::format("'{}' is not {}{}", shortened(found), what, did_you_mean(found, allowed)));
+}
+
+std::string YamlValue::word() const {
+  const KeyForm* form = form_of([](const KeyForm& each) { return each.kind == KeyForm::Kind::word; });
+  if (!form) throw std::logic_error(fmt::format("the form of {} is no word, but a word is read", path_));
+  return word(form->words, form->of);
 }
 
 Eigen::VectorXd YamlValue::vector() const {
@@ -272,12 +369,26 @@ Eigen::MatrixXd YamlValue::matrix(Eigen::Index rows, Eigen::Index columns) const
 
 Expression YamlValue::expression(const std::vector<std::string>& variables) const {
   if (!is_scalar()) fail("expected a number or a formula");
+  if (const double converted = in_si(node_->scalar); !std::isnan(converted)) {
+    check_range(converted);
+    return Expression(converted);
+  }
   return expression(variables, {node_->scalar, node_->scalar, {}});
+}
+
+Expression YamlValue::expression() const {
+  const KeyForm* form = numeric_form();
+  if (!form) throw std::logic_error(fmt::format("the form of {} is no formula, but a formula is read", path_));
+  return expression(form->words);
 }
 
 FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
                                     const std::vector<std::string>& functions) const {
   if (!is_scalar()) fail("expected a number or a formula");
+  if (const double converted = in_si(node_->scalar); !std::isnan(converted)) {
+    const std::string number = fmt::format("{}", converted);
+    return {node_->scalar, number, {}};
+  }
   std::vector<std::string> plain_names = variables;
   for (const auto& [name, value] : document_->parameters) plain_names.push_back(name);
   try {
@@ -290,9 +401,8 @@ FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
 Expression YamlValue::expression(const std::vector<std::string>& variables, const FormulaText& formula) const {
   const auto read = [&] {
     try {
-      return Expression(formula, variables, document_->parameters,
-                        std::filesystem::path(document_->file).parent_path().string(),
-                        fmt::format("{}:{}: {}", document_->file, line_, path_));
+      return Expression(formula, variables, document_->parameters, std::filesystem::path(file()).parent_path().string(),
+                        fmt::format("{}:{}: {}", file(), line_, path_));
     } catch (const InputError& error) {
       fail(error.what());
     }
@@ -300,7 +410,7 @@ Expression YamlValue::expression(const std::vector<std::string>& variables, cons
   Expression result = read();
   if (!result.is_constant()) return result;
   try {
-    result(std::vector<double>(variables.size() + formula.references.size(), 0.0));
+    check_range(result(std::vector<double>(variables.size() + formula.references.size(), 0.0)));
   } catch (const ComputationError& error) {  // names the place
     throw InputError(error.what());
   }
@@ -310,12 +420,12 @@ Expression YamlValue::expression(const std::vector<std::string>& variables, cons
 std::string YamlValue::file_path() const {
   const std::string written = text();
   if (written.empty()) fail("expected the name of a file");
-  return (std::filesystem::path(document_->file).parent_path() / written).lexically_normal().string();
+  return (std::filesystem::path(file()).parent_path() / written).lexically_normal().string();
 }
 
 // -- place
 
-const std::string& YamlValue::file() const { return document_->file; }
+const std::string& YamlValue::file() const { return node_->file ? *node_->file : document_->file; }
 int YamlValue::line() const { return line_; }
 std::string YamlValue::path() const { return path_; }
 std::string YamlValue::source_text() const { return document_->text; }
@@ -323,8 +433,6 @@ void YamlValue::fail(const std::string& message) const { throw InputError(locate
 void YamlValue::warn(const std::string& message) const { document_->warnings.push_back(located(message)); }
 const std::vector<std::string>& YamlValue::warnings() const { return document_->warnings; }
 
-std::string YamlValue::located(const std::string& message) const {
-  return located_at(document_->file, line_, path_, message);
-}
+std::string YamlValue::located(const std::string& message) const { return located_at(file(), line_, path_, message); }
 
 }  // namespace bielle

@@ -17,6 +17,7 @@ struct YamlNode {
   };
   Kind kind = Kind::null;
   int line = 1;                                        ///< line on which it begins, 1-based
+  std::shared_ptr<const std::string> file;             ///< file in which it stands; null: the document's own
   std::string scalar;                                  ///< as written, without quotes
   std::vector<std::shared_ptr<const YamlNode>> items;  ///< of a sequence
   std::vector<Pair> pairs;                             ///< of a map, in the order of the file
