@@ -6,9 +6,13 @@
 
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/io/mechanism_keys.hpp"
 #include "mechanism/io/run_analyses.hpp"
+#include "mechanism/language/language_keys.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/input/key_schema.hpp"
+#include "reduce/common/input/key_words.hpp"
 #include "reduce/common/process/library_settings.hpp"
 #include "reduce/common/process/run_program.hpp"
 #include "reduce/common/progress.hpp"
@@ -31,9 +35,10 @@ std::map<std::string, std::string> read_overrides(const std::vector<std::string>
 }
 
 /// @throws InputError if a continued run would replace the results of another one without being told to
-std::string default_results(const std::string& model, const std::string& restart) {
+std::string default_results(const std::string& model, const std::string& chosen_case, const std::string& restart) {
   namespace fs = std::filesystem;
-  const std::string results = fs::path(model).replace_extension(".h5").string();
+  const std::string ending = chosen_case.empty() ? ".h5" : fmt::format("_{}.h5", chosen_case);
+  const std::string results = fs::path(model).replace_extension().string() + ending;
   std::error_code none;
   if (!restart.empty() && fs::exists(results, none) && !fs::equivalent(results, restart, none))
     throw InputError(
@@ -43,37 +48,96 @@ std::string default_results(const std::string& model, const std::string& restart
   return results;
 }
 
+/// Options of one call of the program.
+struct Options {
+  std::string model, results, restart, chosen_case, keys_of;
+  std::vector<std::string> settings;
+  bool check = false, expand = false, all_cases = false, schema = false;
+  CommonOptions common;
+};
+
+/// Prints the keys of the thing that is named, or of everything.
+void print_keys(const std::string& name) {
+  std::vector<std::string> names;
+  bool found = false;
+  for (const KeyTable* table : tables_below(mechanism_file_keys())) {
+    names.push_back(thing_named(table->of));
+    if (name != "all" && names.back() != name) continue;
+    fmt::print("{}{}", found ? "\n" : "", keys_as_text(*table));
+    found = true;
+  }
+  if (!found) throw InputError(fmt::format("--keys {}: nothing has this name{}", name, did_you_mean(name, names)));
+}
+
+/// Runs the model, or one of its cases.
+void run(const Options& options, const std::string& chosen_case) {
+  const MechanismFile file = read_mechanism_file(options.model, read_overrides(options.settings), chosen_case);
+  Progress progress(options.common.quiet);
+  for (const std::string& warning : file.warnings) progress.warn(warning);
+  if (options.expand) fmt::print("{}", file.text);
+  if (options.check || options.expand) {
+    if (!options.expand) fmt::print("{}", describe_model(file));
+    return;
+  }
+  if (file.analyses.empty())
+    throw InputError(fmt::format("{}: nothing to do: the file has no `analysis`{}", options.model,
+                                 read_case_names(options.model).empty() ? "" : "; --case NAME runs one of its cases"));
+  const std::string results =
+      options.results.empty() ? default_results(options.model, chosen_case, options.restart) : options.results;
+  const std::vector<AnalysisSummary> summaries =
+      run_analyses(file, results, progress, options.restart, options.common.threads);
+  if (!options.common.quiet) fmt::print("{}", format_summary(file, summaries, progress.phases(), results));
+}
+
+/// Runs all cases, each with results of its own.
+void run_all_cases(const Options& options) {
+  const std::vector<std::string> names = read_case_names(options.model);
+  if (names.empty()) throw InputError(fmt::format("--all-cases: {} has no `cases`", options.model));
+  if (!options.results.empty() || !options.restart.empty())
+    throw InputError("--all-cases: each case has a results file of its own, MODEL_CASE.h5; leave -o and --restart out");
+  for (const std::string& name : names) {
+    if (!options.common.quiet) fmt::print("case {}\n", name);
+    run(options, name);
+  }
+}
+
 int body(int argc, char** argv) {
   CLI::App app{"Computes the motion of a mechanism of rigid bodies, beams, superelements and joints.",
                "bielle-mechanism"};
-  std::string model_path, results_path, restart_path;
-  std::vector<std::string> settings;
-  bool check = false;
-  CommonOptions common;
-  app.add_option("MODEL", model_path, "mechanism file (YAML)")->required();
-  app.add_option("-o,--output", results_path, "results file (default: MODEL with the ending .h5)");
-  app.add_option("--restart", restart_path, "results file to go on from, at its last checkpoint");
-  app.add_option("--set", settings, "NAME=EXPRESSION: overrides a parameter of the model")->take_all()->expected(1);
-  app.add_flag("--check", check, "read, assemble and describe the model without running it");
-  add_common_options(app, common);
+  Options options;
+  app.add_option("MODEL", options.model, "mechanism file (YAML)");
+  app.add_option("-o,--output", options.results, "results file (default: MODEL with the ending .h5)");
+  app.add_option("--restart", options.restart, "results file to go on from, at its last checkpoint");
+  app.add_option("--set", options.settings, "NAME=EXPRESSION: overrides a parameter of the model")
+      ->take_all()
+      ->expected(1);
+  CLI::Option* one_case = app.add_option("--case", options.chosen_case, "runs one of the file's `cases`");
+  app.add_flag("--all-cases", options.all_cases, "runs all of the file's `cases`")->excludes(one_case);
+  app.add_flag("--check", options.check, "read, assemble and describe the model without running it");
+  app.add_flag("--expand", options.expand,
+               "print the model with every included, repeated and placed entry written out");
+  app.add_option("--keys", options.keys_of, "explain the keys of a type or section, or of `all`")->expected(1);
+  app.add_flag("--schema", options.schema, "print the JSON schema of mechanism files, for editors");
+  add_common_options(app, options.common);
   if (!parse_command_line(app, argc, argv)) return 0;
+  if (!options.keys_of.empty()) {
+    print_keys(options.keys_of);
+    return 0;
+  }
+  if (options.schema) {
+    fmt::print("{}", write_key_schema(mechanism_file_keys(), "mechanism file of bielle-mechanism", entry_keys()));
+    return 0;
+  }
+  if (options.model.empty()) throw InputError("MODEL is required; --help shows the options");
 
   // Matrices of a mechanism are small, and its own threads share the elements: threads of BLAS would only slow them
   // down.
   const BlasThreads one(1);
-  start_blas(common.threads);
-  const MechanismFile file = read_mechanism_file(model_path, read_overrides(settings));
-  Progress progress(common.quiet);
-  for (const std::string& warning : file.warnings) progress.warn(warning);
-  if (check) {
-    fmt::print("{}", describe_model(file));
-    return 0;
-  }
-  if (file.analyses.empty()) throw InputError(fmt::format("{}: nothing to do: the file has no `analysis`", model_path));
-  if (results_path.empty()) results_path = default_results(model_path, restart_path);
-  const std::vector<AnalysisSummary> summaries =
-      run_analyses(file, results_path, progress, restart_path, common.threads);
-  if (!common.quiet) fmt::print("{}", format_summary(file, summaries, progress.phases(), results_path));
+  start_blas(options.common.threads);
+  if (options.all_cases)
+    run_all_cases(options);
+  else
+    run(options, options.chosen_case);
   return 0;
 }
 

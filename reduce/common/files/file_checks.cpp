@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -32,6 +34,14 @@ void check_input_file(const std::string& path) {
   if (S_ISDIR(found.st_mode)) fail(path, "is a folder, expected a file");
   const bool handed_over = S_ISFIFO(found.st_mode) && (path.starts_with("/dev/") || path.starts_with("/proc/"));
   if (!S_ISREG(found.st_mode) && !handed_over) fail(path, "is a device or a pipe, expected a file");
+}
+
+std::string read_input_text(const std::string& path) {
+  check_input_file(path);
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) fail(path, "cannot be read");
+  return text;
 }
 
 void check_output_file(const std::string& path) {

@@ -19,6 +19,14 @@ using Json = nlohmann::ordered_json;
 /// Schemas of tables by their names; each table is written once and referred to.
 class Writer {
  public:
+  Writer(const KeyTable& root, const std::vector<Key>& entry_keys) : entry_keys_(entry_keys) {
+    for (const Key& key : root.keys)
+      for (const KeyForm& form : key.forms)
+        if (form.kind == KeyForm::Kind::entries)
+          for (const KeyForm& entry : form.items.front())
+            if (entry.table) add_entry_table(entry.table());
+  }
+
   Json reference(const KeyTable& table) {
     const auto [found, is_new] = names_.emplace(&table, "");
     if (is_new) {
@@ -35,6 +43,12 @@ class Writer {
   Json take_definitions() { return std::move(definitions_); }
 
  private:
+  /// Notes a table, and its variants, as that of a named entry.
+  void add_entry_table(const KeyTable& table) {
+    if (!entry_tables_.insert(&table).second) return;
+    for (const KeyTable::Variant& variant : table.variants) add_entry_table(variant.table());
+  }
+
   /// "a spring_damper" -> "spring_damper", "the friction of a contact" -> "friction_of_a_contact"
   std::string free_name(const std::string& of) {
     std::string name = thing_named(of);
@@ -53,6 +67,9 @@ class Writer {
       properties[key.name] = of_key(key);
       if (key.presence.required) required.push_back(key.name);
     }
+    if (entry_tables_.count(&table))
+      for (const Key& key : entry_keys_)
+        if (!table.find(key.name)) properties[key.name] = of_key(key);
     schema["properties"] = std::move(properties);
     if (!required.empty()) schema["required"] = std::move(required);
     schema["additionalProperties"] = false;
@@ -149,6 +166,8 @@ class Writer {
     return schema;
   }
 
+  const std::vector<Key>& entry_keys_;
+  std::set<const KeyTable*> entry_tables_;
   std::map<const KeyTable*, std::string> names_;
   std::set<std::string> taken_;
   Json definitions_ = Json::object();
@@ -156,8 +175,8 @@ class Writer {
 
 }  // namespace
 
-std::string write_key_schema(const KeyTable& root, const std::string& title) {
-  Writer writer;
+std::string write_key_schema(const KeyTable& root, const std::string& title, const std::vector<Key>& entry_keys) {
+  Writer writer(root, entry_keys);
   const Json reference = writer.reference(root);
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
   schema["allOf"] = Json::array({reference});

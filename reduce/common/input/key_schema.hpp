@@ -8,7 +8,8 @@
 namespace bielle {
 
 /// Writes the JSON schema (draft 7) of a file whose keys are those of a table.
-/// @param title  name of the kind of file: "mechanism file of bielle-mechanism"
-std::string write_key_schema(const KeyTable& root, const std::string& title);
+/// @param title       name of the kind of file: "mechanism file of bielle-mechanism"
+/// @param entry_keys  keys that every named entry of a section may have in addition
+std::string write_key_schema(const KeyTable& root, const std::string& title, const std::vector<Key>& entry_keys = {});
 
 }  // namespace bielle

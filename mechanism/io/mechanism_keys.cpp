@@ -1,0 +1,104 @@
+#include "mechanism/io/mechanism_keys.hpp"
+
+#include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/elements/superelement/body_points.hpp"
+#include "mechanism/hydraulics/reading/circuit_reader.hpp"
+#include "mechanism/io/component_table.hpp"
+#include "mechanism/io/node_reader.hpp"
+#include "mechanism/io/output_options.hpp"
+#include "mechanism/language/language_keys.hpp"
+#include "mechanism/measures/input_measure.hpp"
+#include "mechanism/measures/measure_event.hpp"
+#include "mechanism/measures/read_measure.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Returns the table of the entries of a section: a variant for each type.
+KeyTable by_type(Section section, const char* of, const char* about) {
+  KeyTable table{of, about, {}, {}};
+  std::vector<std::string> names;
+  for (const ComponentType& type : component_table())
+    if (type.section == section) {
+      names.emplace_back(type.name);
+      table.variants.push_back({"type", type.name, type.keys});
+    }
+  table.keys = {{"type", keys::word(names, std::string("a type of the ") + section_name(section)), keys::required,
+                 "The type of the entry."}};
+  return table;
+}
+
+/// Returns the table of the only type of a section.
+const KeyTable& (*keys_of(Section section))() {
+  for (const ComponentType& type : component_table())
+    if (type.section == section) return type.keys;
+  return nullptr;
+}
+
+}  // namespace
+
+const KeyTable& element_keys() {
+  static const KeyTable table = by_type(Section::elements, "an element", "A body, a spring, a field or an actuator.");
+  return table;
+}
+
+const KeyTable& joint_keys() {
+  static const KeyTable table = by_type(Section::joints, "a joint", "A connection of nodes, or of joints.");
+  return table;
+}
+
+const KeyTable& analysis_keys() {
+  static const KeyTable table = [] {
+    KeyTable all{
+        "an analysis", "A computation; analyses follow one another from the state that the last one left.", {}, {}};
+    std::vector<std::string> names;
+    for (const AnalysisType& type : analysis_table()) {
+      names.emplace_back(type.name);
+      all.variants.push_back({"type", type.name, type.keys});
+    }
+    all.keys = {{"type", keys::word(names, "a type of analysis"), keys::required, "The type of analysis."}};
+    return all;
+  }();
+  return table;
+}
+
+const KeyTable& mechanism_file_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a mechanism file",
+      "A mechanism, the analyses to run on it, and the results that are kept. Units are SI, angles are in radians.",
+      {{"mechanism", text(), optional, "Title."},
+       {"include",
+        {file("mechanism"), list_of(file("mechanism"))},
+        optional,
+        "Files whose entries belong to this one. Parameters of this file replace those of included ones."},
+       {"gravity", vector3("m/s^2").as_vector(), otherwise("[0, 0, 0]"),
+        "Acceleration of gravity, in inertial components."},
+       {"parameters", entries("parameter", {number("any")}), optional,
+        "Named numbers for formulas; each may use those before it."},
+       {"nodes", entries("entry", {nested(node_keys)}), optional, "Points with axes, which move."},
+       {"points", entries("entry", {nested(point_keys)}), optional, "Nodes at points of superelements."},
+       {"elements", entries("entry", {nested(element_keys)}), optional, "Bodies, springs and actuators."},
+       {"joints", entries("entry", {nested(joint_keys)}), optional, "Connections of nodes."},
+       {"drives", entries("entry", {nested(keys_of(Section::drives))}), optional,
+        "Motions, forces and controls of joints."},
+       {"loads", entries("entry", {nested(keys_of(Section::loads))}), optional, "Forces and moments on nodes."},
+       {"states", entries("entry", {nested(keys_of(Section::states))}), optional,
+        "Differential equations and control blocks."},
+       {"measures", entries("entry", {state_formula("", {"t"}), nested(measure_keys)}), optional,
+        "Named quantities of the state."},
+       {"inputs", entries("entry", {number("any"), nested(input_keys)}), optional,
+        "Numbers that a program sets while the mechanism moves."},
+       {"events", entries("entry", {nested(event_keys)}), optional, "Quantities that cross a value."},
+       {"hydraulics", nested(hydraulics_keys), optional, "Circuits of fluid."},
+       {"definitions", entries("part", {entries("section", {text()})}), optional,
+        "Sub-assemblies that are written once: sections as in this file, placed by `parts`."},
+       {"parts", entries("entry", {nested(part_keys)}), optional, "Sub-assemblies that are placed in the mechanism."},
+       {"analysis", list_of(nested(analysis_keys)), optional, "Analyses, one after the other."},
+       {"output", nested(output_keys), optional, "Results that are kept."},
+       {"cases", entries("case", {nested(case_keys)}), optional,
+        "Named sets of parameters and analyses, which `--case` runs."}}};
+  return table;
+}
+
+}  // namespace bielle::mechanism

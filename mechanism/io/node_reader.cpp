@@ -1,0 +1,221 @@
+#include "mechanism/io/node_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "reduce/common/input/plausible.hpp"
+#include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_file.hpp"
+#include "mechanism/reading/read_frame.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr const char* direction_names[] = {"x", "y", "z", "rx", "ry", "rz"};
+const std::vector<std::string> directions(std::begin(direction_names), std::end(direction_names));
+
+std::size_t direction_index(const std::string& name) {
+  return static_cast<std::size_t>(std::find(directions.begin(), directions.end(), name) - directions.begin());
+}
+
+/// Checks that an item of a list occurs only once. @param seen  names so far
+void check_once(const YamlValue& item, const std::string& name, std::set<std::string>& seen) {
+  if (!seen.insert(name).second) item.fail(fmt::format("'{}' stands in this list twice", name));
+}
+
+/// Reads a formula of t, or `{table: f.csv}`.
+Expression read_acceleration(const YamlValue& value) {
+  if (!value.is_map()) return value.expression();
+  return read_named_file(value.at("table"), [](const std::string& path) {
+    return Expression(fmt::format("table('{}', t)", std::filesystem::absolute(path).string()), {"t"});
+  });
+}
+
+const KeyTable& acceleration_keys() {
+  using namespace keys;
+  static const KeyTable table{"an acceleration",
+                              "An acceleration that was measured.",
+                              {{"table", file("table of times and values"), required, "Times [s] and values."}}};
+  return table;
+}
+
+const KeyTable& motion_by_acceleration_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a motion by its acceleration",
+      "A motion whose acceleration is known, which the program integrates.",
+      {{"acceleration", {formula("m/s^2 or rad/s^2", {"t"}), nested(acceleration_keys)}, required, "The acceleration."},
+       {"velocity", number("m/s or rad/s"), otherwise("0"), "Velocity at the start."},
+       {"displacement", number("m or rad"), otherwise("0"), "Displacement at the start."}}};
+  return table;
+}
+
+const KeyTable& motion_keys() {
+  using namespace keys;
+  const auto along = [](const char* name, const char* unit, const char* about) {
+    return Key{name, {formula(unit, {"t"}), nested(motion_by_acceleration_keys)}, optional, about};
+  };
+  static const KeyTable table{"`motion`",
+                              "Prescribed motion of a node. Rotations are prescribed all three together.",
+                              {along("x", "m", "Displacement along the inertial x axis."),
+                               along("y", "m", "Displacement along the inertial y axis."),
+                               along("z", "m", "Displacement along the inertial z axis."),
+                               along("rx", "rad", "Component x of the rotation vector."),
+                               along("ry", "rad", "Component y of the rotation vector."),
+                               along("rz", "rad", "Component z of the rotation vector.")}};
+  return table;
+}
+
+PrescribedMotion read_motion(const YamlValue& value) {
+  if (!value.is_map()) {
+    const Expression displacement = value.expression();
+    warn_of_jumps(value, displacement, "the prescribed motion");
+    return displacement;
+  }
+  return PrescribedMotion::of_acceleration(read_acceleration(value.at("acceleration")), value.at("velocity").number(),
+                                           value.at("displacement").number());
+}
+
+void read_holds(const YamlValue& entry, Node& node) {
+  if (const auto fixed = entry.find("fixed")) {
+    if (fixed->is_sequence()) {
+      std::set<std::string> seen;
+      for (const YamlValue& item : fixed->items()) {
+        const std::string direction = item.word();
+        check_once(item, direction, seen);
+        node.freedom[direction_index(direction)] = Freedom::fixed;
+      }
+    } else if (fixed->boolean()) {
+      node.freedom.fill(Freedom::fixed);
+    }
+  }
+  if (const auto motion = entry.find("motion")) {
+    for (const auto& [name, value] : motion->entries()) {
+      const std::size_t k = direction_index(name);
+      if (node.freedom[k] == Freedom::fixed && entry.at("fixed").is_sequence())
+        value.fail("this direction is fixed as well");
+      node.freedom[k] = Freedom::prescribed;
+      node.motion[k] = read_motion(value);
+    }
+    // Rotations are prescribed together: fixed ones stay zero.
+    const auto rotations = node.freedom.begin() + 3;
+    if (std::count(rotations, node.freedom.end(), Freedom::prescribed) > 0 &&
+        std::count(rotations, node.freedom.end(), Freedom::free) > 0)
+      motion->fail("prescribed rotations come all three together: give rx, ry and rz, or fix the others");
+  }
+}
+
+/// Checks that all, two or none of the rotations of a node are held.
+void check_holds(const YamlValue& entry, const Node& node) {
+  const auto rotations = node.freedom.begin() + 3;
+  if (std::count(rotations, node.freedom.end(), Freedom::fixed) == 1 &&
+      std::count(rotations, node.freedom.end(), Freedom::free) == 2)
+    entry.at("fixed").fail(
+        "all three rotations of a node can be held, or two, or none, but not one alone; a universal joint holds one");
+}
+
+/// A held direction has no velocity of its own: a given one is an error, and must not be ignored.
+void check_velocities(const YamlValue& entry, const Node& node) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (node.velocity[static_cast<int>(k)] != 0 && node.freedom[k] != Freedom::free)
+      entry.at("velocity").fail(fmt::format("the node is held along {}", directions[k]));
+  const Vector3 omega = node.frame.R * node.angular_velocity;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (node.freedom[3 + k] != Freedom::free && std::abs(omega[static_cast<int>(k)]) > 1e-12 * omega.norm())
+      entry.at("angular_velocity").fail(fmt::format("the node is held against turning about {}", "xyz"[k]));
+}
+
+/// The entries of the section, which may be placed relative to each other.
+class NodeReader {
+ public:
+  explicit NodeReader(const std::vector<std::pair<std::string, YamlValue>>& entries) {
+    for (const auto& [name, entry] : entries) {
+      if (name == "ground") entry.fail("'ground' is the built-in fixed node at the origin; choose another name");
+      entries_.emplace(name, entry.keyed(node_keys()));
+    }
+  }
+
+  Frame frame(const std::string& name) {
+    if (const auto known = frames_.find(name); known != frames_.end()) return known->second;
+    const YamlValue& entry = entries_.at(name);
+    Frame frame = read_frame(entry);
+    if (const auto at = entry.find("at")) {
+      const Frame base = frame_of(*at, name);
+      frame = {base.x + base.R * frame.x, base.R * frame.R};
+    }
+    frames_.emplace(name, frame);
+    return frame;
+  }
+
+  const YamlValue& entry(const std::string& name) const { return entries_.at(name); }
+
+ private:
+  Frame frame_of(const YamlValue& at, const std::string& name) {
+    const std::string base = at.text();
+    if (base == "ground") return {};
+    if (!entries_.count(base)) {
+      std::vector<std::string> names;
+      for (const auto& [known, entry] : entries_) names.push_back(known);
+      at.fail(fmt::format("there is no node '{}'{}", base, did_you_mean(base, names)));
+    }
+    open_.push_back(name);
+    if (std::find(open_.begin(), open_.end(), base) != open_.end())
+      at.fail(fmt::format("nodes are placed relative to each other in a circle: {}, {}", fmt::join(open_, ", "), base));
+    const Frame result = frame(base);
+    open_.pop_back();
+    return result;
+  }
+
+  std::map<std::string, YamlValue> entries_;
+  std::map<std::string, Frame> frames_;
+  std::vector<std::string> open_;  ///< nodes whose place is being read, each relative to the next one
+};
+
+void read_node(const std::string& name, const YamlValue& entry, const Frame& frame, Model& model) {
+  Node node;
+  node.name = name;
+  node.frame = frame;
+  node.velocity = entry.at("velocity").vector3();
+  node.angular_velocity = entry.at("angular_velocity").vector3();
+  read_holds(entry, node);
+  check_holds(entry, node);
+  check_velocities(entry, node);
+  model.add_node(std::move(node));
+}
+
+}  // namespace
+
+const KeyTable& node_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a node", "A point with axes, which move.",
+      joined({{{"position", vector3("m").as_point().in_inertial_axes(), otherwise("[0, 0, 0]"),
+                "Position of the origin: inertial, or in the axes of the node `at`."}},
+              orientation_keys(),
+              {{"at", name_of("node"), computed("the inertial axes"),
+                "Node in whose axes the position and the orientation are given."},
+               {"velocity", vector3("m/s").as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),
+                "Velocity at the start, in inertial components."},
+               {"angular_velocity", vector3("rad/s").as_axial(), otherwise("[0, 0, 0]"),
+                "Angular velocity at the start, in the node's own axes."},
+               {"fixed",
+                {boolean(), list_of(word(directions, "a direction"))},
+                otherwise("false"),
+                "Held directions, `true` for all six: displacements x, y, z and rotations rx, ry, rz."},
+               {"motion", nested(motion_keys), optional,
+                "Prescribed displacements from the place, each as a formula of t or by its acceleration."}}})};
+  return table;
+}
+
+void read_nodes(const std::vector<std::pair<std::string, YamlValue>>& entries, Model& model) {
+  NodeReader reader(entries);
+  for (const auto& [name, entry] : entries) read_node(name, reader.entry(name), reader.frame(name), model);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,210 @@
+#include "mechanism/language/entry_writer.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "mechanism/language/language_keys.hpp"
+#include "mechanism/reading/read_frame.hpp"
+#include "reduce/common/input/unit.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Kind = KeyForm::Kind;
+
+const KeyForm* form_of(const KeyForms& forms, Kind kind) {
+  const auto found = std::find_if(forms.begin(), forms.end(), [&](const KeyForm& form) { return form.kind == kind; });
+  return found == forms.end() ? nullptr : &*found;
+}
+
+const KeyForm* numeric_form(const KeyForms& forms) {
+  const auto found = std::find_if(forms.begin(), forms.end(), [](const KeyForm& form) { return form.is_numeric(); });
+  return found == forms.end() ? nullptr : &*found;
+}
+
+bool has_all_keys(const KeyTable& table, const YamlNode& map) {
+  return std::all_of(map.pairs.begin(), map.pairs.end(),
+                     [&](const YamlNode::Pair& pair) { return table.find(pair.key->scalar) != nullptr; });
+}
+
+/// Returns the table of a map: of several ones that which has all its keys.
+const KeyTable* table_of(const KeyForms& forms, const YamlNode& map) {
+  const KeyTable* first = nullptr;
+  for (const KeyForm& form : forms) {
+    if (form.kind != Kind::table) continue;
+    const KeyTable& table = form.table().of_map(map);
+    if (has_all_keys(table, map)) return &table;
+    if (!first) first = &table;
+  }
+  return first;
+}
+
+/// Whether the keys of a map of entries are names of things in the model.
+bool names_things(const KeyForm& entries) {
+  static const std::vector<std::string> things = {"node",  "joint", "element", "measure", "event",
+                                                  "state", "input", "drive",   "load",    "hydraulics"};
+  return std::find(things.begin(), things.end(), entries.of) != things.end();
+}
+
+bool is_orientation(const std::string& key) {
+  const std::vector<Key>& keys = orientation_keys();
+  return std::any_of(keys.begin(), keys.end(), [&](const Key& each) { return each.name == key; });
+}
+
+/// Whether an orientation in a map of a table is relative to the inertial axes.
+bool has_inertial_orientation(const KeyTable& table) {
+  const Key* position = table.find("position");
+  return table.find("matrix") && position && !position->forms.empty() && position->forms.front().inertial;
+}
+
+/// Whether the position and orientation in a map are relative to a node, which is placed itself.
+bool is_relative_frame(const KeyTable& table, const YamlNode& map) {
+  return has_inertial_orientation(table) && find_pair(map, "at");
+}
+
+}  // namespace
+
+Tree EntryWriter::write(const Tree& value, const KeyForms& forms, const std::string& path) const {
+  switch (value->kind) {
+    case YamlNode::Kind::null:
+      return value;
+    case YamlNode::Kind::scalar:
+      return write_scalar(value, forms, path);
+    case YamlNode::Kind::sequence:
+      return write_list(*value, forms, path);
+    case YamlNode::Kind::map:
+      break;
+  }
+  const KeyTable* table = table_of(forms, *value);
+  const KeyForm* entries = form_of(forms, Kind::entries);
+  if (table && (!entries || has_all_keys(*table, *value))) return write_map(*value, *table, path);
+  if (entries) return write_entries(*value, *entries, path);
+  if (const KeyForm* name = form_of(forms, Kind::name); name && name->of == "node") {
+    const Tree point = write_map(*value, body_point_keys(), path);
+    return make_scalar(make_point_(*point, path), *value);
+  }
+  return value;  // the reader of the entry refuses it
+}
+
+Tree EntryWriter::write_map(const YamlNode& map, const KeyTable& table, const std::string& path) const {
+  Pairs pairs;
+  pairs.reserve(map.pairs.size());
+  for (const YamlNode::Pair& pair : map.pairs) {
+    const Key* key = table.find(pair.key->scalar);
+    if (!key) {
+      pairs.push_back(pair);
+      continue;
+    }
+    KeyForms forms = key->forms;
+    if (is_relative_frame(table, map))
+      for (KeyForm& form : forms) form.inertial = form.inertial && key->name != "position";
+    pairs.push_back({pair.key, write(pair.value, forms, path + "." + key->name)});
+  }
+  Tree written = make_map(std::move(pairs), map);
+  return scope_.placement.is_identity() ? written : place_frame(*written, table);
+}
+
+Tree EntryWriter::write_entries(const YamlNode& map, const KeyForm& form, const std::string& path) const {
+  const bool things = names_things(form);
+  Pairs pairs;
+  for (const YamlNode::Pair& pair : map.pairs) {
+    const std::string text = scope_.text(*pair.key, path);
+    const std::string name = things ? scope_.name_of(text).value_or(text) : text;
+    pairs.push_back({make_scalar(name, *pair.key), write(pair.value, form.items.front(), path + "." + name)});
+  }
+  return make_map(std::move(pairs), map);
+}
+
+Tree EntryWriter::write_scalar(const Tree& node, const KeyForms& forms, const std::string& path) const {
+  const std::string text = scope_.text(*node, path);
+  const auto result = [&](const std::string& other) {
+    return other == node->scalar ? node : make_scalar(other, *node);
+  };
+  for (const KeyForm& form : forms)
+    if (form.kind == Kind::word && std::find(form.words.begin(), form.words.end(), text) != form.words.end())
+      return result(text);
+  if (form_of(forms, Kind::boolean) && (text == "true" || text == "false")) return result(text);
+  if (form_of(forms, Kind::name))
+    if (const auto other = scope_.name_of(text)) return result(*other);
+  const KeyForm* number = numeric_form(forms);
+  if (!number || quantity_of(text)) return result(text);
+  const std::string formula = scope_.formula(text, number->words);
+  if (number->geometry == KeyForm::Geometry::pseudoscalar && scope_.placement.mirrored >= 0)
+    return make_scalar(fmt::format("-({})", formula), *node);
+  return result(formula);
+}
+
+Tree EntryWriter::write_list(const YamlNode& list, const KeyForms& forms, const std::string& path) const {
+  const auto fitting = std::find_if(forms.begin(), forms.end(), [&](const KeyForm& form) { return form.fits(list); });
+  const KeyForm* form = fitting != forms.end() ? &*fitting : form_of(forms, Kind::list);
+  std::vector<Tree> items;
+  static const KeyForms unknown;
+  for (std::size_t k = 0; k < list.items.size(); ++k) {
+    const KeyForms& of_item = form ? form->items[std::min(k, form->items.size() - 1)] : unknown;
+    items.push_back(write(list.items[k], of_item, fmt::format("{}[{}]", path, k + 1)));
+  }
+  const Tree written = make_list(std::move(items), list);
+  const bool vector = form && form->geometry != KeyForm::Geometry::none && list.items.size() == 3;
+  return vector ? place_vector(written, *form, path) : written;
+}
+
+Tree EntryWriter::place_vector(const Tree& list, const KeyForm& form, const std::string& path) const {
+  const Placement& placement = scope_.placement;
+  const Matrix3 A = placement.matrix(form.geometry, form.inertial);
+  const bool moved = form.geometry == KeyForm::Geometry::point && form.inertial;
+  if (A.isIdentity(0) && !(moved && placement.moves())) return list;
+  const Vector3 offset = moved ? placement.frame.x : Vector3(Vector3::Zero());
+  const std::vector<Tree>& items = list->items;
+  const bool constant = std::all_of(items.begin(), items.end(), [&](const Tree& item) {
+    if (item->kind != YamlNode::Kind::scalar) return false;
+    try {
+      scope_.number(*item, path);
+      return true;
+    } catch (const InputError&) {
+      return false;  // a formula of t or of the state
+    }
+  });
+  std::vector<Tree> placed;
+  for (int row = 0; row < 3; ++row) {
+    if (constant) {
+      double sum = offset[row];
+      for (int k = 0; k < 3; ++k)
+        if (A(row, k) != 0) sum += A(row, k) * scope_.number(*items[static_cast<std::size_t>(k)], path);
+      placed.push_back(make_scalar(fmt::format("{}", sum), *list));
+      continue;
+    }
+    std::string sum = offset[row] == 0 ? "" : fmt::format("{}", offset[row]);
+    for (int k = 0; k < 3; ++k)
+      if (A(row, k) != 0)
+        sum +=
+            fmt::format("{}({})*({})", sum.empty() ? "" : " + ", A(row, k), items[static_cast<std::size_t>(k)]->scalar);
+    placed.push_back(make_scalar(sum.empty() ? "0" : sum, *list));
+  }
+  return make_list(std::move(placed), *list);
+}
+
+/// Gives an entry with an orientation that of its place.
+Tree EntryWriter::place_frame(const YamlNode& map, const KeyTable& table) const {
+  if (!table.find("matrix")) return make_map(map.pairs, map);
+  const bool inertial = has_inertial_orientation(table) && !is_relative_frame(table, map);
+  Pairs orientation, others;
+  for (const YamlNode::Pair& pair : map.pairs)
+    (is_orientation(pair.key->scalar) ? orientation : others).push_back(pair);
+  static const KeyTable orientation_table{"an orientation", "", orientation_keys(), {}};
+  YamlValue given = YamlValue::of_tree(make_map(orientation, map), "", map.file ? *map.file : *scope_.main_file);
+  given.set_parameters(*scope_.parameters);
+  const Matrix3 R = scope_.placement.orientation(read_orientation(given.keyed(orientation_table)), inertial);
+  if (inertial && !find_pair(map, "position")) {
+    const Vector3& x = scope_.placement.frame.x;
+    others.push_back({make_scalar("position", map), make_numbers({x[0], x[1], x[2]}, map)});
+  }
+  if (!R.isIdentity(0)) {
+    std::vector<Tree> rows;
+    for (int row = 0; row < 3; ++row) rows.push_back(make_numbers({R(row, 0), R(row, 1), R(row, 2)}, map));
+    others.push_back({make_scalar("matrix", map), make_list(std::move(rows), map)});
+  }
+  return make_map(std::move(others), map);
+}
+
+}  // namespace bielle::mechanism

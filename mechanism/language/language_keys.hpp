@@ -1,0 +1,19 @@
+// Keys of the language by which a mechanism is built from parts. They are read before all others and do not reach the
+// readers of entries.
+#pragma once
+
+#include "reduce/common/input/key_table.hpp"
+
+namespace bielle::mechanism {
+
+/// Keys that every entry of a section may have: `if`, `repeat`.
+std::vector<Key> entry_keys();
+const KeyTable& repeat_keys();
+/// A placed part: an entry of the section `parts`.
+const KeyTable& part_keys();
+/// An entry of the section `cases`.
+const KeyTable& case_keys();
+/// A point of a body, in place of the name of a node.
+const KeyTable& body_point_keys();
+
+}  // namespace bielle::mechanism

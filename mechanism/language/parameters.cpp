@@ -1,0 +1,48 @@
+#include "mechanism/language/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include "reduce/common/input/unit.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+double evaluate(const std::string& formula, const Parameters& parameters) {
+  if (const auto quantity = quantity_of(formula)) return to_si(*quantity, "any");
+  return Expression(formula, {}, parameters)(std::span<const double>());
+}
+
+double read_parameter(const YamlValue& value) {
+  const auto quantity = value.is_scalar() ? quantity_of(value.text()) : std::nullopt;
+  if (!quantity) return value.number();
+  try {
+    return to_si(*quantity, "any");
+  } catch (const InputError& error) {
+    value.fail(error.what());
+  }
+}
+
+}  // namespace
+
+Parameters read_parameters(YamlValue root, const std::map<std::string, std::string>& overrides) {
+  std::vector<std::string> names;
+  if (const auto section = root.find("parameters"))
+    for (const auto& [name, value] : section->entries()) {
+      const auto given = overrides.find(name);
+      try {
+        root.set_parameter(
+            name, given == overrides.end() ? read_parameter(value) : evaluate(given->second, root.parameters()));
+      } catch (const std::runtime_error& error) {
+        if (given == overrides.end()) throw;
+        throw InputError(fmt::format("--set {}={}: {}", name, given->second, error.what()));
+      }
+      names.push_back(name);
+    }
+  for (const auto& [name, expression] : overrides)
+    if (!root.parameters().count(name))
+      throw InputError(fmt::format("--set {}={}: {} has no parameter '{}'{}", name, expression, root.file(), name,
+                                   did_you_mean(name, names)));
+  return root.parameters();
+}
+
+}  // namespace bielle::mechanism

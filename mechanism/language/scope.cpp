@@ -1,0 +1,87 @@
+#include "mechanism/language/scope.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reduce/common/formula/formula_references.hpp"
+#include "reduce/common/input/unit.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Functions of formulas whose operands are names.
+const std::vector<std::string> functions_of_names = {"distance", "angle"};
+
+std::string literal(double value) { return value < 0 ? fmt::format("({})", value) : fmt::format("{}", value); }
+
+}  // namespace
+
+Scope Scope::inner() const {
+  Scope scope;
+  scope.outer = this;
+  scope.main_file = main_file;
+  scope.parameters = parameters;
+  scope.prefix = prefix;
+  scope.placement = placement;
+  return scope;
+}
+
+bool Scope::replaces() const {
+  return !values.empty() || !own.empty() || !merged.empty() || (outer && outer->replaces());
+}
+
+std::optional<std::string> Scope::name_of(const std::string& name) const {
+  // "left arm", "left arm.angle", "bay_2.root": the longest beginning that is a name
+  for (std::size_t end = name.size();; end = name.rfind('.', end - 1)) {
+    if (end == std::string::npos || end == 0) break;
+    const std::string beginning = name.substr(0, end);
+    if (const auto found = merged.find(beginning); found != merged.end()) return found->second + name.substr(end);
+    if (own.count(beginning)) return prefix + name;
+  }
+  return outer ? outer->name_of(name) : std::nullopt;
+}
+
+std::string Scope::formula(const std::string& text, const std::vector<std::string>& variables) const {
+  const auto replaced = [&](const std::string& word) -> std::optional<std::string> {
+    if (std::find(variables.begin(), variables.end(), word) != variables.end()) return {};
+    for (const Scope* scope = this; scope; scope = scope->outer) {
+      if (const auto found = scope->values.find(word); found != scope->values.end()) return literal(found->second);
+      if (scope->measures.count(word)) return scope->prefix + word;
+    }
+    return {};
+  };
+  return rename_in_formula(
+      text, functions_of_names, [&](const std::string& name) { return name_of(name); }, replaced);
+}
+
+std::string Scope::text(const YamlNode& node, const std::string& path) const {
+  std::string text = node.scalar;
+  for (std::size_t begin = 0; (begin = text.find('{', begin)) != std::string::npos;) {
+    const std::size_t end = text.find('}', begin);
+    if (end == std::string::npos) fail_at(node, *main_file, path, fmt::format("'{}': a brace is not closed", text));
+    const YamlNode inside{
+        YamlNode::Kind::scalar, node.line, node.file, text.substr(begin + 1, end - begin - 1), {}, {}};
+    const double value = number(inside, path);
+    if (value != std::floor(value) || std::abs(value) > 1e15)
+      fail_at(node, *main_file, path,
+              fmt::format("'{{{}}}' is {}; a name contains whole numbers", inside.scalar, value));
+    const std::string digits = fmt::format("{:.0f}", value);
+    text.replace(begin, end - begin + 1, digits);
+    begin += digits.size();
+  }
+  return text;
+}
+
+double Scope::number(const YamlNode& node, const std::string& path) const {
+  if (node.kind != YamlNode::Kind::scalar) fail_at(node, *main_file, path, "expected a number");
+  try {
+    if (const auto quantity = quantity_of(node.scalar)) return to_si(*quantity, "any");
+    return Expression(formula(node.scalar, {}), {}, *parameters)(std::span<const double>());
+  } catch (const std::runtime_error& error) {
+    fail_at(node, *main_file, path, fmt::format("'{}': {}", node.scalar, error.what()));
+  }
+}
+
+}  // namespace bielle::mechanism
