@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from .assemblies import Assembly
 from .yaml_text import yaml_text
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ def load(path: str | os.PathLike, parameters: Parameters | None = None) -> Model
     parameters: values of the file's `parameters`, numbers or formulas, in place of those in the file (as `--set` does).
     Raises InputError with file, line and key.
     """
-    return Model(_core.Model.read_file(os.fspath(path), _overrides(parameters)))
+    return Model._of(_core.Model.read_file(os.fspath(path), _overrides(parameters)))
 
 
 def read(model: str | Mapping[str, Any], parameters: Parameters | None = None, *, name: str = "model",
@@ -40,9 +41,9 @@ def read(model: str | Mapping[str, Any], parameters: Parameters | None = None, *
     if isinstance(model, os.PathLike) or isinstance(model, str) and model.endswith((".yaml", ".yml")):
         raise _core.InputError(f"{name}: '{os.fspath(model)}' is the name of a file, which bielle.load reads")
     if isinstance(model, str):
-        return Model(_core.Model.read_text(model, place, True, _overrides(parameters)))
+        return Model._of(_core.Model.read_text(model, place, True, _overrides(parameters)))
     given = dict(model) if isinstance(model, Mapping) else model
-    return Model(_core.Model.read_text(yaml_text(given, place), place, False, _overrides(parameters)))
+    return Model._of(_core.Model.read_text(yaml_text(given, place), place, False, _overrides(parameters)))
 
 
 def _overrides(parameters: Parameters | None) -> dict[str, str]:
@@ -52,14 +53,46 @@ def _overrides(parameters: Parameters | None) -> dict[str, str]:
     return {name: text(value) for name, value in (parameters or {}).items()}
 
 
-class Model:
-    """The description of a mechanism, made by `load` or `read` and never changed. Any number of sessions may share
-    it."""
+class Model(Assembly):
+    """The description of a mechanism. Any number of sessions may share it.
 
-    def __init__(self, core: _core.Model):
-        if not isinstance(core, _core.Model):
-            raise _core.InputError("a Model is made by bielle.load (of a file) or bielle.read (of a text or a dictionary)")
-        self._core = core
+    One that `load` or `read` has made is never changed. `bielle.Model("title")` is empty: its methods add the entries,
+    which are read when the model is first used. A change after that makes a new model for later sessions.
+    """
+
+    def __init__(self, title: str | None = None, gravity: Sequence[float] | None = None, *, folder: str | os.PathLike | None = None):
+        """title: of the mechanism. gravity: [m/s^2]. folder: of relative file names; the working folder, unless given."""
+        super().__init__()
+        if not (title is None or isinstance(title, str)):
+            raise _core.InputError("expected a title; bielle.load reads a file, bielle.read a text or a dictionary")
+        if title is not None:
+            self._sections["mechanism"] = title
+        if gravity is not None:
+            self._sections["gravity"] = gravity
+        self._folder = folder
+        self._made: _core.Model | None = None
+        self._is_read = False
+
+    @classmethod
+    def _of(cls, core: _core.Model) -> Model:
+        model = cls()
+        model._made, model._is_read = core, True
+        return model
+
+    @property
+    def _core(self) -> _core.Model:
+        if self._made is None:
+            self._made = read(self.to_dict(), folder=self._folder)._made
+        return self._made
+
+    def _change(self) -> None:
+        if self._is_read:
+            raise _core.InputError("a model that was read is not changed; bielle.Model() makes one that can be")
+        self._made = None
+
+    def to_yaml(self) -> str:
+        """The text of a file with the same entries; for a model that was read its `text`."""
+        return self.text if self._is_read else super().to_yaml()
 
     def session(self, threads: int = 1) -> Session:
         """Makes a session of the model.

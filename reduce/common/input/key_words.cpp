@@ -86,11 +86,6 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t col
   return result + line + "\n";
 }
 
-std::string escaped(std::string text) {
-  for (std::size_t k = 0; (k = text.find('|', k)) != std::string::npos; k += 2) text.insert(k, 1, '\\');
-  return text;
-}
-
 void visit_forms(const KeyForms& forms, const std::function<void(const KeyTable&)>& visit) {
   for (const KeyForm& form : forms) {
     if (form.table) visit(form.table());
@@ -145,16 +140,6 @@ std::string keys_as_text(const KeyTable& table, std::size_t columns) {
                                               : fmt::format(" (default: {})", preset));
     text += wrapped(form_words(key.forms), 6, columns) + wrapped(key.about, 6, columns);
   }
-  return text;
-}
-
-std::string keys_as_markdown(const KeyTable& table, int level) {
-  std::string text = fmt::format("{} {}\n\n{}\n\n", std::string(static_cast<std::size_t>(level), '#'),
-                                 thing_named(table.of), table.about);
-  text += "| key | value | default | |\n|---|---|---|---|\n";
-  for (const Key& key : table.keys)
-    text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, escaped(form_words(key.forms)),
-                        escaped(default_words(key)), escaped(key.about));
   return text;
 }
 

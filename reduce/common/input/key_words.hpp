@@ -1,4 +1,4 @@
-// Keys in words: lists for the terminal and tables for the manual.
+// Keys in words: for the terminal, for editors and for the manual.
 #pragma once
 
 #include <string>
@@ -24,8 +24,5 @@ std::vector<const KeyTable*> tables_below(const KeyTable& root);
 /// Writes the keys of a table for a terminal.
 /// @param columns  width of the lines
 std::string keys_as_text(const KeyTable& table, std::size_t columns = 100);
-
-/// Writes the keys of a table as a table in Markdown, with a heading of the given level.
-std::string keys_as_markdown(const KeyTable& table, int level);
 
 }  // namespace bielle

@@ -1,0 +1,127 @@
+// Parts: names, parameters, connections.
+#include <catch2/catch.hpp>
+
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/mechanism/language/expanded.hpp"
+
+using bielle::test::expanded;
+using bielle::test::refusal;
+using Catch::Contains;
+
+namespace {
+
+const std::string arm = R"yaml(
+parameters: {g: 9.81}
+nodes: {hub: {}}
+definitions:
+  arm:
+    parameters: {length: 1, mass: "2*length"}
+    nodes:
+      root: {}
+      tip: {position: [length, 0, 0]}
+    elements:
+      body: {type: rigid_body, node: root, mass: mass, inertia: [1, 1, 1], also: [tip]}
+      spring: {type: spring_damper, nodes: [tip, ground], force: "e*mass + sag*g + 'tip'.position.z"}
+    joints:
+      knee: {type: hinge, nodes: [root, tip], axis: [0, 1, 0]}
+    drives:
+      motor: {joint: knee, motion: t}
+    measures:
+      sag: "tip.position.z + distance(root, tip)"
+)yaml";
+
+}  // namespace
+
+TEST_CASE("names of a part are those of the part, with its own name before them") {
+  const std::string text = expanded(arm + "parts: {left: {part: arm}}\n");
+  CHECK_THAT(text, Contains("left.root: {}") && Contains("left.tip: {position: ['1', 0, 0]}"));
+  CHECK_THAT(text,
+             Contains("left.body: {type: rigid_body, node: left.root, mass: '2'") && Contains("also: [left.tip]"));
+  CHECK_THAT(text, Contains("nodes: [left.tip, ground]"));
+  CHECK_THAT(text, Contains("e*2 + left.sag*g + left.tip.position.z"));
+  CHECK_THAT(text, Contains("left.motor: {joint: left.knee"));
+  CHECK_THAT(text, Contains("left.sag: left.tip.position.z + distance(left.root, left.tip)"));
+  CHECK_THAT(text, Contains("hub: {}") && !Contains("definitions") && !Contains("parts"));
+}
+
+TEST_CASE("parameters of a part have the values of its place") {
+  const std::string text = expanded(arm + R"yaml(
+parts:
+  short: {part: arm, parameters: {length: 0.5}}
+  "row_{k}": {part: arm, repeat: {count: 2, as: k}, parameters: {length: "10*k"}}
+)yaml");
+  CHECK_THAT(text, Contains("short.tip: {position: ['0.5', 0, 0]}") &&
+                       Contains("short.body: {type: rigid_body, node: short.root, mass: '1'"));
+  CHECK_THAT(text, Contains("row_2.tip: {position: ['20', 0, 0]}") &&
+                       Contains("row_2.body: {type: rigid_body, node: row_2.root, mass: '40'"));
+  CHECK_THAT(refusal(arm + "parts: {a: {part: arm, parameters: {lenght: 1}}}\n"),
+             Contains("'lenght'") && Contains("length"));
+}
+
+TEST_CASE("a node of a part may be one of the model") {
+  const std::string text = expanded(arm + "parts: {left: {part: arm, at: hub, merge: {root: hub}}}\n");
+  CHECK_THAT(text, !Contains("left.root") && Contains("node: hub") && Contains("distance(hub, left.tip)"));
+  CHECK_THAT(refusal(arm + "parts: {a: {part: arm, merge: {tip: hub}}}\n"),
+             Contains("parts.a.merge") && Contains("same place") && Contains("(1, 0, 0)"));
+  CHECK_THAT(refusal(arm + "parts: {a: {part: arm, merge: {tpi: hub}}}\n"), Contains("'tpi'") && Contains("tip"));
+  CHECK_THAT(refusal(arm + "parts: {a: {part: arm, merge: {root: hbu}}}\n"), Contains("'hbu'") && Contains("hub"));
+}
+
+TEST_CASE("parts contain parts") {
+  const std::string text = expanded(arm + R"yaml(
+  pair:
+    parameters: {reach: 3}
+    parts:
+      a: {part: arm, parameters: {length: reach}}
+      b: {part: arm, position: [reach, 0, 0]}
+    joints:
+      between: {type: spherical, nodes: [a.tip, b.root]}
+    measures: {gap: "distance(a.tip, b.tip) + a.sag"}
+parts: {both: {part: pair, parameters: {reach: 2}}}
+)yaml");
+  CHECK_THAT(text, Contains("both.a.tip: {position: ['2', 0, 0]}") && Contains("both.b.root: {position: [2, 0, 0]}"));
+  CHECK_THAT(text, Contains("both.between: {type: spherical, nodes: [both.a.tip, both.b.root]}"));
+  CHECK_THAT(text, Contains("distance(both.a.tip, both.b.tip) + both.a.sag"));
+}
+
+TEST_CASE("a file is a part, or contains parts") {
+  const bielle::test::TemporaryFolder folder;
+  folder.file("blade.yaml", "gravity: [0, 0, -1]\nnodes: {root: {}}\nanalysis: [{type: static}]\n");
+  folder.file("parts.yaml", arm);
+  const auto model = [&](const std::string& text) { return expanded(text, "", folder / "model.yaml"); };
+  const std::string text = model("parts: {one: {file: blade.yaml}, two: {file: parts.yaml, part: arm}}\n");
+  CHECK_THAT(text, Contains("one.root: {}") && Contains("two.tip:") && !Contains("gravity") && !Contains("static"));
+  CHECK_THAT(bielle::test::message_of<bielle::InputError>([&] { model("parts: {one: {file: none.yaml}}\n"); }),
+             Contains("model.yaml:1: parts.one.file") && Contains("no such file"));
+  CHECK_THAT(
+      bielle::test::message_of<bielle::InputError>([&] { model("parts: {one: {file: parts.yaml, part: amr}}\n"); }),
+      Contains("'amr'") && Contains("arm"));
+}
+
+TEST_CASE("parts that cannot be placed are refused where they stand") {
+  CHECK_THAT(refusal(arm + "parts: {a: {}}\n"), Contains("parts.a") && Contains("`part`"));
+  CHECK_THAT(refusal(arm + "parts: {a: {part: ram}}\n"), Contains("'ram'") && Contains("arm"));
+  CHECK_THAT(refusal(arm + "parts: {a: {part: arm, att: hub}}\n"), Contains("'att'") && Contains("at"));
+  CHECK_THAT(refusal(arm + "parts: {a: {part: arm, at: hbu}}\n"), Contains("parts.a.at") && Contains("hub"));
+  CHECK_THAT(refusal(arm + "parts: {a: {part: arm}, a.root: {part: arm}}\nelements: {a.body: {}}\n"),
+             Contains("elements.a.body") && Contains("two entries"));
+  CHECK_THAT(refusal("definitions:\n  a: {parts: {b: {part: a}}}\nparts: {c: {part: a}}\n"), Contains("20 times"));
+  CHECK_THAT(refusal("definitions: {a: {nods: {}}}\nparts: {c: {part: a}}\n"),
+             Contains("'nods'") && Contains("section"));
+}
+
+TEST_CASE("a point of a body takes the place of a node") {
+  const std::string text = expanded(R"yaml(
+nodes: {seat: {}}
+elements:
+  car: {type: rigid_body, node: seat, mass: 1, inertia: [1, 1, 1]}
+  spring: {type: spring_damper, nodes: [{body: car, at: [0.1, 0, 0]}, ground], stiffness: 1}
+)yaml");
+  CHECK_THAT(text, Contains("spring.nodes[1].point: {at: seat, position: [0.1, 0, 0]}"));
+  CHECK_THAT(text, Contains("also: ['spring.nodes[1].point']") && Contains("nodes: ['spring.nodes[1].point', ground]"));
+  CHECK_THAT(refusal("elements:\n  s: {type: spring_damper, nodes: [{body: car}, ground]}\n"),
+             Contains("model.yaml:2: elements.s.nodes[1]") && Contains("no element 'car'"));
+  CHECK_THAT(refusal("nodes: {a: {}}\nelements:\n  m: {type: point_mass, node: a, mass: 1}\n"
+                     "  s: {type: spring_damper, nodes: [{body: m}, ground]}\n"),
+             Contains("no rigid_body"));
+}

@@ -1,0 +1,105 @@
+// Repeated entries, conditions and cases.
+#include <catch2/catch.hpp>
+
+#include "tests/unit/mechanism/language/expanded.hpp"
+
+using bielle::test::expanded;
+using bielle::test::refusal;
+using Catch::Contains;
+
+TEST_CASE("an entry is repeated with its number in names and formulas") {
+  const std::string text = expanded(R"yaml(
+parameters: {pitch: 0.5}
+nodes:
+  bay_{k}: {repeat: {count: 3, as: k}, position: [pitch*k, 0, "1 + k"]}
+joints:
+  knee_{k}: {repeat: {count: 2, as: k}, type: hinge, nodes: ["bay_{k}", "bay_{k+1}"], axis: [0, 1, 0], damping: "k*angle(bay_1, bay_2)"}
+)yaml");
+  CHECK_THAT(text,
+             Contains("bay_1: {position: [pitch*1, 0, 1 + 1]}") && Contains("bay_3: {position: [pitch*3, 0, 1 + 3]}"));
+  CHECK_THAT(text, Contains("knee_2: {type: hinge, nodes: [bay_2, bay_3], axis: [0, 1, 0]"));
+  CHECK_THAT(text, Contains("2*angle(bay_1, bay_2)"));
+  CHECK_THAT(text, !Contains("repeat") && !Contains("bay_4"));
+}
+
+TEST_CASE("repetition goes in several directions, begins where it is told to, and may be empty") {
+  const std::string text = expanded(R"yaml(
+parameters: {none: 0}
+nodes:
+  "p_{i}_{j}": {repeat: [{count: 2, as: i, from: 0}, {count: 2, as: j}], position: [i, j, 0]}
+  "q_{i}": {repeat: {count: none, as: i}}
+)yaml");
+  CHECK_THAT(text, Contains("p_0_1: {position: [0, 1, 0]}") && Contains("p_1_2: {position: [1, 2, 0]}"));
+  CHECK_THAT(text, !Contains("p_2") && !Contains("q_"));
+}
+
+TEST_CASE("negative numbers are put in parentheses") {
+  CHECK_THAT(expanded("nodes:\n  \"p_{k+2}\": {repeat: {count: 1, as: k, from: -1}, position: [2-k, 0, 0]}\n"),
+             Contains("p_1: {position: [2-(-1), 0, 0]}"));
+}
+
+TEST_CASE("variables of a formula are not numbers of a repetition") {
+  CHECK_THAT(refusal("nodes:\n  a: {repeat: {count: 2, as: t}}\n"),
+             Contains("model.yaml:2: nodes.a.repeat") && Contains("'t'"));
+  const std::string text = expanded(R"yaml(
+elements:
+  s_{v}: {repeat: {count: 1, as: v}, type: spring_damper, nodes: [a, b], force: "3*v", at: [[v, 0, 0], [0, 0, 0]]}
+)yaml");
+  CHECK_THAT(text, Contains("force: 3*v") && Contains("at: [[1, 0, 0]"));
+}
+
+TEST_CASE("repetitions that mean nothing are refused where they stand") {
+  const auto repeat = [](const std::string& keys) { return refusal("nodes:\n  a: {repeat: {" + keys + "}}\n"); };
+  CHECK_THAT(repeat("count: 2, as: k"), Contains("model.yaml:2: nodes.a") && Contains("two entries"));
+  CHECK_THAT(repeat("count: 1.5, as: k"), Contains("nodes.a.repeat.count") && Contains("whole number"));
+  CHECK_THAT(repeat("count: -1, as: k"), Contains("nodes.a.repeat.count"));
+  CHECK_THAT(repeat("count: 1e9, as: k"), Contains("nodes.a.repeat.count"));
+  CHECK_THAT(repeat("as: k"), Contains("'count' is missing"));
+  CHECK_THAT(repeat("count: 2"), Contains("'as' is missing"));
+  CHECK_THAT(repeat("count: 2, as: k, form: 1"), Contains("'form'") && Contains("from"));
+  CHECK_THAT(refusal("nodes:\n  \"a_{k/2}\": {repeat: {count: 1, as: k}}\n"), Contains("{k/2}") && Contains("0.5"));
+  CHECK_THAT(refusal("nodes:\n  \"a_{k\": {repeat: {count: 1, as: k}}\n"), Contains("not closed"));
+  CHECK_THAT(refusal("nodes:\n  \"a_{m}\": {repeat: {count: 1, as: k}}\n"), Contains("'m'"));
+}
+
+TEST_CASE("an entry is there if its condition holds") {
+  const std::string text = R"yaml(
+parameters: {drop: 1, height: 0}
+nodes:
+  a: {if: drop}
+  b: {if: height}
+  c: {if: "drop > 0 && height < 1"}
+  d: {if: false}
+  "e_{k}": {if: "k != 2", repeat: {count: 3, as: k}}
+)yaml";
+  const std::string written = expanded(text);
+  CHECK_THAT(written, Contains("a: ") && !Contains("b: ") && Contains("c: ") && !Contains("d: ") && Contains("e_1") &&
+                          !Contains("e_2") && Contains("e_3"));
+  CHECK_THAT(refusal("nodes:\n  a: {if: dorp}\n"), Contains("model.yaml:2: nodes.a.if") && Contains("dorp"));
+}
+
+TEST_CASE("a case replaces parameters and analyses") {
+  const std::string text = R"yaml(
+parameters: {speed: 1, height: "2*speed"}
+nodes: {a: {}}
+analysis: [{type: static}]
+cases:
+  drop: {parameters: {speed: 3}, analysis: [{type: eigen, count: 2}]}
+  slow: {parameters: {speed: 0.1}}
+)yaml";
+  CHECK_THAT(expanded(text), Contains("speed: 1") && Contains("static") && !Contains("cases"));
+  CHECK_THAT(expanded(text, "drop"), Contains("speed: 3") && Contains("eigen") && !Contains("static"));
+  CHECK_THAT(expanded(text, "slow"), Contains("speed: 0.1") && Contains("static"));
+  CHECK_THAT(refusal(text, "slwo"), Contains("slow"));
+  CHECK_THAT(refusal("nodes: {a: {}}\ncases:\n  c: {parameters: {x: 1}}\n", "c"),
+             Contains("model.yaml:3: cases.c.parameters") && Contains("'x'"));
+  CHECK_THAT(refusal("nodes: {a: {}}\ncases:\n  c: {prameters: {x: 1}}\n", "c"), Contains("parameters"));
+}
+
+TEST_CASE("a file without the language is left as it is") {
+  using namespace bielle::mechanism;
+  const auto tree = bielle::parse_yaml("nodes: {'a{b': {position: [0, 0, 0]}}", "model.yaml");
+  const ExpandedModel model = expand_model(tree, "model.yaml", mechanism_file_keys(), {});
+  CHECK(model.root == tree);
+  CHECK_FALSE(model.is_changed);
+}
