@@ -128,6 +128,7 @@ class Expander {
     const std::string as = keyed.at("as").text();
     if (as.empty() || as == "t" || parameters_.count(as))
       fail_at(repeat, file_, place, fmt::format("'{}' has a meaning in formulas already; choose another name", as));
+    keyed.at("count");  // refuses a repetition without it
     const int count = whole_number(*find_value(repeat, "count"), scope, place + ".count");
     constexpr int most = 1'000'000;
     if (count < 0 || count > most)

@@ -34,9 +34,9 @@ definitions:
 
 TEST_CASE("names of a part are those of the part, with its own name before them") {
   const std::string text = expanded(arm + "parts: {left: {part: arm}}\n");
-  CHECK_THAT(text, Contains("left.root: {}") && Contains("left.tip: {position: ['1', 0, 0]}"));
+  CHECK_THAT(text, Contains("left.root: {}") && Contains("left.tip: {position: [1, 0, 0]}"));
   CHECK_THAT(text,
-             Contains("left.body: {type: rigid_body, node: left.root, mass: '2'") && Contains("also: [left.tip]"));
+             Contains("left.body: {type: rigid_body, node: left.root, mass: 2") && Contains("also: [left.tip]"));
   CHECK_THAT(text, Contains("nodes: [left.tip, ground]"));
   CHECK_THAT(text, Contains("e*2 + left.sag*g + left.tip.position.z"));
   CHECK_THAT(text, Contains("left.motor: {joint: left.knee"));
@@ -50,10 +50,10 @@ parts:
   short: {part: arm, parameters: {length: 0.5}}
   "row_{k}": {part: arm, repeat: {count: 2, as: k}, parameters: {length: "10*k"}}
 )yaml");
-  CHECK_THAT(text, Contains("short.tip: {position: ['0.5', 0, 0]}") &&
-                       Contains("short.body: {type: rigid_body, node: short.root, mass: '1'"));
-  CHECK_THAT(text, Contains("row_2.tip: {position: ['20', 0, 0]}") &&
-                       Contains("row_2.body: {type: rigid_body, node: row_2.root, mass: '40'"));
+  CHECK_THAT(text, Contains("short.tip: {position: [0.5, 0, 0]}") &&
+                       Contains("short.body: {type: rigid_body, node: short.root, mass: 1"));
+  CHECK_THAT(text, Contains("row_2.tip: {position: [20, 0, 0]}") &&
+                       Contains("row_2.body: {type: rigid_body, node: row_2.root, mass: 40"));
   CHECK_THAT(refusal(arm + "parts: {a: {part: arm, parameters: {lenght: 1}}}\n"),
              Contains("'lenght'") && Contains("length"));
 }
@@ -79,7 +79,7 @@ TEST_CASE("parts contain parts") {
     measures: {gap: "distance(a.tip, b.tip) + a.sag"}
 parts: {both: {part: pair, parameters: {reach: 2}}}
 )yaml");
-  CHECK_THAT(text, Contains("both.a.tip: {position: ['2', 0, 0]}") && Contains("both.b.root: {position: [2, 0, 0]}"));
+  CHECK_THAT(text, Contains("both.a.tip: {position: [2, 0, 0]}") && Contains("both.b.root: {position: [2, 0, 0]}"));
   CHECK_THAT(text, Contains("both.between: {type: spherical, nodes: [both.a.tip, both.b.root]}"));
   CHECK_THAT(text, Contains("distance(both.a.tip, both.b.tip) + both.a.sag"));
 }
