@@ -175,7 +175,7 @@ void read_law(const YamlValue& value, const LawVariables& variables, bool of_rat
     law.add(std::move(formula));
     return;
   }
-  const double number = value.non_negative_number();
+  const double number = value.number();
   law.add(of_rate ? 0 : number, of_rate ? number : 0);
 }
 

@@ -62,11 +62,9 @@ struct FrictionLaw {
 /// Returns the keys of a law, for the table of the map that holds them, which may have further ones.
 /// @param models  models that the caller supports; the first is the default
 std::vector<Key> keys_of_friction_law(const std::vector<std::string>& models);
-/// Returns their names.
-const std::vector<std::string>& friction_law_keys();
 
-/// @param models  models that the caller supports; the first is the default
+/// @param entry  bound to a table with these keys
 /// @throws InputError if a key is missing, out of range, or belongs to another model
-FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::string>& models);
+FrictionLaw read_friction_law(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

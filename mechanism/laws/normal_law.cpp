@@ -72,26 +72,18 @@ std::vector<Key> keys_of_normal_law() {
            "Coefficient of restitution at every speed, in place of `damping`."}};
 }
 
-const std::vector<std::string>& normal_law_keys() {
-  static const std::vector<std::string> names = keys::names_of(keys_of_normal_law());
-  return names;
+NormalLaw read_normal_law(const YamlValue& entry) {
+  return read_normal_law(entry, entry.at("stiffness").number(), entry.at("exponent").number());
 }
 
-NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness) {
+NormalLaw read_normal_law(const YamlValue& entry, double stiffness, double exponent) {
   NormalLaw law;
-  law.stiffness = stiffness ? *stiffness : entry.at("stiffness").positive_number();
+  law.stiffness = stiffness;
   law.exponent = exponent;
-  if (const auto given = entry.find("exponent")) {
-    law.exponent = given->number();
-    if (law.exponent < 1) given->fail("expected an exponent of at least 1 (1.5 is a Hertzian contact)");
-  }
-  if (const auto damping = entry.find("damping")) {
-    law.damping = damping->non_negative_number();
-    if (entry.has("restitution")) damping->fail("give either `damping` or `restitution`");
-  }
+  law.damping = entry.at("damping").number();
   if (const auto restitution = entry.find("restitution")) {
-    law.restitution = restitution->positive_number();
-    if (law.restitution > 1) restitution->fail("expected a coefficient of restitution above 0 and up to 1");
+    law.restitution = restitution->number();
+    if (const auto damping = entry.find("damping")) damping->fail("give either `damping` or `restitution`");
   }
   return law;
 }

@@ -71,9 +71,7 @@ MatrixX read_diagonal_or_matrix(const YamlValue& value) {
   if (!value.is_sequence() || value.size() != 6)
     value.fail("expected six numbers, along and about x, y, z, or a 6x6 matrix by rows");
   if (value.at(std::size_t{0}).is_sequence()) return read_square_matrix(value, 6);
-  const Eigen::VectorXd numbers = value.vector();
-  for (std::size_t k = 0; k < 6; ++k) value.at(k).non_negative_number();
-  return numbers.asDiagonal();
+  return value.vector().asDiagonal();
 }
 
 Matrix6 read_stiffness(const YamlValue& value) {
@@ -87,7 +85,7 @@ Matrix6 read_stiffness(const YamlValue& value) {
 Matrix6 read_damping(const YamlValue& value, const Matrix6& K) {
   if (value.is_scalar()) {
     if (K.isZero(0)) value.fail("one number is a time that multiplies the `stiffness`, which is missing");
-    return value.non_negative_number() * K;
+    return value.number() * K;
   }
   const MatrixX D = read_diagonal_or_matrix(value);
   check_semidefinite(value, 0.5 * (D + D.transpose()), "a damper that drives the motion");
@@ -192,11 +190,6 @@ std::vector<Key> keys_of_elastic_law() {
           {"curves", nested(curves_keys), optional, "Further forces as tables or formulas, by directions."},
           {"maxwell", list_of(nested(branch_keys)).items_at_least(1), optional,
            "Branches of a spring and a damper in series."}};
-}
-
-const std::vector<std::string>& elastic_law_keys() {
-  static const std::vector<std::string> names = keys::names_of(keys_of_elastic_law());
-  return names;
 }
 
 std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& law) {

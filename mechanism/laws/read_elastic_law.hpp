@@ -26,8 +26,6 @@ void check_semidefinite(const YamlValue& value, const MatrixX& A, const char* wh
 /// Returns the keys `stiffness`, `damping`, `preload`, `curves`, `maxwell` of a law of the measures x, y, z, rx, ry,
 /// rz.
 std::vector<Key> keys_of_elastic_law();
-/// Returns their names.
-const std::vector<std::string>& elastic_law_keys();
 
 /// A formula of q, v, t and the state in `curves`: for a measure, by its number.
 struct CurveFormula {
