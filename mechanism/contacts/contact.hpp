@@ -138,6 +138,7 @@ class Contact final : public Component, public OpenContact {
   std::string remark_;
 };
 
+const KeyTable& contact_keys();
 /// Reads `{shapes: [..] | between: [[..], [..]], stiffness, exponent, restitution | damping, friction: {..}}`.
 void read_contact(const std::string& name, const YamlValue& entry, Model& model);
 

@@ -10,6 +10,7 @@
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_frame.hpp"
+#include "mechanism/reading/read_numbers.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -20,7 +21,7 @@ const std::vector<std::string> shape_words = {"sphere", "plane", "capsule", "cyl
 double read_rounding(const YamlValue& entry, double thinnest) {
   const auto given = entry.find("rounding");
   if (!given) return 0.05 * thinnest;
-  const double rounding = given->positive_number();
+  const double rounding = given->number();
   if (rounding >= 0.5 * thinnest)
     given->fail(
         fmt::format("edges are rounded by less than half of the shape's thinnest part, {:.6g} m", 0.5 * thinnest));
@@ -28,9 +29,7 @@ double read_rounding(const YamlValue& entry, double thinnest) {
 }
 
 double length_unit(const YamlValue& entry) {
-  const auto units = entry.find("units");
-  if (!units) return 1;
-  const std::string unit = units->word({"m", "mm", "cm", "inch"}, "a unit of length");
+  const std::string unit = entry.at("units").word();
   return unit == "mm" ? 1e-3 : unit == "cm" ? 1e-2 : unit == "inch" ? 0.0254 : 1;
 }
 
@@ -39,19 +38,19 @@ void read_dimensions(const YamlValue& entry, const std::string& word, ContactSha
   const YamlValue given = entry.at(word);
   if (word == "sphere") {
     shape.kind = Kind::sphere;
-    shape.radius = given.positive_number();
+    shape.radius = given.number();
   } else if (word == "plane") {
     shape.kind = Kind::plane;
     shape.frame.R = shape.frame.R * axes_along(given.direction());
   } else if (word == "capsule" || word == "cylinder") {
-    const VectorX sizes = given.positive_numbers(2, "[radius, length]");
+    const VectorX sizes = read_numbers(given, 2, "[radius, length]");
     shape.kind = word == "capsule" ? Kind::capsule : Kind::cylinder;
     shape.radius = sizes[0];
     shape.half_length = 0.5 * sizes[1];
     if (shape.kind == Kind::cylinder) shape.rounding = read_rounding(entry, std::min(2 * sizes[0], sizes[1]));
   } else if (word == "box") {
     shape.kind = Kind::box;
-    shape.half = 0.5 * given.positive_numbers(3, "[length along x, y, z]");
+    shape.half = 0.5 * read_numbers(given, 3, "[length along x, y, z]");
     shape.rounding = read_rounding(entry, 2 * shape.half.minCoeff());
   } else {
     shape.kind = Kind::surface;
@@ -69,11 +68,33 @@ void read_dimensions(const YamlValue& entry, const std::string& word, ContactSha
   }
 }
 
-ContactShape read_shape(const YamlValue& entry, const Model& model) {
-  std::vector<std::string> keys = {"node", "at", "rounding", "units"};
-  keys.insert(keys.end(), shape_words.begin(), shape_words.end());
-  for (const Key& key : orientation_keys()) keys.push_back(key.name);
-  entry.check_keys(keys, "a shape of a contact");
+const KeyTable& shape_keys() {
+  using namespace keys;
+  static const KeyTable table = [] {
+    const KeyForm size = number("m").positive();
+    return KeyTable{
+        "a shape of a contact", "A shape on a node, which pushes others away.",
+        joined({{{"node", name_of("node"), required, "Node that carries the shape."},
+                 {"at", vector3("m"), otherwise("[0, 0, 0]"),
+                  "Middle of the shape, point of a plane or origin of a surface's file, in the axes of the node."}},
+                orientation_keys(),
+                {{"sphere", size, optional, "Sphere, by its radius."},
+                 {"plane", direction(), optional, "Plane, by its normal towards the outside."},
+                 {"capsule", list_of(2, size), optional, "Capsule along z: radius, and length between its round ends."},
+                 {"cylinder", list_of(2, size), optional, "Cylinder along z: radius and length."},
+                 {"box", list_of(3, size), optional, "Box: lengths along x, y, z."},
+                 {"surface", file("STL"), optional,
+                  "Closed or open surface of triangles, anticlockwise seen from outside."},
+                 {"units", word({"m", "mm", "cm", "inch"}, "a unit of length"), otherwise("m"),
+                  "Unit of length of the surface's file."},
+                 {"rounding", size, computed("5 % of the thinnest dimension"),
+                  "Radius by which the edges of a box or cylinder are rounded."}}})};
+  }();
+  return table;
+}
+
+ContactShape read_shape(const YamlValue& given, const Model& model) {
+  const YamlValue entry = given.keyed(shape_keys());
   std::string word;
   for (const std::string& each : shape_words) {
     if (!entry.has(each)) continue;
@@ -84,7 +105,7 @@ ContactShape read_shape(const YamlValue& entry, const Model& model) {
   ContactShape shape;
   shape.node = node_named_by(entry.at("node"), model);
   shape.node_name = model.node(shape.node).name;
-  if (const auto at = entry.find("at")) shape.frame.x = at->vector3();
+  shape.frame.x = entry.at("at").vector3();
   shape.frame.R = read_orientation(entry);
   read_dimensions(entry, word, shape);
   if (const auto rounding = entry.find("rounding");
@@ -159,15 +180,38 @@ std::vector<std::pair<int, int>> pairs_of(const ReadShapes& read, const YamlValu
 
 }  // namespace
 
+namespace {
+
+const KeyTable& contact_friction_keys() {
+  static const KeyTable table{"the friction of a contact", "Friction of the surfaces that touch.",
+                              keys_of_friction_law({"coulomb", "lugre"})};
+  return table;
+}
+
+}  // namespace
+
+const KeyTable& contact_keys() {
+  using namespace keys;
+  static const KeyTable table = [] {
+    const KeyForm shape = nested(shape_keys);
+    return KeyTable{
+        "a contact", "Shapes on nodes that push each other apart when they touch.",
+        joined({{type_key(),
+                 {"shapes", list_of(shape).items_at_least(2), optional,
+                  "Shapes, every two of which may touch if they are on different nodes."},
+                 {"between", list_of(2, list_of(shape).items_at_least(1)), optional,
+                  "Two lists of shapes, in place of `shapes`: those of one list touch those of the other alone."}},
+                keys_of_normal_law(),
+                {{"friction", nested(contact_friction_keys), optional, "Friction of the surfaces."}}})};
+  }();
+  return table;
+}
+
 void read_contact(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = {"type", "shapes", "between", "friction"};
-  keys.insert(keys.end(), normal_law_keys().begin(), normal_law_keys().end());
-  entry.check_keys(keys, "a contact");
   SurfaceLaw law;
-  law.normal = read_normal_law(entry, 1.5);
+  law.normal = read_normal_law(entry);
   if (const auto friction = entry.find("friction")) {
-    friction->check_keys(friction_law_keys(), "the friction of a contact");
-    law.friction = read_friction_law(*friction, {"coulomb", "lugre"});
+    law.friction = read_friction_law(*friction);
   }
   ReadShapes read = read_shapes(entry, model);
   std::vector<std::pair<int, int>> pairs = pairs_of(read, entry, model);

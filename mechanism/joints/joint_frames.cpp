@@ -80,7 +80,29 @@ Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& nor
   return angle * (sine > 1e-12 ? Vector3(product / sine) : normal);
 }
 
-std::vector<std::string> joint_frame_keys() { return {"type", "nodes", "position", "at", "axis", "second_axis"}; }
+std::vector<Key> joint_place_keys() {
+  using namespace keys;
+  return {type_key(),
+          {"nodes", list_of(2, name_of("node")), required, "First and second node."},
+          {"position", vector3("m"), computed("the position of the second node"),
+           "Place of the joint as drawn, fixed on both nodes."},
+          {"at", list_of(2, vector3("m")), optional,
+           "Points in the axes of the first and of the second node, in place of `position`; the start brings the two "
+           "together."}};
+}
+
+std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key) {
+  using namespace keys;
+  const KeyForms direction_or_pair = {direction(), list_of(2, direction())};
+  const Presence presence = need == AxisNeed::required ? required : computed("the inertial z axis");
+  return joined(
+      {joint_place_keys(),
+       {{axis_key, direction_or_pair, presence,
+         "Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node."},
+        {"second_axis", direction_or_pair, computed("the inertial axis most normal to z, as drawn"),
+         "Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each "
+         "node."}}});
+}
 
 std::array<Vector3, 2> read_points_at(const YamlValue& at) {
   if (!at.is_sequence() || at.size() != 2 || !is_pair_of_vectors(at))

@@ -44,8 +44,10 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
 /// they are opposite
 Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& normal);
 
-/// Returns the keys that `read_joint_frames` reads, with `type`.
-std::vector<std::string> joint_frame_keys();
+/// Returns `type` and the keys that `read_joint_frames` reads. @param axis_key  as read_joint_frames
+std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key = "axis");
+/// Returns those of them that give the place: `type`, `nodes`, `position`, `at`.
+std::vector<Key> joint_place_keys();
 
 /// Reads `at` of a joint: a point in the axes of each node. @throws InputError if it is something else
 std::array<Vector3, 2> read_points_at(const YamlValue& at);

@@ -58,34 +58,44 @@ std::string FrictionLaw::describe() const {
   return text;
 }
 
-const std::vector<std::string>& friction_law_keys() {
-  static const std::vector<std::string> keys = {"coefficient", "static",   "stribeck_velocity", "viscous",
-                                                "model",       "velocity", "bristle_stiffness", "bristle_damping"};
-  return keys;
+std::vector<Key> keys_of_friction_law(const std::vector<std::string>& models) {
+  using namespace keys;
+  return {{"coefficient", number().non_negative(), required,
+           "Coefficient of sliding friction; with 0, also at rest, there is no dry friction."},
+          {"static", number().non_negative(), computed("as `coefficient`"), "Coefficient of friction at rest."},
+          {"stribeck_velocity", number("m/s").non_negative(), optional,
+           "Speed over which the coefficient falls from `static` to `coefficient`."},
+          {"viscous", number("s/m").non_negative(), otherwise("0"), "Viscous friction per speed and per normal force."},
+          {"model", word(models, "a model of friction"), otherwise(models.front()), "Model of friction near rest."},
+          {"velocity", number("m/s").positive(), computed("a tenth of `stribeck_velocity`, or 1 mm/s"),
+           "Speed within which `coulomb` makes the force smooth."},
+          {"bristle_stiffness", number("1/m").positive(), optional,
+           "Stiffness of the bristles of `lugre` per normal force, which that model needs."},
+          {"bristle_damping", number("s/m").non_negative(), otherwise("0"),
+           "Damping of the bristles of `lugre` per normal force."}};
 }
 
-FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::string>& models) {
+FrictionLaw read_friction_law(const YamlValue& entry) {
   FrictionLaw law;
-  const auto model = entry.find("model");
-  const std::string name = model ? model->word(models, "a model of friction") : models.front();
+  const std::string name = entry.at("model").word();
   law.model = name == "lugre"        ? FrictionLaw::Model::lugre
               : name == "stick_slip" ? FrictionLaw::Model::stick_slip
                                      : FrictionLaw::Model::coulomb;
-  law.kinetic = entry.at("coefficient").non_negative_number();
+  law.kinetic = entry.at("coefficient").number();
   law.sticking = law.kinetic;
   if (const auto at_rest = entry.find("static")) {
-    law.sticking = at_rest->non_negative_number();
+    law.sticking = at_rest->number();
     if (law.sticking < law.kinetic) at_rest->fail("friction at rest is no smaller than when it slides (`coefficient`)");
   }
+  const bool falls = law.sticking > law.kinetic && law.model != FrictionLaw::Model::stick_slip;
   if (const auto speed = entry.find("stribeck_velocity")) {
     if (!entry.has("static")) speed->fail("is where friction falls from `static`, which is missing");
-    law.stribeck_velocity = law.sticking > law.kinetic && law.model != FrictionLaw::Model::stick_slip
-                                ? speed->positive_number()
-                                : speed->non_negative_number();
-  } else if (law.sticking > law.kinetic && law.model != FrictionLaw::Model::stick_slip) {
+    law.stribeck_velocity = speed->number();
+    if (falls && law.stribeck_velocity == 0) speed->fail("expected a number greater than 0, found 0");
+  } else if (falls) {
     entry.at("static").fail("say over which speed friction falls to `coefficient`: `stribeck_velocity` [m/s]");
   }
-  if (const auto viscous = entry.find("viscous")) law.viscous = viscous->non_negative_number();
+  law.viscous = entry.at("viscous").number();
 
   const auto only_for = [&](const char* key, FrictionLaw::Model of, const char* of_name) {
     if (const auto value = entry.find(key); value && law.model != of)
@@ -96,15 +106,13 @@ FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::str
   only_for("bristle_damping", FrictionLaw::Model::lugre, "lugre");
   if (law.model == FrictionLaw::Model::coulomb) {
     const auto width = entry.find("velocity");
-    if (width && law.stribeck_velocity > 0 && width->number() >= law.stribeck_velocity)
+    law.velocity = width ? width->number() : law.stribeck_velocity > 0 ? law.stribeck_velocity / 10 : usual_width;
+    if (width && law.stribeck_velocity > 0 && law.velocity >= law.stribeck_velocity)
       width->fail("the force is made smooth within far less than `stribeck_velocity`: a tenth of it, say");
-    law.velocity = width                       ? width->positive_number()
-                   : law.stribeck_velocity > 0 ? law.stribeck_velocity / 10
-                                               : usual_width;
   }
   if (law.model == FrictionLaw::Model::lugre) {
-    law.bristle_stiffness = entry.at("bristle_stiffness").positive_number();
-    law.bristle_damping = entry.has("bristle_damping") ? entry.at("bristle_damping").non_negative_number() : 0;
+    law.bristle_stiffness = entry.at("bristle_stiffness").number();
+    law.bristle_damping = entry.at("bristle_damping").number();
     if (law.kinetic == 0 && law.sticking > 0)
       entry.at("coefficient")
           .fail("expected a number greater than 0: bristles that are to let go slide against friction");

@@ -59,13 +59,12 @@ struct FrictionLaw {
   std::string describe() const;
 };
 
-/// The keys of a law: coefficient, static, stribeck_velocity, viscous, model, velocity, bristle_stiffness,
-/// bristle_damping. A caller that reads further keys from the same map checks all keys together.
-const std::vector<std::string>& friction_law_keys();
-
+/// Returns the keys of a law, for the table of the map that holds them, which may have further ones.
 /// @param models  models that the caller supports; the first is the default
-/// @throws InputError if a key is missing, out of range, or belongs to another model. The caller must check for unknown
-/// keys.
-FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::string>& models);
+std::vector<Key> keys_of_friction_law(const std::vector<std::string>& models);
+
+/// @param entry  bound to a table with these keys
+/// @throws InputError if a key is missing, out of range, or belongs to another model
+FrictionLaw read_friction_law(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

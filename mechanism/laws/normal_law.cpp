@@ -60,26 +60,30 @@ std::string NormalLaw::describe() const {
   return text;
 }
 
-const std::vector<std::string>& normal_law_keys() {
-  static const std::vector<std::string> keys = {"stiffness", "exponent", "damping", "restitution"};
-  return keys;
+std::vector<Key> keys_of_normal_law() {
+  using namespace keys;
+  return {{"stiffness", number().positive(), required,
+           "Stiffness K of the force K p^n at the depth p, in N/m^n with the `exponent` n."},
+          {"exponent", number().at_least(1), otherwise("1.5"),
+           "Exponent of the force over the depth; 1.5 is a Hertzian contact."},
+          {"damping", number("s/m").non_negative(), otherwise("0"),
+           "Share of the elastic force that is added per speed of approach."},
+          {"restitution", number().positive().at_most(1), optional,
+           "Coefficient of restitution at every speed, in place of `damping`."}};
 }
 
-NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness) {
+NormalLaw read_normal_law(const YamlValue& entry) {
+  return read_normal_law(entry, entry.at("stiffness").number(), entry.at("exponent").number());
+}
+
+NormalLaw read_normal_law(const YamlValue& entry, double stiffness, double exponent) {
   NormalLaw law;
-  law.stiffness = stiffness ? *stiffness : entry.at("stiffness").positive_number();
+  law.stiffness = stiffness;
   law.exponent = exponent;
-  if (const auto given = entry.find("exponent")) {
-    law.exponent = given->number();
-    if (law.exponent < 1) given->fail("expected an exponent of at least 1 (1.5 is a Hertzian contact)");
-  }
-  if (const auto damping = entry.find("damping")) {
-    law.damping = damping->non_negative_number();
-    if (entry.has("restitution")) damping->fail("give either `damping` or `restitution`");
-  }
+  law.damping = entry.at("damping").number();
   if (const auto restitution = entry.find("restitution")) {
-    law.restitution = restitution->positive_number();
-    if (law.restitution > 1) restitution->fail("expected a coefficient of restitution above 0 and up to 1");
+    law.restitution = restitution->number();
+    if (const auto damping = entry.find("damping")) damping->fail("give either `damping` or `restitution`");
   }
   return law;
 }

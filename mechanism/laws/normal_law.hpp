@@ -12,7 +12,6 @@
 // Applied Mechanics 42 (1975) 440-445.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,11 +47,12 @@ struct NormalLaw {
   std::string describe() const;
 };
 
-/// Returns the keys of a law: stiffness, exponent, damping, restitution.
-const std::vector<std::string>& normal_law_keys();
+/// Returns the keys of a law, for the table of the map that holds them, which may have further ones.
+std::vector<Key> keys_of_normal_law();
 
-/// @param exponent   default if the entry gives none @param stiffness  its value if it is known otherwise (materials,
-/// radii): the entry then has none @throws InputError. The caller must check for unknown keys.
-NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness = {});
+/// Reads a law from a map that is bound to a table with these keys. @throws InputError
+NormalLaw read_normal_law(const YamlValue& entry);
+/// Reads `damping` or `restitution` of a law whose stiffness and exponent follow from materials and radii.
+NormalLaw read_normal_law(const YamlValue& entry, double stiffness, double exponent);
 
 }  // namespace bielle::mechanism

@@ -95,7 +95,7 @@ std::vector<Sample> coupling_samples() {
                        {"carrier", "d", "no node 'd'"},
                        {"radii", "[0.4, 0.5]", "1 m apart"},
                        {"radii", "[0.4]", "pitch radius"},
-                       {"pressure_angle", "-0.1", "0 or more"},
+                       {"pressure_angle", "-0.1", "at least 0"},
                        {"pressure_angle", "20", "[rad]"},
                        {"helix_angle", "30", "[rad]"}}));
   list.push_back(mesh("rigid, crossed, on the ground",
@@ -211,7 +211,7 @@ std::vector<Sample> coupling_samples() {
                       "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], turns: [~, 1, ~], EA: 6, "
                       "pretension: 12, damping: 0.3",
                       with({{"turns", "[~, 1]", "3 numbers of turns"},
-                            {"turns", "[~, -1, ~]", "0 or more"},
+                            {"turns", "[~, -1, ~]", "at least 0"},
                             {"turns", "[~, ~, 1]", "on which the rope slides"}})));
   list.push_back(rope(
       "cable", "gripped",

@@ -194,7 +194,7 @@ std::vector<Sample> clearances() {
            {"contact.damping", "-1", "at least 0"},
            {"axial_contact.stiffness", "-1", "greater than 0"},
            {"axial_contact.exponent", "0", "at least 1"},
-           {"axial_contact.restitution", "2", "up to 1"},
+           {"axial_contact.restitution", "2", "at most 1"},
            {"friction.coefficient", "-1", "at least 0"},
            {"friction.static", "0.1", "no smaller"},
            {"friction.stribeck_velocity", "-1", ""},
@@ -210,7 +210,7 @@ std::vector<Sample> clearances() {
                  {"length", "", "which is missing"},
                  {"contact.young", "[1, 2, 3]", "bush and journal"},
                  {"contact.young", "-1", "greater than 0"},
-                 {"contact.poisson", "0.6", "(-1, 0.5]"},
+                 {"contact.poisson", "0.6", "greater than -1 and at most 0.5"},
                  {"contact.stiffness", "5", "follows from"}}),
       clearance("clearance_spherical", "friction",
                 "at: [[0.2, 0.1, 0.3], [-0.6, -0.2, -0.1]], radial_gap: 0.01, radius: 0.2, contact: {stiffness: 3, "
@@ -257,7 +257,7 @@ std::vector<Sample> clearances() {
                 "radial_gap: 0.1, radius: 0.2, contact: {young: 2, poisson: [0.3, 0.2]}",
                 {{"radius", "", "which is missing"},
                  {"contact.young", "0", "greater than 0"},
-                 {"contact.poisson", "[2, 0]", "(-1, 0.5]"}})};
+                 {"contact.poisson", "[2, 0]", "greater than -1 and at most 0.5"}})};
 }
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;

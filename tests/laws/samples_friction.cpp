@@ -70,7 +70,7 @@ Sample rubbing_slider(const std::string& variant, const std::string& orientation
   bad.push_back({"node", "a", "slide on itself"});
   bad.push_back({"beam", "shft", "did you mean 'shaft'"});
   bad.push_back({"at", "[1, 2]", ""});
-  bad.push_back({"start", "1.5", "from 0"});
+  bad.push_back({"start", "1.5", "between 0 and 1"});
   bad.push_back({"ends", "open", ""});
   bad.push_back({"orientation", "fixed", ""});
   Sample sample{

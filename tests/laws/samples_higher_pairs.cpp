@@ -141,7 +141,7 @@ std::vector<Sample> higher_pair_samples() {
          {"node", "c", "no node 'c'"},
          {"beam", "shft", "did you mean 'shaft'"},
          {"at", "[1, 2]", ""},
-         {"start", "1.5", "from 0"},
+         {"start", "1.5", "between 0 and 1"},
          {"ends", "open", ""},
          {"orientation", "fixed", ""},
          {"stiffness", "-1", ""}}};

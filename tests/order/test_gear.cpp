@@ -7,7 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
-#include "mechanism/joints/pairs/lower_pairs.hpp"
+#include "mechanism/io/component_table.hpp"
+#include "mechanism/joints/joint.hpp"
 #include "tests/order/constraint_forms.hpp"
 #include "tests/support/coordinate_gear.hpp"
 #include "tests/support/runge_kutta.hpp"
@@ -42,8 +43,9 @@ struct Spiral {
     const auto entry = [](const char* text) { return YamlValue::parse(text, "spiral.yaml"); };
     read_rigid_body("arm", entry("{type: rigid_body, node: arm, mass: 1, inertia: [0.2, 0.2, 0.3]}"), model);
     read_rigid_body("slider", entry("{type: rigid_body, node: slider, mass: 2, inertia: [0.05, 0.05, 0.05]}"), model);
-    read_hinge("pivot", entry("{type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}"), model);
-    read_prismatic("guide", entry("{type: prismatic, nodes: [arm, slider], axis: [1, 0, 0]}"), model);
+    read_component(Section::joints, "pivot",
+                   entry("{type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}"), model);
+    read_component(Section::joints, "guide", entry("{type: prismatic, nodes: [arm, slider], axis: [1, 0, 0]}"), model);
     const auto joint = [&](std::size_t member) -> const Joint& {
       return dynamic_cast<const Joint&>(*model.members()[member].component);
     };

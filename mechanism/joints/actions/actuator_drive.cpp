@@ -45,7 +45,7 @@ std::string ActuatorDrive::limit_text() const {
 
 ForceLimit read_force_limit(const YamlValue& value) {
   if (!value.is_sequence()) {
-    const double most = value.positive_number();
+    const double most = value.number();
     return {-most, most};
   }
   if (value.size() != 2) value.fail("expected a number, or [lower, upper]");

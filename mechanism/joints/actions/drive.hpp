@@ -69,6 +69,7 @@ class Drive : public CoordinateAction {
   EventFunction::Direction release_direction_ = EventFunction::Direction::both;
 };
 
+const KeyTable& drive_keys();
 /// Reads an entry of `drives`: `{joint: main, angle: "speed*t"}`.
 void read_drive(const std::string& name, const YamlValue& entry, Model& model);
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/actions/drive_keys.hpp"
 #include "mechanism/joints/actions/force_drive.hpp"
 #include "mechanism/joints/actions/motion_drive.hpp"
 #include "mechanism/joints/actions/pid_drive.hpp"
@@ -74,11 +75,9 @@ void take_coordinate(const YamlValue& entry, const std::string& name, const char
 /// Reads `release: 1.5`, `{event: name}` or `{when: formula, crosses: value, direction: ..}`.
 void read_release(const YamlValue& value, Drive& drive, Model& model) {
   if (!value.is_map()) {
-    if (!value.is_scalar() || value.is_null())
-      value.fail("expected a time [s], {event: name}, or {when: .., crosses: ..}");
-    return drive.release_at(value.positive_number());
+    if (!value.is_scalar()) value.fail("expected a time [s], {event: name}, or {when: .., crosses: ..}");
+    return drive.release_at(value.number());
   }
-  value.check_keys({"event", "when", "crosses", "direction"}, "`release`");
   if (value.has("event") == value.has("when"))
     value.fail("a drive lets go at an `event`, or `when` a formula crosses a value: give one of the two");
   if (const auto event = value.find("event")) {
@@ -94,7 +93,7 @@ void read_release(const YamlValue& value, Drive& drive, Model& model) {
     return;
   }
   const YamlValue when = value.at("when");
-  const double crosses = value.has("crosses") ? value.at("crosses").number() : 0;
+  const double crosses = value.at("crosses").number();
   const EventFunction::Direction direction = read_crossing_direction(value);
   model.when_read(Model::Stage::formulas, [when, crosses, direction, &drive, &model] {
     drive.release_when(measure_named_by(when, model), crosses, direction);
@@ -103,18 +102,15 @@ void read_release(const YamlValue& value, Drive& drive, Model& model) {
 
 std::unique_ptr<Drive> make_pid(const std::string& name, const YamlValue& entry, Joint& joint, std::size_t coordinate,
                                 Model& model) {
-  const auto gain = [&](const char* key) { return entry.has(key) ? entry.at(key).number() : 0; };
-  PidGains gains{gain("kp"), gain("ki"), gain("kd")};
+  PidGains gains{entry.at("kp").number(), entry.at("ki").number(), entry.at("kd").number(),
+                 entry.at("filter").number()};
   if (gains.proportional == 0 && gains.integral == 0 && gains.derivative == 0)
     entry.fail("a controller needs at least one of the gains kp, ki, kd");
-  if (const auto filter = entry.find("filter")) {
-    gains.filter = filter->non_negative_number();
-    if (gains.derivative == 0 && gains.filter > 0)
-      filter->fail("is that of the derivative, which has no gain: give `kd`, too");
-  }
+  if (gains.derivative == 0 && gains.filter > 0)
+    entry.at("filter").fail("is that of the derivative, which has no gain: give `kd`, too");
   const ForceLimit limit = entry.has("limit") ? read_force_limit(entry.at("limit")) : ForceLimit{};
   if (const auto tracking = entry.find("tracking_time")) {
-    gains.tracking_time = tracking->positive_number();
+    gains.tracking_time = tracking->number();
     if (gains.integral == 0 || !limit.limits())
       tracking->fail("is that of the integral at a limit: give `ki` and `limit`, too");
   } else if (gains.integral != 0 && limit.limits()) {
@@ -164,7 +160,7 @@ std::unique_ptr<Drive> make_sought(const std::string& name, const YamlValue& ent
 
 std::unique_ptr<Drive> make_motion(const std::string& name, const std::string& law, const YamlValue& value,
                                    Joint& joint, std::size_t coordinate) {
-  Expression f = value.expression({"t"});
+  Expression f = value.expression();
   if (law == "angle" || law == "displacement")
     warn_of_jumps(value, f, law == "angle" ? "the angle" : "the displacement");
   if (law == "angle" || law == "displacement") joint.start_at(coordinate, f(0));
@@ -175,24 +171,21 @@ std::unique_ptr<Drive> make_motion(const std::string& name, const std::string& l
 
 }  // namespace
 
-void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = {"joint", "coordinate", "limit", "release", "moves"};
-  keys.insert(keys.end(), drive_laws.begin(), drive_laws.end());
-  entry.check_keys(keys, "a drive");
-  auto* joint = dynamic_cast<Joint*>(&component_named_by(Section::joints, entry.at("joint"), model));
-  if (!joint) entry.at("joint").fail("is no joint with coordinates that can be driven");
-  const std::string law = find_law(entry);
+void read_drive(const std::string& name, const YamlValue& given, Model& model) {
+  auto* joint = dynamic_cast<Joint*>(&component_named_by(Section::joints, given.at("joint"), model));
+  if (!joint) given.at("joint").fail("is no joint with coordinates that can be driven");
+  const std::string law = find_law(given);
+  const YamlValue entry = given.keyed(drive_keys(law == "pid"      ? Moves::both
+                                                 : is_turning(law) ? Moves::turns
+                                                                   : Moves::slides));
   const YamlValue value = entry.at(law);
   const bool pid = law == "pid", by_motion = !pid && law != "torque" && law != "force";
   const bool sought = !pid && !by_motion && is_sought(value);
   if (const auto moves = entry.find("moves"); moves && !sought)
     moves->fail("belongs to a `torque` or `force` that is `sought`");
-  if (pid) {
-    value.check_keys({"coordinate", "measure", "target", "kp", "ki", "kd", "limit", "filter", "tracking_time"},
-                     "`pid`");
+  if (pid)
     for (const char* key : {"coordinate", "limit"})
       if (const auto outside = entry.find(key)) outside->fail("stands within `pid`");
-  }
   if (by_motion)
     if (const auto limit = entry.find("limit"))
       limit->fail("limits a torque or force; a drive by motion takes what the motion needs");
@@ -203,7 +196,8 @@ void read_drive(const std::string& name, const YamlValue& entry, Model& model) {
                             : nullptr,
                   *joint, coordinate);
 
-  std::unique_ptr<Drive> drive = pid         ? make_pid(name, value, *joint, coordinate, model)
+  const auto controller = [&] { return value.keyed(pid_keys(moves_of(joint->coordinates()[coordinate]))); };
+  std::unique_ptr<Drive> drive = pid         ? make_pid(name, controller(), *joint, coordinate, model)
                                  : by_motion ? make_motion(name, law, value, *joint, coordinate)
                                  : sought    ? make_sought(name, entry, *joint, coordinate, model)
                                              : make_force(name, entry, value, *joint, coordinate, model);

@@ -16,10 +16,6 @@
 namespace bielle::mechanism {
 namespace {
 
-/// These keys are read for each coordinate separately.
-const std::vector<std::string> keys = {"stiffness", "damping", "rest",  "preload",
-                                       "stops",     "locked",  "start", "start_rate"};
-
 /// Values of the keys for each coordinate: the value itself in a joint with one coordinate, otherwise a map by their
 /// names.
 using ByKey = std::map<std::string, YamlValue>;
@@ -38,7 +34,7 @@ std::vector<ByKey> sort_by_coordinate(const YamlValue& entry, const Joint& joint
   std::vector<std::string> names;
   for (const JointCoordinate& each : joint.coordinates()) names.push_back(each.name);
   std::vector<ByKey> sorted(names.size());
-  for (const std::string& key : keys) {
+  for (const std::string& key : coordinate_key_names()) {
     const auto value = entry.find(key);
     if (!value || std::find(own.begin(), own.end(), key) != own.end()) continue;
     if (names.empty()) value->fail(fmt::format("a {} joint has no coordinate on which it could act", joint.type()));
@@ -50,7 +46,7 @@ std::vector<ByKey> sort_by_coordinate(const YamlValue& entry, const Joint& joint
       value->fail(fmt::format("a {} joint has several coordinates: give {{{}: ...}}", joint.type(), names.front()) +
                   did_you_mean("", names));
     value->check_keys(names, fmt::format("`{}`, which names coordinates", key));
-    for (const auto& [name, of_coordinate] : value->entries())
+    for (const auto& [name, of_coordinate] : value->keyed(by_coordinate_keys(key)).entries())
       sorted[joint.coordinate_index(name)].emplace(key, of_coordinate);
   }
   return sorted;
@@ -75,54 +71,48 @@ void read_spring(const ByKey& values, const Joint& joint, std::size_t coordinate
   model.add(std::move(spring), Entry{Section::joints, joint.name()});
 }
 
-StopRange read_stop_range(const YamlValue& entry) {
-  entry.check_keys({"range", "stiffness", "damping"}, "`stops`");
+StopRange read_stop_range(const YamlValue& given, Moves moves) {
+  const YamlValue entry = given.keyed(stop_keys(moves));
   const YamlValue range = entry.at("range");
   if (!range.is_sequence() || range.size() != 2) range.fail("expected [lower, upper]");
   // One end may be open: `~`.
   const auto end = [&](std::size_t k, double open) { return range.at(k).is_null() ? open : range.at(k).number(); };
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  StopRange stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").non_negative_number(), 0};
+  StopRange stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").number(), entry.at("damping").number()};
   if (!(stops.lower < stops.upper)) range.fail("expected the lower end first, and a range between the two");
   if (stops.lower == -infinity && stops.upper == infinity) range.fail("both ends are open: these are no stops");
-  if (const auto damping = entry.find("damping")) stops.damping = damping->non_negative_number();
   return stops;
 }
 
-LockTimes read_lock_times(const YamlValue& entry) {
-  if (entry.is_scalar() && !entry.is_null() && entry.boolean()) return {};  // always locked
-  if (!entry.is_map()) entry.fail("expected `true`, or times: {from, to, release}");
-  entry.check_keys({"from", "to", "release"}, "`locked`");
+LockTimes read_lock_times(const YamlValue& given, Moves moves) {
+  if (given.is_scalar() && given.boolean()) return {};  // always locked
+  if (!given.is_map()) given.fail("expected `true`, or times: {from, to, release}");
+  const YamlValue entry = given.keyed(lock_keys(moves));
   LockTimes times;
-  if (const auto from = entry.find("from")) times.from = from->non_negative_number();
+  times.from = entry.at("from").number();
   if (const auto to = entry.find("to")) {
     times.to = to->number();
     if (times.to <= times.from) to->fail("expected a time after `from`");
   }
-  if (const auto release = entry.find("release")) times.release = release->positive_number();
+  if (const auto release = entry.find("release")) times.release = release->number();
   return times;
 }
 
 }  // namespace
 
-std::vector<std::string> joint_action_keys() {
-  std::vector<std::string> all = keys;
-  all.insert(all.end(), {"friction", "carries"});
-  return all;
-}
-
 void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, const std::vector<std::string>& own) {
   const Entry of_joint{Section::joints, joint.name()};
   const std::vector<ByKey> sorted = sort_by_coordinate(entry, joint, own);
   for (std::size_t k = 0; k < sorted.size(); ++k) {
+    const Moves moves = moves_of(joint.coordinates()[k]);
     read_spring(sorted[k], joint, k, model);
     if (const auto stops = find(sorted[k], "stops")) {
       if (joint.coordinates()[k].kind == JointCoordinate::Kind::rotation)
         stops->fail("a component of a rotation vector has no stops; take a joint with angles");
-      model.add(std::make_unique<JointStop>(joint.name(), joint, k, read_stop_range(*stops)), of_joint);
+      model.add(std::make_unique<JointStop>(joint.name(), joint, k, read_stop_range(*stops, moves)), of_joint);
     }
     if (const auto locked = find(sorted[k], "locked")) {
-      const LockTimes times = read_lock_times(*locked);
+      const LockTimes times = read_lock_times(*locked, moves);
       auto lock = std::make_unique<JointLock>(joint.name(), joint, k, times);
       if (const auto start = find(sorted[k], "start"); start && times.from == 0) lock->close_at(start->number());
       model.add(std::move(lock), of_joint);

@@ -12,15 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/joints/actions/joint_action_keys.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
-/// Returns the keys that `read_joint_actions` reads.
-std::vector<std::string> joint_action_keys();
-
 /// Adds the actions in a joint's entry to the model, recorded with the joint.
+/// @param entry  bound to a table with `joint_action_keys`
 /// @param own  keys among them that the joint's type reads itself (`start` of a slider) @throws InputError
 void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, const std::vector<std::string>& own = {});
 

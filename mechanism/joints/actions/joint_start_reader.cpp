@@ -59,7 +59,7 @@ void read_joint_start(const std::optional<YamlValue>& value, const std::optional
 }
 
 void read_carried_start(const YamlValue& carries, const Joint& joint, Model& model) {
-  carries.word({"all"}, "what a joint carries at the start");
+  carries.word();
   Declaration declaration;
   joint.declare(declaration);
   if (declaration.nodes.size() != 2)

@@ -36,7 +36,6 @@ std::vector<int> read_turns(const YamlValue& entry, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     if (given->at(k).is_null()) continue;
     turns[k] = given->at(k).integer();
-    if (turns[k] < 0) given->at(k).fail("expected 0 or more");
   }
   return turns;
 }
@@ -82,9 +81,9 @@ std::vector<int> nodes_with_pulleys(const RopePath& path) {
 }
 
 RopeMaterial read_material(const YamlValue& entry) {
-  RopeMaterial material{entry.at("EA").positive_number()};
-  if (const auto damping = entry.find("damping")) material.damping = damping->non_negative_number();
-  if (const auto pretension = entry.find("pretension")) material.pretension = pretension->non_negative_number();
+  RopeMaterial material{entry.at("EA").number()};
+  material.damping = entry.at("damping").number();
+  material.pretension = entry.at("pretension").number();
   return material;
 }
 
@@ -121,8 +120,43 @@ void add_grips(const std::string& name, const std::vector<const RopeSection*>& s
 
 }  // namespace
 
+namespace {
+
+std::vector<Key> rope_keys() {
+  using namespace keys;
+  return {type_key(),
+          {"nodes", list_of(name_of("node")).items_at_least(2), required,
+           "Nodes in the order in which the rope passes them."},
+          {"radii", list_of(number("m")), required,
+           "Radii of the pulleys, one for each node: negative if the rope turns them backwards about `axis`, 0 for a "
+           "point."},
+          {"axis", direction(), optional, "Direction of the axes of all pulleys as drawn; points need none."},
+          {"at", list_of(KeyForms{vector3("m"), null()}), computed("the nodes"),
+           "Centres of the pulleys, each in the axes of its node; `~` is the node itself."},
+          {"EA", number("N").positive(), required, "Stiffness per strain: Young's modulus times area."},
+          {"pretension", number("N").non_negative(), otherwise("0"), "Tension as drawn."},
+          {"damping", number("s").non_negative(), otherwise("0"), "Time constant of Kelvin-Voigt damping."}};
+}
+
+}  // namespace
+
+const KeyTable& belt_keys() {
+  static const KeyTable table{"a belt", "A closed belt or chain that grips its pulleys.", rope_keys()};
+  return table;
+}
+
+const KeyTable& cable_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a cable", "A rope from the first node to the last, over pulleys on which it slides without friction.",
+      joined({rope_keys(),
+              {{"grips", list_of(name_of("node")), optional, "Nodes of pulleys that the rope grips."},
+               {"turns", list_of(KeyForms{integer().non_negative(), null()}), optional,
+                "Whole turns round each pulley in addition to the rope as drawn; `~` is none."}}})};
+  return table;
+}
+
 void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "radii", "axis", "at", "EA", "pretension", "damping"}, "a belt");
   const RopePath path = read_path(entry, model);
   const RopeMaterial material = read_material(entry);
   refuse_starts_beyond_half_a_turn(entry, nodes_with_pulleys(path), model);
@@ -139,8 +173,6 @@ void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
 }
 
 void read_cable(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "radii", "axis", "at", "grips", "turns", "EA", "pretension", "damping"},
-                   "a cable");
   const RopePath path = read_path(entry, model);
   const RopeMaterial material = read_material(entry);
   refuse_starts_beyond_half_a_turn(entry, nodes_with_pulleys(path), model);

@@ -102,6 +102,8 @@ class RopeSection final : public Component {
   double drawn_length_ = 0;
 };
 
+const KeyTable& belt_keys();
+const KeyTable& cable_keys();
 /// Reads `belt: {nodes, radii, axis, EA, pretension, damping}`: closed, gripped by every pulley.
 void read_belt(const std::string& name, const YamlValue& entry, Model& model);
 /// Reads `cable: {nodes, radii, axis, at, grips, turns, EA, pretension, damping}`: from the first node to the last.

@@ -62,6 +62,7 @@ class LiftedCoordinate final : public Component {
   int of_angle_, of_lifted_;
 };
 
+const KeyTable& cam_keys();
 /// Reads `cam: {joints: [camshaft, follower], profile, follower: roller | flat, radius, at, normal, friction}` or `cam:
 /// {joints: [camshaft, follower], lift}`
 void read_cam(const std::string& name, const YamlValue& entry, Model& model);

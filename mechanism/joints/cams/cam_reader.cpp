@@ -51,14 +51,14 @@ void add_contact(std::unique_ptr<Joint> made, const YamlValue& entry, Model& mod
 }
 
 void add_roller(const std::string& name, const YamlValue& entry, Model& model) {
-  const double radius = entry.has("radius") ? entry.at("radius").non_negative_number() : 0;
+  const double radius = entry.at("radius").number();
   const YamlValue joints = entry.at("joints");
   const NamedCoordinate angle = coordinate_named_by(joints.at(0), model, Kind::angle),
                         moved = coordinate_named_by(joints.at(1), model);
   check_two(angle, moved, joints);
   const Joint &camshaft = *angle.joint, &follower = *moved.joint;
   Frame middle;
-  if (const auto at = entry.find("at")) middle.x = at->vector3();
+  middle.x = entry.at("at").vector3();
   JointFrames frames = frames_of(camshaft, follower, middle);
   Curve pitch = read_named_file(entry.at("profile"), [&](const std::string& path) {
     return CamContour(read_table(path, 2), path).pitch_curve(radius);
@@ -82,7 +82,7 @@ void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
   const Frame& node = model.node(follower.frames().second).frame;
   const Vector3 normal = entry.at("normal").direction();
   Frame face;
-  if (const auto at = entry.find("at")) face.x = at->vector3();
+  face.x = entry.at("at").vector3();
   const Frame cam = model.node(camshaft.frames().second).frame * camshaft.frames().on_second;
   const Vector3 axis = cam.R.col(2);
   if (std::abs(normal.dot(axis)) > 1e-6) entry.at("normal").fail("is not at right angles to the camshaft's axis");
@@ -98,8 +98,27 @@ void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
 
 }  // namespace
 
+const KeyTable& cam_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a cam",
+      "A disk cam and its follower, by the contour of the cam or by the lift.",
+      {type_key(),
+       {"joints", list_of(2, coordinate_forms()), required, "Angle of the camshaft and coordinate of the follower."},
+       {"lift", file("table of two columns"), optional,
+        "Angles of the camshaft and coordinates of the follower; the last row is a period after the first."},
+       {"profile", file("table of two columns"), optional,
+        "Angles [rad] and radii [m] of the contour, which a periodic cubic spline joins, in place of `lift`."},
+       {"follower", word({"roller", "flat"}, "a follower"), optional, "Follower, which a `profile` needs."},
+       {"radius", number("m").non_negative(), otherwise("0"), "Radius of a roller; 0 is a knife edge."},
+       {"at", vector3("m"), otherwise("[0, 0, 0]"),
+        "Middle of the roller, or point of the flat face, in the axes of the follower's node."},
+       {"normal", direction(), optional, "Normal of a flat face, away from the cam, as drawn; it needs one."},
+       {"friction", joint_friction_forms(), optional, "Friction of the contact, or of a roller on its pin."}}};
+  return table;
+}
+
 void read_cam(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "joints", "lift", "profile", "follower", "radius", "at", "normal", "friction"}, "a cam");
   const YamlValue joints = entry.at("joints");
   if (!joints.is_sequence() || joints.size() != 2) joints.fail("expected two joints: [camshaft, follower]");
   if (entry.has("lift") == entry.has("profile"))
@@ -111,7 +130,7 @@ void read_cam(const std::string& name, const YamlValue& entry, Model& model) {
     for (const char* key : {"follower", "radius", "at", "normal", "friction"})
       if (const auto too_much = entry.find(key)) too_much->fail("belongs to a cam with `profile`");
   } else {
-    flat = entry.at("follower").word({"roller", "flat"}, "a follower") == "flat";
+    flat = entry.at("follower").word() == "flat";
     const char* other = flat ? "radius" : "normal";
     if (const auto too_much = entry.find(other))
       too_much->fail(flat ? "belongs to a roller" : "belongs to a flat follower");

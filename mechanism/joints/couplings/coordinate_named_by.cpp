@@ -9,6 +9,15 @@ namespace {
 
 using Kind = JointCoordinate::Kind;
 
+const KeyTable& coordinate_keys() {
+  using namespace keys;
+  static const KeyTable table{"a coordinate of a joint",
+                              "A coordinate of a joint, by two names.",
+                              {{"joint", name_of("joint"), required, "The joint."},
+                               {"coordinate", text(), computed("the only one that fits"), "Coordinate of the joint."}}};
+  return table;
+}
+
 const Joint& joint_that_can_be_coupled(const YamlValue& value, Model& model) {
   const auto* joint = dynamic_cast<const Joint*>(&component_named_by(Section::joints, value, model));
   if (!joint) value.fail("is no joint between two nodes: it has no coordinates");
@@ -51,11 +60,15 @@ NamedCoordinate coordinate_of(const Joint& joint, const std::string& coordinate,
 
 }  // namespace
 
+KeyForms coordinate_forms() {
+  return {keys::name_of("joint"), keys::state_formula("any", {}), keys::nested(coordinate_keys)};
+}
+
 NamedCoordinate coordinate_named_by(const YamlValue& value, Model& model, std::optional<Kind> wanted) {
   if (value.is_map()) {
-    value.check_keys({"joint", "coordinate"}, "a coordinate of a joint");
-    const Joint& joint = joint_that_can_be_coupled(value.at("joint"), model);
-    if (const auto coordinate = value.find("coordinate"))
+    const YamlValue named = value.keyed(coordinate_keys());
+    const Joint& joint = joint_that_can_be_coupled(named.at("joint"), model);
+    if (const auto coordinate = named.find("coordinate"))
       return coordinate_of(joint, coordinate->text(), *coordinate, wanted);
     return only_coordinate(joint, value, wanted);
   }

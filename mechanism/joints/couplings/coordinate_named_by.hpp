@@ -13,6 +13,9 @@ struct NamedCoordinate {
   const JointCoordinate& coordinate() const { return joint->coordinates()[index]; }
 };
 
+/// Returns the forms of such a name: a joint, `main.angle` as a measure in a formula, or a map.
+KeyForms coordinate_forms();
+
 /// Returns the coordinate that a value names: `main`, a joint with one coordinate (or with one of the required kind);
 /// `main.angle`; or `{joint: main, coordinate: angle}`. Components of rotation vectors cannot be coupled. Call it after
 /// all joints have been read (Model::Stage::connections). @throws InputError

@@ -6,6 +6,7 @@
 
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_numbers.hpp"
 
 namespace bielle::mechanism {
 
@@ -140,15 +141,51 @@ double ratio_of_gear(const YamlValue& entry) {
       internal->fail("is a key of `teeth`: the sign of `ratio` says it");
     return other_than_zero(entry.at("ratio"));
   }
-  const Eigen::VectorXd teeth = entry.at("teeth").positive_numbers(2, "[teeth of the first wheel, of the second]");
-  const auto internal = entry.find("internal");
-  return (internal && internal->boolean() ? 1 : -1) * teeth[0] / teeth[1];
+  const Eigen::VectorXd teeth = read_numbers(entry.at("teeth"), 2, "[teeth of the first wheel, of the second]");
+  return (entry.at("internal").boolean() ? 1 : -1) * teeth[0] / teeth[1];
 }
 
 }  // namespace
 
+const KeyTable& gear_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a gear",
+      "Coordinates of joints in a fixed ratio.",
+      {type_key(),
+       {"joints", list_of(coordinate_forms()).items_at_least(2), required,
+        "Coordinates that are coupled: angles of two joints; with `factors` any coordinates."},
+       {"ratio", number(), optional, "Rate of the second coordinate over that of the first, with its sign; not 0."},
+       {"teeth", list_of(2, number().positive()), optional, "Numbers of teeth of two wheels, in place of `ratio`."},
+       {"internal", boolean(), otherwise("false"), "Whether one of two wheels with `teeth` is a ring."},
+       {"factors", list_of(number("any")).items_at_least(2), optional,
+        "Factors of the coordinates, in place of `ratio`: the sum of factor times coordinate is zero."}}};
+  return table;
+}
+
+const KeyTable& differential_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a differential",
+      "Angles of an input shaft and of two others that share its motion.",
+      {type_key(),
+       {"joints", list_of(3, coordinate_forms()), required, "Angles of the input, the left and the right shaft."},
+       {"ratio", number(), otherwise("1"), "Rate of the input over the mean of the other two; not 0."}}};
+  return table;
+}
+
+const KeyTable& rack_and_pinion_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a rack and pinion",
+      "A displacement that is a radius times an angle.",
+      {type_key(),
+       {"joints", list_of(2, coordinate_forms()), required, "Angle of the pinion and displacement of the rack."},
+       {"radius", number("m"), required, "Displacement of the rack over the angle of the pinion; not 0."}}};
+  return table;
+}
+
 void read_gear(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "joints", "ratio", "teeth", "internal", "factors"}, "a gear");
   LinearCoupling& coupling = add_coupling("gear", name, model);
   if (const auto given = entry.find("factors")) {
     for (const char* other : {"ratio", "teeth", "internal"})
@@ -167,15 +204,12 @@ void read_gear(const std::string& name, const YamlValue& entry, Model& model) {
 }
 
 void read_differential(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "joints", "ratio"}, "a differential");
-  const auto given = entry.find("ratio");
-  const double ratio = given ? other_than_zero(*given) : 1;
+  const double ratio = other_than_zero(entry.at("ratio"));
   connect_later(add_coupling("differential", name, model), joints_of(entry, 3, "three joints: [input, left, right]"),
                 {1, -ratio / 2, -ratio / 2}, {Kind::angle, Kind::angle, Kind::angle}, model);
 }
 
 void read_rack_and_pinion(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "joints", "radius"}, "a rack and pinion");
   const double radius = other_than_zero(entry.at("radius"));
   connect_later(add_coupling("rack_and_pinion", name, model), joints_of(entry, 2, "two joints: [pinion, rack]"),
                 {-radius, 1}, {Kind::angle, Kind::displacement}, model);

@@ -44,6 +44,9 @@ class LinearCoupling final : public Component {
   References references_;
 };
 
+const KeyTable& gear_keys();
+const KeyTable& differential_keys();
+const KeyTable& rack_and_pinion_keys();
 /// Reads `gear: {joints: [a, b], ratio: rate of b over that of a}`, signed; or `teeth: [z_a, z_b]` of wheels in
 /// external contact (`internal: true`: internal); or `factors: [f_1, ..]` of two or more coordinates.
 void read_gear(const std::string& name, const YamlValue& entry, Model& model);

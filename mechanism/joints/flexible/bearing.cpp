@@ -90,6 +90,34 @@ void Bearing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const 
 
 namespace {
 
+/// Returns the table of one direction, or of two that may differ: a number is valid for both.
+KeyTable direction_table(const char* stiffness_unit, const char* damping_unit, bool two) {
+  using namespace keys;
+  const auto forms = [&](const char* unit) {
+    const KeyForm one = number(unit).non_negative();
+    return two ? KeyForms{one, list_of(2, one)} : KeyForms{one};
+  };
+  return {"a direction of a bearing",
+          "Stiffness and damping of a bearing in one direction.",
+          {{"stiffness", forms(stiffness_unit), otherwise("0"), "Stiffness."},
+           {"damping", forms(damping_unit), otherwise("0"), "Damping."}}};
+}
+
+const KeyTable& radial_keys() {
+  static const KeyTable table = direction_table("N/m", "N s/m", true);
+  return table;
+}
+
+const KeyTable& axial_keys() {
+  static const KeyTable table = direction_table("N/m", "N s/m", false);
+  return table;
+}
+
+const KeyTable& tilting_keys() {
+  static const KeyTable table = direction_table("N m/rad", "N m s/rad", true);
+  return table;
+}
+
 /// Reads `{stiffness, damping}` or only the stiffness, for one direction or for two equal ones.
 void read_bearing_part(const YamlValue& entry, const char* key, std::span<const int> directions, ElasticLaw& law) {
   const auto value = entry.find(key);
@@ -100,28 +128,45 @@ void read_bearing_part(const YamlValue& entry, const char* key, std::span<const 
       if (directions.size() != 2 || numbers.size() != 2)
         given.fail(directions.size() == 2 ? "expected a number, or two: along x and y of the housing"
                                           : "expected a number");
-      for (std::size_t k = 0; k < 2; ++k) A(directions[k], directions[k]) = given.at(k).non_negative_number();
+      for (std::size_t k = 0; k < 2; ++k) A(directions[k], directions[k]) = numbers[static_cast<Eigen::Index>(k)];
       return;
     }
-    for (const int k : directions) A(k, k) = given.non_negative_number();
+    for (const int k : directions) A(k, k) = given.number();
   };
   if (!value->is_map()) {
     read(*value, law.K);
     return;
   }
-  value->check_keys({"stiffness", "damping"}, "a direction of a bearing");
   if (!value->has("stiffness") && !value->has("damping")) value->fail("expected `stiffness` or `damping`");
-  if (const auto stiffness = value->find("stiffness")) read(*stiffness, law.K);
-  if (const auto damping = value->find("damping")) read(*damping, law.D);
+  read(value->at("stiffness"), law.K);
+  read(value->at("damping"), law.D);
 }
 
 }  // namespace
 
+const KeyTable& bearing_keys() {
+  using namespace keys;
+  static const KeyTable table = [] {
+    const KeyForm force = number("N/m").non_negative(), moment = number("N m/rad").non_negative();
+    return KeyTable{
+        "a bearing", "An elastic hinge, whose shaft turns freely.",
+        joined({joint_frame_keys(AxisNeed::required),
+                {{"radial",
+                  {force, list_of(2, force), nested(radial_keys)},
+                  required,
+                  "Radial stiffness, one number or two along x and y of the housing; or stiffness and damping."},
+                 {"axial", {force, nested(axial_keys)}, otherwise("0"), "Axial stiffness; or stiffness and damping."},
+                 {"tilting",
+                  {moment, list_of(2, moment), nested(tilting_keys)},
+                  otherwise("0"),
+                  "Stiffness against tilting, one number or two about x and y of the housing; or stiffness and "
+                  "damping."}},
+                joint_action_keys(Moves::both)})};
+  }();
+  return table;
+}
+
 void read_bearing(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = joint_frame_keys();
-  for (const std::string& key : joint_action_keys()) keys.push_back(key);
-  for (const char* key : {"radial", "axial", "tilting"}) keys.push_back(key);
-  entry.check_keys(keys, "a bearing");
   auto made = std::make_unique<Bearing>(name, read_joint_frames(entry, model, AxisNeed::required), model);
   constexpr int radial[] = {0, 1}, axial[] = {2}, tilting[] = {3, 4};
   if (!entry.has("radial")) entry.fail("a bearing needs its `radial` stiffness [N/m]");

@@ -26,6 +26,7 @@ class Bearing final : public ElasticPair {
   void calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const override;
 };
 
+const KeyTable& bearing_keys();
 /// Reads `{type: bearing, nodes, position | at, axis, second_axis, radial, axial, tilting}`.
 void read_bearing(const std::string& name, const YamlValue& entry, Model& model);
 

@@ -41,12 +41,26 @@ void Bushing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const 
   for (int k = 0; k < 3; ++k) memory[kept(k)] = psi[k];
 }
 
+namespace {
+
+/// Returns the keys of joints that a bushing reads itself, or does without.
+std::vector<std::string> own_keys() {
+  std::vector<std::string> own = keys::names_of(keys_of_elastic_law());
+  own.insert(own.end(), {"rest", "friction"});
+  return own;
+}
+
+}  // namespace
+
+const KeyTable& bushing_keys() {
+  static const KeyTable table{"a bushing",
+                              "An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.",
+                              keys::joined({joint_frame_keys(AxisNeed::optional), keys_of_elastic_law(),
+                                            joint_action_keys(Moves::both, own_keys())})};
+  return table;
+}
+
 void read_bushing(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = joint_frame_keys();
-  const std::vector<std::string>& own = elastic_law_keys();
-  keys.insert(keys.end(), own.begin(), own.end());
-  for (const char* action : {"stops", "locked", "start", "start_rate", "carries"}) keys.push_back(action);
-  entry.check_keys(keys, "a bushing");
   auto made = std::make_unique<Bushing>(name, read_joint_frames(entry, model, AxisNeed::optional), model);
   const std::vector<CurveFormula> formulas = read_elastic_law(entry, made->law());
   Bushing& bushing = *made;
@@ -59,7 +73,7 @@ void read_bushing(const std::string& name, const YamlValue& entry, Model& model)
                     [added = spring.get(), formula, &model] { added->read(formula, false, model); });
     model.add(std::move(spring), of_bushing);
   }
-  read_joint_actions(entry, bushing, model, own);
+  read_joint_actions(entry, bushing, model, own_keys());
 }
 
 }  // namespace bielle::mechanism

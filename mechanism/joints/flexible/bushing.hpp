@@ -25,6 +25,7 @@ class Bushing final : public ElasticPair {
   void calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const override;
 };
 
+const KeyTable& bushing_keys();
 /// Reads `{type: bushing, nodes, position | at, axis, second_axis, stiffness, damping, preload, curves, maxwell}`.
 void read_bushing(const std::string& name, const YamlValue& entry, Model& model);
 

@@ -79,8 +79,10 @@ class ClearanceJoint final : public Joint, public OpenContact {
   std::optional<FrictionLaw> friction_;
 };
 
+const KeyTable& clearance_hinge_keys();
 /// Reads `{nodes, position | at, axis, radial_gap, length, axial_gap, radius, contact, axial_contact, friction}`.
 void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& clearance_spherical_keys();
 /// Reads `{nodes, position | at, axis, radial_gap, radius, contact, friction}`.
 void read_clearance_spherical(const std::string& name, const YamlValue& entry, Model& model);
 

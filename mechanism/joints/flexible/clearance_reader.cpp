@@ -19,6 +19,52 @@
 namespace bielle::mechanism {
 namespace {
 
+const KeyTable& clearance_friction_keys() {
+  static const KeyTable table{"friction in a clearance",
+                              "Friction of the surfaces that touch, at the journal's `radius`.",
+                              keys_of_friction_law({"coulomb", "lugre"})};
+  return table;
+}
+
+const KeyTable& clearance_contact_keys() {
+  static const KeyTable table{"a contact", "Normal force of the surfaces that touch.", keys_of_normal_law()};
+  return table;
+}
+
+/// Returns the keys of a contact whose stiffness may follow from the materials.
+const KeyTable& contact_of_materials_keys() {
+  using namespace keys;
+  static const KeyTable table = [] {
+    const KeyForm modulus = number("Pa").positive();
+    KeyForm ratio = number().between(-1, 0.5);
+    ratio.above = true;
+    return KeyTable{
+        "a contact", "Normal force of the surfaces that touch, by a stiffness or by the materials of both parts.",
+        joined({keys_of_normal_law(),
+                {{"young",
+                  {modulus, list_of(2, modulus)},
+                  optional,
+                  "Young's modulus of both parts, or of bush and journal, in place of `stiffness` and `exponent`."},
+                 {"poisson",
+                  {ratio, list_of(2, ratio)},
+                  optional,
+                  "Poisson's ratio of both parts, or of bush and journal, which `young` needs."}}})};
+  }();
+  return table;
+}
+
+std::vector<Key> clearance_keys(AxisNeed need) {
+  using namespace keys;
+  return joined({joint_frame_keys(need),
+                 {{"radial_gap", number("m").non_negative(), required,
+                   "Radial gap: half the difference of the diameters; with 0 contact begins at the centred position."},
+                  {"radius", number("m").non_negative(), otherwise("0"),
+                   "Radius of the journal or ball, at which friction acts; with 0 friction has no moment."},
+                  {"contact", nested(contact_of_materials_keys), required, "Contact of the surfaces."},
+                  {"friction", nested(clearance_friction_keys), optional, "Friction of the surfaces."}},
+                 joint_action_keys(Moves::both, {"friction"})});
+}
+
 /// Reads a number for both parts, or one for each.
 std::array<double, 2> read_of_both(const YamlValue& value, const char* expected) {
   if (!value.is_sequence()) return {value.number(), value.number()};
@@ -34,48 +80,30 @@ double read_contact_modulus(const YamlValue& contact) {
              nu = read_of_both(poisson, "expected a ratio, or two: of bush and journal");
   double compliance = 0;
   for (std::size_t k = 0; k < 2; ++k) {
-    if (!(E[k] > 0)) young.fail("expected a modulus greater than 0");
-    if (!(nu[k] > -1 && nu[k] <= 0.5)) poisson.fail("expected a ratio in (-1, 0.5]");
     compliance += (1 - nu[k] * nu[k]) / E[k];
   }
   return 1 / compliance;
 }
+
+constexpr double hertzian = 1.5;  ///< exponent
 
 struct MaterialStiffness {
   double per_modulus;  ///< stiffness divided by E* [m^(2 - exponent)]
   double exponent;
 };
 
-/// @param of_materials  dependence of the stiffness on the materials, if there is one
-NormalLaw read_contact_law(const YamlValue& entry, const std::optional<MaterialStiffness>& of_materials,
-                           double exponent) {
-  std::vector<std::string> keys = normal_law_keys();
-  if (of_materials) keys.insert(keys.end(), {"young", "poisson"});
-  entry.check_keys(keys, "a contact");
-  if (!entry.has("young") && !entry.has("poisson")) return read_normal_law(entry, exponent);
+NormalLaw read_contact_law(const YamlValue& entry, const MaterialStiffness& of_materials) {
+  if (!entry.has("young") && !entry.has("poisson")) return read_normal_law(entry);
   for (const char* key : {"stiffness", "exponent"})
     if (const auto given = entry.find(key)) given->fail("follows from `young` and `poisson`");
-  return read_normal_law(entry, of_materials->exponent, read_contact_modulus(entry) * of_materials->per_modulus);
+  return read_normal_law(entry, read_contact_modulus(entry) * of_materials.per_modulus, of_materials.exponent);
 }
 
 std::optional<FrictionLaw> read_clearance_friction(const YamlValue& entry) {
   const auto friction = entry.find("friction");
   if (!friction) return std::nullopt;
-  friction->check_keys(friction_law_keys(), "friction in a clearance");
   if (!entry.has("radius")) friction->fail("surfaces rub at the journal's `radius`, which is missing");
-  return read_friction_law(*friction, {"coulomb", "lugre"});
-}
-
-double read_radius(const YamlValue& entry) {
-  const auto radius = entry.find("radius");
-  return radius ? radius->non_negative_number() : 0;
-}
-
-void check_clearance_keys(const YamlValue& entry, std::initializer_list<const char*> own, const char* words) {
-  std::vector<std::string> keys = joint_frame_keys(), actions = joint_action_keys();
-  keys.insert(keys.end(), actions.begin(), actions.end());
-  keys.insert(keys.end(), own.begin(), own.end());
-  entry.check_keys(keys, words);
+  return read_friction_law(*friction);
 }
 
 void add_clearance(std::unique_ptr<ClearanceJoint> made, const YamlValue& entry, Model& model) {
@@ -88,19 +116,36 @@ using Kind = JointCoordinate::Kind;
 
 }  // namespace
 
+const KeyTable& clearance_hinge_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a clearance_hinge", "A journal with play in a bush.",
+      joined(
+          {clearance_keys(AxisNeed::required),
+           {{"length", number("m").non_negative(), otherwise("0"),
+             "Length of the journal, which touches the bore at either end; with 0 it touches in the middle alone."},
+            {"axial_gap", number("m").non_negative(), optional,
+             "Axial play of the journal to either side; without it the journal slides freely."},
+            {"axial_contact", nested(clearance_contact_keys), computed("as `contact`"), "Contact of the collars."}}})};
+  return table;
+}
+
+const KeyTable& clearance_spherical_keys() {
+  static const KeyTable table{"a clearance_spherical joint", "A ball with play in a socket.",
+                              clearance_keys(AxisNeed::optional)};
+  return table;
+}
+
 void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model& model) {
-  check_clearance_keys(entry, {"radial_gap", "axial_gap", "length", "radius", "contact", "axial_contact", "friction"},
-                       "a clearance_hinge");
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::required);
-  const double gap = entry.at("radial_gap").non_negative_number(), radius = read_radius(entry);
-  const auto length = entry.find("length"), axial_gap = entry.find("axial_gap"),
-             axial_contact = entry.find("axial_contact");
-  const double l = length ? length->non_negative_number() : 0;
+  const double gap = entry.at("radial_gap").number(), radius = entry.at("radius").number(),
+               l = entry.at("length").number();
+  const auto axial_gap = entry.find("axial_gap"), axial_contact = entry.find("axial_contact");
   const YamlValue contact = entry.at("contact");
   if (contact.is_map() && contact.has("young") && l == 0)
-    contact.at("young").fail(
-        fmt::format("the stiffness of a cylinder follows from its `length`, which is {}", length ? "0" : "missing"));
-  const NormalLaw law = read_contact_law(contact, MaterialStiffness{M_PI / 4 * l / 2, 1}, 1.5);
+    contact.at("young").fail(fmt::format("the stiffness of a cylinder follows from its `length`, which is {}",
+                                         entry.has("length") ? "0" : "missing"));
+  const NormalLaw law = read_contact_law(contact, {M_PI / 4 * l / 2, 1});
   std::vector<ClearanceJoint::Place> places;
   if (l > 0) {
     places.push_back({"at the end at -z", {ClearancePlace::Kind::bore, gap, -l / 2, 1, radius}, law});
@@ -111,10 +156,10 @@ void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model
   if (axial_contact && !axial_gap)
     axial_contact->fail("is the contact of collars with an `axial_gap`, which is missing");
   if (axial_gap) {
-    const double play = axial_gap->non_negative_number();
+    const double play = axial_gap->number();
     if (!axial_contact && contact.has("young"))
       axial_gap->fail("give the stiffness of the collars, too: `axial_contact: {stiffness: ..}`");
-    const NormalLaw of_faces = axial_contact ? read_contact_law(*axial_contact, std::nullopt, 1.5) : law;
+    const NormalLaw of_faces = axial_contact ? read_normal_law(*axial_contact) : law;
     places.push_back({"of the collar at -z", {ClearancePlace::Kind::face, play, 0, -1, radius}, of_faces});
     places.push_back({"of the collar at +z", {ClearancePlace::Kind::face, play, 0, 1, radius}, of_faces});
   }
@@ -128,9 +173,8 @@ void read_clearance_hinge(const std::string& name, const YamlValue& entry, Model
 }
 
 void read_clearance_spherical(const std::string& name, const YamlValue& entry, Model& model) {
-  check_clearance_keys(entry, {"radial_gap", "radius", "contact", "friction"}, "a clearance_spherical joint");
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::optional);
-  const double gap = entry.at("radial_gap").non_negative_number(), radius = read_radius(entry);
+  const double gap = entry.at("radial_gap").number(), radius = entry.at("radius").number();
   const YamlValue contact = entry.at("contact");
   if (contact.is_map() && contact.has("young") && radius == 0)
     contact.at("young").fail(fmt::format("the stiffness of a ball follows from its `radius`, which is {}",
@@ -138,8 +182,7 @@ void read_clearance_spherical(const std::string& name, const YamlValue& entry, M
   if (contact.is_map() && contact.has("young") && gap == 0)
     entry.at("radial_gap")
         .fail("a ball that fills its socket is stiffer than any number: give the contact a `stiffness`");
-  const NormalLaw law =
-      read_contact_law(contact, MaterialStiffness{4.0 / 3 * std::sqrt(radius * (radius + gap) / gap), 1.5}, 1.5);
+  const NormalLaw law = read_contact_law(contact, {4.0 / 3 * std::sqrt(radius * (radius + gap) / gap), hertzian});
   add_clearance(
       std::make_unique<ClearanceJoint>(
           "clearance_spherical", name, std::move(frames),

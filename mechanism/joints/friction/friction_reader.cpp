@@ -13,10 +13,17 @@
 namespace bielle::mechanism {
 namespace {
 
-std::vector<std::string> friction_keys() {
-  std::vector<std::string> all = friction_law_keys();
-  all.insert(all.end(), {"radius", "arm", "preload"});
-  return all;
+const KeyTable& joint_friction_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "`friction`", "Friction of the sliding surfaces of a joint, which follows the joint's own reaction.",
+      joined({keys_of_friction_law({"coulomb", "lugre", "stick_slip"}),
+              {{"radius", number("m").non_negative(), optional, "Radius of the surface, which turning joints need."},
+               {"arm", number("m").positive(), optional,
+                "Length over which a moment across the motion acts; without it moments cause no friction."},
+               {"preload", number("N").non_negative(), otherwise("0"),
+                "Normal force of the surfaces besides the reaction."}}})};
+  return table;
 }
 
 bool bears_moments(const Joint& joint) {
@@ -35,7 +42,8 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
   if (!radius && any_turns)
     entry.fail(fmt::format("a {} joint turns: give the `radius` of the surface that rubs [m]", joint.type()));
   // The normal force of a thread contains the torque divided by the radius: a zero radius has no limit.
-  const double r = !radius ? 0 : slides.lead != 0 ? radius->positive_number() : radius->non_negative_number();
+  const double r = radius ? radius->number() : 0;
+  if (slides.lead != 0 && r == 0) radius->fail("expected a number greater than 0, found 0");
   FrictionSurface surface;
   for (const std::size_t k : slides.coordinates)
     surface.parts.push_back({k, static_cast<int>(surface.parts.size()), turns(k) ? r : 1.0});
@@ -58,15 +66,15 @@ FrictionSurface read_surface(const YamlValue& entry, const Joint& joint, const S
   }
   if (const auto arm = entry.find("arm")) {
     if (!bears_moments(joint)) arm->fail(fmt::format("a {} joint bears no moment that could press", joint.type()));
-    surface.moment_arm = arm->positive_number();
+    surface.moment_arm = arm->number();
   }
-  if (const auto preload = entry.find("preload")) surface.preload = preload->non_negative_number();
+  surface.preload = entry.at("preload").number();
   return surface;
 }
 
 void add_friction(const YamlValue& entry, const Joint& joint, const SlidingSurface& slides, Model& model) {
   FrictionSurface surface = read_surface(entry, joint, slides);
-  FrictionLaw law = read_friction_law(entry, {"coulomb", "lugre", "stick_slip"});
+  FrictionLaw law = read_friction_law(entry);
   const auto has_arm = [](const FrictionSurface::Part& part) { return part.arm != 0; };
   if (std::none_of(surface.parts.begin(), surface.parts.end(), has_arm)) law.forget_dry_friction();
   std::unique_ptr<Component> friction;
@@ -91,6 +99,10 @@ void add_friction(const YamlValue& entry, const Joint& joint, const SlidingSurfa
 
 }  // namespace
 
+KeyForms joint_friction_forms() {
+  return {keys::nested(joint_friction_keys), keys::entries("coordinate", {keys::nested(joint_friction_keys)})};
+}
+
 void read_joint_friction(const YamlValue& value, const Joint& joint, Model& model) {
   const std::vector<SlidingSurface> surfaces = joint.sliding_surfaces();
   if (surfaces.empty()) value.fail(fmt::format("a {} joint has no friction", joint.type()));
@@ -102,20 +114,16 @@ void read_joint_friction(const YamlValue& value, const Joint& joint, Model& mode
   if (std::any_of(names.begin(), names.end(), is_named)) {
     value.check_keys(names, "`friction` by coordinates");
     for (std::size_t k = 0; k < surfaces.size(); ++k)
-      if (const auto entry = value.find(names[k])) {
-        entry->check_keys(friction_keys(), "`friction`");
-        add_friction(*entry, joint, surfaces[k], model);
-      }
+      if (const auto entry = value.find(names[k]))
+        add_friction(entry->keyed(joint_friction_keys()), joint, surfaces[k], model);
     return;
   }
   for (const JointCoordinate& each : joint.coordinates())
     if (value.has(each.name))
       value.at(each.name).fail(
           fmt::format("the coordinates of a {} joint slide at one surface: give one law for all", joint.type()));
-  std::vector<std::string> keys = friction_keys();
-  keys.insert(keys.end(), names.begin(), names.end());
-  value.check_keys(keys, "`friction`");
-  for (const SlidingSurface& each : surfaces) add_friction(value, joint, each, model);
+  const YamlValue entry = value.keyed(joint_friction_keys());
+  for (const SlidingSurface& each : surfaces) add_friction(entry, joint, each, model);
 }
 
 }  // namespace bielle::mechanism

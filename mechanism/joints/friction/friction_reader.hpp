@@ -8,6 +8,9 @@
 
 namespace bielle::mechanism {
 
+/// Returns the forms of `friction` of a joint.
+KeyForms joint_friction_forms();
+
 /// Adds the friction of a joint to the model, recorded with the joint. @throws InputError
 void read_joint_friction(const YamlValue& value, const Joint& joint, Model& model);
 

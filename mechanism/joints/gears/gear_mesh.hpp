@@ -104,6 +104,7 @@ class ElasticGearMesh final : public GearMesh {
   ToothSpring spring_;
 };
 
+const KeyTable& gear_mesh_keys();
 /// Reads `gear_mesh: {nodes: [wheel_1, wheel_2], carrier, axes, radii | position, internal, pressure_angle,
 /// helix_angle, stiffness, damping, backlash}`.
 void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& model);

@@ -9,6 +9,7 @@
 #include "mechanism/joints/gears/tooth_directions.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_numbers.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -31,7 +32,7 @@ std::array<Vector3, 2> read_axes(const YamlValue& axes) {
 
 /// Returns the pitch point of wheels on parallel axes, from their radii.
 Vector3 pitch_point_of_radii(const YamlValue& given, const DrawnWheels& wheels, bool internal) {
-  const Eigen::VectorXd radii = given.positive_numbers(2, "[pitch radius of the first wheel, of the second]");
+  const Eigen::VectorXd radii = read_numbers(given, 2, "[pitch radius of the first wheel, of the second]");
   const Vector3& z = wheels.axis[0];
   if (z.cross(wheels.axis[1]).norm() > 1e-6)
     given.fail("belong to wheels on parallel axes; for other axes give `position`, the point where the teeth meet");
@@ -54,19 +55,16 @@ Vector3 read_pitch_point(const YamlValue& entry, const DrawnWheels& wheels, bool
                             : entry.at("position").vector3();
 }
 
-double read_angle_below_quarter(const YamlValue& entry, const char* key, double usual) {
-  const auto given = entry.find(key);
-  if (!given) return usual;
-  const double angle = given->number();
-  if (std::abs(angle) >= M_PI / 2) given->fail("expected an angle between -pi/2 and pi/2 [rad]");
+double read_angle_below_quarter(const YamlValue& given) {
+  const double angle = given.number();
+  if (std::abs(angle) >= M_PI / 2) given.fail("expected an angle between -pi/2 and pi/2 [rad]");
   return angle;
 }
 
 ToothGeometry read_geometry(const YamlValue& entry, const std::array<int, 3>& nodes, const Model& model) {
   const Frame& carrier = model.node(nodes[0]).frame;
   DrawnWheels wheels{read_axes(entry.at("axes")), {model.node(nodes[1]).frame.x, model.node(nodes[2]).frame.x}};
-  const auto given = entry.find("internal");
-  const bool internal = given && given->boolean();
+  const bool internal = entry.at("internal").boolean();
   const Vector3 P = read_pitch_point(entry, wheels, internal);
   ToothGeometry geometry;
   const auto seen = [&](const Vector3& point) -> Vector3 { return carrier.R.transpose() * (point - carrier.x); };
@@ -78,9 +76,8 @@ ToothGeometry read_geometry(const YamlValue& entry, const std::array<int, 3>& no
     radius[k] = wheels.axis[k].cross(P - wheels.centre[k]).norm();
   }
   geometry.P = seen(P);
-  geometry.pressure_angle = read_angle_below_quarter(entry, "pressure_angle", M_PI / 9);
-  if (geometry.pressure_angle < 0) entry.at("pressure_angle").fail("expected 0 or more");
-  const double helix = read_angle_below_quarter(entry, "helix_angle", 0);
+  geometry.pressure_angle = read_angle_below_quarter(entry.at("pressure_angle"));
+  const double helix = read_angle_below_quarter(entry.at("helix_angle"));
   try {
     set_tooth_directions(geometry, helix, internal && radius[0] > radius[1]);
   } catch (const std::domain_error& error) {
@@ -91,25 +88,45 @@ ToothGeometry read_geometry(const YamlValue& entry, const std::array<int, 3>& no
 
 }  // namespace
 
+const KeyTable& gear_mesh_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a gear mesh",
+      "Forces between the teeth of two wheels, which load the bearings.",
+      {type_key(),
+       {"nodes", list_of(2, name_of("node")), required, "Nodes of the two wheels, on their axes."},
+       {"carrier", name_of("node"), otherwise("ground"), "Node that carries the bearings of the wheels."},
+       {"axes",
+        {direction(), list_of(2, direction())},
+        required,
+        "Direction of both axes, or of the axis of each wheel, as drawn."},
+       {"radii", list_of(2, number("m").positive()), optional, "Pitch radii of wheels on parallel axes."},
+       {"position", vector3("m"), optional, "Point where the teeth meet, as drawn, in place of `radii`."},
+       {"internal", boolean(), otherwise("false"), "Whether the larger wheel is a ring with teeth inside."},
+       {"pressure_angle", number("rad").non_negative(), otherwise("pi/9"), "Pressure angle, less than pi/2."},
+       {"helix_angle", number("rad"), otherwise("0"),
+        "Helix angle of the first wheel, between -pi/2 and pi/2; right-handed teeth have a positive one."},
+       {"stiffness", number("N/m").positive(), optional,
+        "Stiffness of the teeth along their normal; without it the pitch surfaces roll on each other exactly."},
+       {"damping", number("N s/m").non_negative(), otherwise("0"), "Damping of elastic teeth along their normal."},
+       {"backlash", number("m").non_negative(), otherwise("0"), "Free play of elastic teeth along their normal."}}};
+  return table;
+}
+
 void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "carrier", "axes", "radii", "position", "internal", "pressure_angle",
-                    "helix_angle", "stiffness", "damping", "backlash"},
-                   "a gear mesh");
   const std::vector<int> wheels = nodes_named_by(entry.at("nodes"), 2, model);
-  const auto given = entry.find("carrier");
-  const std::array<int, 3> nodes{given ? node_named_by(*given, model) : 0, wheels[0], wheels[1]};
+  const std::array<int, 3> nodes{node_named_by(entry.at("carrier"), model), wheels[0], wheels[1]};
   if (wheels[0] == wheels[1]) entry.at("nodes").fail("a gear mesh needs two different wheels");
   for (const int wheel : wheels)
-    if (wheel == nodes[0]) (given ? *given : entry.at("nodes")).fail("a wheel cannot be its own carrier");
+    if (wheel == nodes[0])
+      entry.at(entry.has("carrier") ? "carrier" : "nodes").fail("a wheel cannot be its own carrier");
   const std::array<std::string, 3> names{model.node(nodes[0]).name, model.node(nodes[1]).name,
                                          model.node(nodes[2]).name};
   const ToothGeometry geometry = read_geometry(entry, nodes, model);
   refuse_starts_beyond_half_a_turn(entry, wheels, model);
   const Entry own{Section::joints, name};
   if (const auto stiffness = entry.find("stiffness")) {
-    ToothSpring spring{stiffness->positive_number(), 0, 0};
-    if (const auto damping = entry.find("damping")) spring.damping = damping->non_negative_number();
-    if (const auto backlash = entry.find("backlash")) spring.backlash = backlash->non_negative_number();
+    const ToothSpring spring{stiffness->number(), entry.at("damping").number(), entry.at("backlash").number()};
     model.add(std::make_unique<ElasticGearMesh>(name, nodes, names, geometry, spring), own);
     return;
   }

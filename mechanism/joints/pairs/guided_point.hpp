@@ -9,7 +9,9 @@
 
 namespace bielle::mechanism {
 
+const KeyTable& point_on_line_keys();
 void read_point_on_line(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& point_on_plane_keys();
 void read_point_on_plane(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

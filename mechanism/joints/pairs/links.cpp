@@ -127,6 +127,23 @@ struct LinkFrames {
   Vector3 d;
 };
 
+/// Returns the keys that `read_link_frames` reads, with `type`.
+std::vector<Key> link_frame_keys() {
+  using namespace keys;
+  return {type_key(),
+          {"nodes", list_of(2, name_of("node")), required, "First and second node."},
+          {"at", list_of(2, vector3("m")), otherwise("[[0, 0, 0], [0, 0, 0]]"),
+           "End points of the link, each in the axes of its node."}};
+}
+
+KeyTable rod_table(const std::string& type) {
+  using namespace keys;
+  return {fmt::format("a {} joint", type), "A rod without mass and with a ball joint at either end.",
+          joined({link_frame_keys(),
+                  {{"length", formula("m", {"t"}).positive(), computed("the distance as drawn"),
+                    "Distance of the two points, which may be a formula of t."}}})};
+}
+
 LinkFrames read_link_frames(const YamlValue& entry, const Model& model) {
   LinkFrames link;
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
@@ -134,11 +151,10 @@ LinkFrames read_link_frames(const YamlValue& entry, const Model& model) {
   link.frames.second = nodes[1];
   if (nodes[0] == nodes[1]) entry.at("nodes").fail("a joint needs two different nodes");
   const Frame &first = model.node(nodes[0]).frame, &second = model.node(nodes[1]).frame;
-  if (const auto at = entry.find("at")) {
-    if (!at->is_sequence() || at->size() != 2) at->fail("expected two points, each in the axes of its node");
-    link.frames.on_first.x = at->at(0).vector3();
-    link.frames.on_second.x = at->at(1).vector3();
-  }
+  const YamlValue at = entry.at("at");
+  if (!at.is_sequence() || at.size() != 2) at.fail("expected two points, each in the axes of its node");
+  link.frames.on_first.x = at.at(std::size_t{0}).vector3();
+  link.frames.on_second.x = at.at(1).vector3();
   link.frames.on_first.R = first.R.transpose();
   link.frames.on_second.R = second.R.transpose();
   link.d = second.x + second.R * link.frames.on_second.x - first.x - first.R * link.frames.on_first.x;
@@ -154,16 +170,36 @@ void check_drawn_length(const YamlValue& entry, const Vector3& d, const char* wh
 }
 
 void read_rod(const char* type, const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "at", "length"}, fmt::format("a {} joint", type));
   LinkFrames link = read_link_frames(entry, model);
   if (!entry.has("length")) check_drawn_length(entry, link.d, "the rod");
-  Expression length = entry.has("length") ? entry.at("length").expression({"t"}) : Expression(link.d.norm());
+  Expression length = entry.has("length") ? entry.at("length").expression() : Expression(link.d.norm());
   if (!(length(0) > 0)) entry.at("length").fail("expected a length greater than 0");
   model.add(std::make_unique<DistanceJoint>(type, name, std::move(link.frames), std::move(length), model),
             Entry{Section::joints, name});
 }
 
 }  // namespace
+
+const KeyTable& distance_keys() {
+  static const KeyTable table = rod_table("distance");
+  return table;
+}
+
+const KeyTable& spherical_spherical_keys() {
+  static const KeyTable table = rod_table("spherical_spherical");
+  return table;
+}
+
+const KeyTable& revolute_spherical_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a revolute_spherical link", "A rod without mass that hinges on the first node, with a ball joint on the second.",
+      joined({link_frame_keys(),
+              {{"axis", direction(), required, "Axis of the hinge on the first node, as drawn."},
+               {"length", number("m").positive(), computed("the distance as drawn"), "Distance of the two points."}},
+              joint_action_keys(Moves::turns)})};
+  return table;
+}
 
 void read_distance(const std::string& name, const YamlValue& entry, Model& model) {
   read_rod("distance", name, entry, model);
@@ -174,7 +210,6 @@ void read_spherical_spherical(const std::string& name, const YamlValue& entry, M
 }
 
 void read_revolute_spherical(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a revolute_spherical link", {"type", "nodes", "at", "axis", "length"});
   LinkFrames link = read_link_frames(entry, model);
   const Vector3 z = entry.at("axis").direction();
   const double offset = z.dot(link.d);
@@ -183,7 +218,7 @@ void read_revolute_spherical(const std::string& name, const YamlValue& entry, Mo
     entry.at("axis").fail("the ball is drawn on the hinge's axis: give `at`, a point on the axis and the ball");
   double length = link.d.norm();
   if (const auto given = entry.find("length")) {
-    length = given->positive_number();
+    length = given->number();
     if (length <= std::abs(offset))
       given->fail(fmt::format("the ball is drawn {:.6g} m along the axis: no link as short as that reaches it",
                               std::abs(offset)));

@@ -47,6 +47,9 @@ class RevoluteSphericalLink final : public MeasuredPair {
   double length_, offset_;
 };
 
+const KeyTable& distance_keys();
+const KeyTable& spherical_spherical_keys();
+const KeyTable& revolute_spherical_keys();
 /// The key `at: [[..], [..]]` gives the two points in the axes of their nodes (default: the nodes). The default of
 /// `length` (t) is the initial distance.
 void read_distance(const std::string& name, const YamlValue& entry, Model& model);

@@ -1,6 +1,6 @@
 #include "mechanism/joints/pairs/lower_pairs.hpp"
 
-#include "mechanism/joints/actions/joint_actions.hpp"
+#include "mechanism/joints/pairs/read_pair.hpp"
 
 namespace bielle::mechanism {
 
@@ -169,17 +169,15 @@ Vector3 LowerPair::misalignment(const LocalState& state) const {
 
 namespace {
 
-void read_lower_pair(const std::string& type, const std::string& words, const std::string& name, const YamlValue& entry,
-                     Model& model, AxisNeed need, std::vector<JointCoordinate> coordinates,
-                     const LockedMotions& locked) {
-  std::vector<std::string> keys = joint_frame_keys(), actions = joint_action_keys();
-  keys.insert(keys.end(), actions.begin(), actions.end());
-  entry.check_keys(keys, words);
-  auto joint = std::make_unique<LowerPair>(type, name, read_joint_frames(entry, model, need), std::move(coordinates),
-                                           locked, model);
-  LowerPair& added = *joint;
-  model.add(std::move(joint), Entry{Section::joints, name});
-  read_joint_actions(entry, added, model);
+std::vector<Key> keys_of_pair(AxisNeed need, Moves moves) {
+  return keys::joined({joint_frame_keys(need), joint_action_keys(moves)});
+}
+
+void read_lower_pair(const std::string& type, const std::string& name, const YamlValue& entry, Model& model,
+                     AxisNeed need, std::vector<JointCoordinate> coordinates, const LockedMotions& locked) {
+  add_pair(std::make_unique<LowerPair>(type, name, read_joint_frames(entry, model, need), std::move(coordinates),
+                                       locked, model),
+           entry, model);
 }
 
 using Rotation = LockedMotions::Rotation;
@@ -189,35 +187,70 @@ const JointCoordinate angle{"angle", CoordinateKind::angle, 2},
 
 }  // namespace
 
+const KeyTable& rigid_keys() {
+  static const KeyTable table{"a rigid joint", "A joint that fixes two nodes to each other.",
+                              keys_of_pair(AxisNeed::optional, Moves::both)};
+  return table;
+}
+
 void read_rigid(const std::string& name, const YamlValue& entry, Model& model) {
-  read_lower_pair("rigid", "a rigid joint", name, entry, model, AxisNeed::optional, {},
-                  {{true, true, true}, Rotation::all});
+  read_lower_pair("rigid", name, entry, model, AxisNeed::optional, {}, {{true, true, true}, Rotation::all});
+}
+
+const KeyTable& hinge_keys() {
+  static const KeyTable table{"a hinge", "A joint that leaves turning about an axis free.",
+                              keys_of_pair(AxisNeed::required, Moves::turns)};
+  return table;
 }
 
 void read_hinge(const std::string& name, const YamlValue& entry, Model& model) {
-  read_lower_pair("hinge", "a hinge", name, entry, model, AxisNeed::required, {angle},
-                  {{true, true, true}, Rotation::tilt});
+  read_lower_pair("hinge", name, entry, model, AxisNeed::required, {angle}, {{true, true, true}, Rotation::tilt});
+}
+
+const KeyTable& prismatic_keys() {
+  static const KeyTable table{"a prismatic joint", "A joint that leaves sliding along an axis free.",
+                              keys_of_pair(AxisNeed::required, Moves::slides)};
+  return table;
 }
 
 void read_prismatic(const std::string& name, const YamlValue& entry, Model& model) {
-  read_lower_pair("prismatic", "a prismatic joint", name, entry, model, AxisNeed::required, {displacement},
+  read_lower_pair("prismatic", name, entry, model, AxisNeed::required, {displacement},
                   {{true, true, false}, Rotation::all});
 }
 
+const KeyTable& cylindrical_keys() {
+  static const KeyTable table{"a cylindrical joint",
+                              "A joint that leaves sliding along an axis and turning about it free.",
+                              keys_of_pair(AxisNeed::required, Moves::both)};
+  return table;
+}
+
 void read_cylindrical(const std::string& name, const YamlValue& entry, Model& model) {
-  read_lower_pair("cylindrical", "a cylindrical joint", name, entry, model, AxisNeed::required, {displacement, angle},
+  read_lower_pair("cylindrical", name, entry, model, AxisNeed::required, {displacement, angle},
                   {{true, true, false}, Rotation::tilt});
+}
+
+const KeyTable& spherical_keys() {
+  static const KeyTable table{"a spherical joint", "A joint that holds a point and leaves turning free.",
+                              keys_of_pair(AxisNeed::optional, Moves::turns)};
+  return table;
 }
 
 void read_spherical(const std::string& name, const YamlValue& entry, Model& model) {
   read_lower_pair(
-      "spherical", "a spherical joint", name, entry, model, AxisNeed::optional,
+      "spherical", name, entry, model, AxisNeed::optional,
       {{"rx", CoordinateKind::rotation, 0}, {"ry", CoordinateKind::rotation, 1}, {"rz", CoordinateKind::rotation, 2}},
       {{true, true, true}, Rotation::none});
 }
 
+const KeyTable& planar_keys() {
+  static const KeyTable table{"a planar joint", "A joint that leaves sliding across an axis and turning about it free.",
+                              keys_of_pair(AxisNeed::required, Moves::both)};
+  return table;
+}
+
 void read_planar(const std::string& name, const YamlValue& entry, Model& model) {
-  read_lower_pair("planar", "a planar joint", name, entry, model, AxisNeed::required,
+  read_lower_pair("planar", name, entry, model, AxisNeed::required,
                   {{"x", CoordinateKind::displacement, 0}, {"y", CoordinateKind::displacement, 1}, angle},
                   {{false, false, true}, Rotation::tilt});
 }

@@ -60,11 +60,17 @@ class LowerPair final : public Joint {
   bool locks_point_;  ///< all three translations are locked, and are the first rows
 };
 
+const KeyTable& rigid_keys();
 void read_rigid(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& hinge_keys();
 void read_hinge(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& prismatic_keys();
 void read_prismatic(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& cylindrical_keys();
 void read_cylindrical(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& spherical_keys();
 void read_spherical(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& planar_keys();
 void read_planar(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

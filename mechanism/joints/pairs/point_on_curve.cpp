@@ -169,14 +169,23 @@ Curve read_curve(const YamlValue& value, bool closed, const Frame& frame) {
 
 }  // namespace
 
+const KeyTable& point_on_curve_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a point_on_curve joint", "A joint that holds a point on a curve of the first node and leaves turning free.",
+      joined({joint_place_keys(),
+              {{"curve", file("table of three columns"), required,
+                "Points of the curve, as drawn [m]; a cubic spline joins them."},
+               {"closed", boolean(), otherwise("false"), "Whether the curve returns to its first point."}},
+              joint_action_keys(Moves::slides)})};
+  return table;
+}
+
 void read_point_on_curve(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a point_on_curve joint", {"type", "nodes", "position", "at", "curve", "closed"});
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::optional);
-  const auto given = entry.find("closed");
-  const bool closed = given && given->boolean();
   // J_A is at the initial position of the point, or at its start (`at`).
   const Frame joint = model.node(frames.first).frame * frames.on_first;
-  Curve curve = read_curve(entry.at("curve"), closed, joint);
+  Curve curve = read_curve(entry.at("curve"), entry.at("closed").boolean(), joint);
   const double start = curve.nearest(Vector3::Zero());
   add_pair(std::make_unique<PointOnCurve>("point_on_curve", name, std::move(frames), std::move(curve), start,
                                           PointOnCurve::Guide::space, model),

@@ -50,6 +50,7 @@ class PointOnCurve final : public Joint {
   double roller_;
 };
 
+const KeyTable& point_on_curve_keys();
 /// Reads `curve`: a file of three columns, initial inertial positions [m]; and `closed`.
 void read_point_on_curve(const std::string& name, const YamlValue& entry, Model& model);
 

@@ -11,13 +11,6 @@
 
 namespace bielle::mechanism {
 
-/// Rejects keys that belong neither to the type, nor to its frames, nor to the actions in all joints.
-/// @param words  the type in words: "a hinge"
-inline void check_pair_keys(const YamlValue& entry, const std::string& words, std::vector<std::string> keys) {
-  for (std::string& action : joint_action_keys()) keys.push_back(std::move(action));
-  entry.check_keys(keys, words);
-}
-
 /// Adds the joint, and the actions in its entry. @param own  as read_joint_actions @returns the joint
 inline Joint& add_pair(std::unique_ptr<Joint> made, const YamlValue& entry, Model& model,
                        const std::vector<std::string>& own = {}) {

@@ -53,10 +53,17 @@ void ScrewJoint::describe(const LocalState& state, Description& description) con
   description.add(fmt::format("{:.6g} m per turn", pitch_));
 }
 
+const KeyTable& screw_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a screw", "A joint that slides along its axis as it turns about it.",
+      joined({joint_frame_keys(AxisNeed::required),
+              {{"pitch", number("m"), required, "Displacement along the axis per turn; positive if right-handed."}},
+              joint_action_keys(Moves::both)})};
+  return table;
+}
+
 void read_screw(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = joint_frame_keys();
-  keys.push_back("pitch");
-  check_pair_keys(entry, "a screw", keys);
   const double pitch = entry.at("pitch").number();
   if (pitch == 0) entry.at("pitch").fail("a screw without pitch does not move along its axis: take a hinge");
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::required);

@@ -23,6 +23,7 @@ class ScrewJoint final : public MeasuredPair {
   double pitch_;
 };
 
+const KeyTable& screw_keys();
 /// Reads `pitch`: [m per turn].
 void read_screw(const std::string& name, const YamlValue& entry, Model& model);
 

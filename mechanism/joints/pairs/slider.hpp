@@ -72,6 +72,7 @@ class SliderJoint final : public Joint {
   Ends ends_;
 };
 
+const KeyTable& slider_keys();
 /// Reads `slider: {node, beam, at, start, ends: error | stop, orientation: free | tangent}`.
 void read_slider(const std::string& name, const YamlValue& entry, Model& model);
 

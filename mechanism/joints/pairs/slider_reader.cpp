@@ -79,27 +79,36 @@ Foot foot_of(const Vector3& point, const BeamLine& line, const Model& model) {
 
 }  // namespace
 
+const KeyTable& slider_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a slider", "A joint that holds a node on a beam that deforms, along which it slides.",
+      joined({{type_key(),
+               {"node", name_of("node"), required, "Node that slides."},
+               {"beam", name_of("element"), required, "Beam along which it slides."},
+               {"at", vector3("m"), otherwise("[0, 0, 0]"), "Point that slides, in the axes of the node."},
+               {"start", number().between(0, 1), computed("the place next to the point as drawn"),
+                "Place at the start, as a share of the beam's length."},
+               {"ends", word({"error", "stop"}, "what happens at the ends"), otherwise("error"),
+                "Behaviour at the ends of the beam."},
+               {"orientation", word({"free", "tangent"}, "an orientation of a slider"), otherwise("free"),
+                "Freedom of turning; `tangent` leaves turning about the beam alone."}},
+              joint_action_keys(Moves::slides, {"start"})})};
+  return table;
+}
+
 void read_slider(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a slider", {"type", "node", "beam", "at", "start", "ends", "orientation"});
   const int node = node_named_by(entry.at("node"), model);
   const Chain& chain = chain_of_beam(entry.at("beam"), model);
   if (std::find(chain.nodes.begin(), chain.nodes.end(), node) != chain.nodes.end())
     entry.at("node").fail("is a node of that beam: it cannot slide on itself");
   BeamLine line = line_through(chain.nodes, model);
-  const auto ends = entry.find("ends");
-  const auto orientation = entry.find("orientation");
-  const bool error = !ends || ends->word({"error", "stop"}, "what happens at the ends") == "error";
-  const bool tangent = orientation && orientation->word({"free", "tangent"}, "an orientation of a slider") == "tangent";
+  const bool error = entry.at("ends").word() == "error", tangent = entry.at("orientation").word() == "tangent";
   const Frame& sliding = model.node(node).frame;
-  const auto at = entry.find("at");
-  const Vector3 attachment = at ? at->vector3() : Vector3::Zero();
+  const Vector3 attachment = entry.at("at").vector3();
   const Foot foot = foot_of(sliding.x + sliding.R * attachment, line, model);
   double start = foot.u;
-  if (const auto given = entry.find("start")) {
-    const double share = given->number();
-    if (share < 0 || share > 1) given->fail("expected a place on the beam from 0 (its start) to 1 (its end)");
-    start = share * line.place.back();
-  }
+  if (const auto share = entry.find("start")) start = share->number() * line.place.back();
   Frame joint;
   joint.x = model.node(chain.nodes.front()).frame.x;
   const Matrix3 axes = axes_along(foot.tangent);

@@ -114,17 +114,40 @@ void TyreForce::describe(const LocalState& /*state*/, Description& description) 
   description.add_line(text);
 }
 
+namespace {
+
+const KeyTable& slip_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "`slip`",
+      "A tyre whose forces follow from its slip.",
+      {{"longitudinal", number("N").non_negative(), required,
+        "Force per longitudinal slip, the velocity of the contact over the forward speed."},
+       {"lateral", number("N").non_negative(), required, "Force per lateral slip, the tangent of the slip angle."},
+       {"friction", number().non_negative(), optional,
+        "Coefficient of friction at which the forces saturate; without it they are linear at any slip."},
+       {"speed", number("m/s").positive(), otherwise("0.1"), "Forward speed below which slip is made smooth."}}};
+  return table;
+}
+
+}  // namespace
+
+Key tyre_key() {
+  using namespace keys;
+  return {"slip",
+          {word({"none"}, "`slip`, or {longitudinal, lateral, friction}"), nested(slip_keys)},
+          otherwise("none"),
+          "Slip of the wheel: `none` rolls, otherwise it is a tyre."};
+}
+
 std::optional<TyreLaw> read_tyre_law(const YamlValue& entry) {
-  const auto slip = entry.find("slip");
-  if (!slip) return {};
-  if (slip->is_scalar()) {
-    slip->word({"none"}, "`slip`, or {longitudinal, lateral, friction}");
+  const YamlValue slip = entry.at("slip");
+  if (slip.is_scalar()) {
+    slip.word();
     return {};
   }
-  slip->check_keys({"longitudinal", "lateral", "friction", "speed"}, "`slip`");
-  TyreLaw law{slip->at("longitudinal").non_negative_number(), slip->at("lateral").non_negative_number(), {}, 0.1};
-  if (const auto friction = slip->find("friction")) law.friction = friction->non_negative_number();
-  if (const auto speed = slip->find("speed")) law.speed = speed->positive_number();
+  TyreLaw law{slip.at("longitudinal").number(), slip.at("lateral").number(), {}, slip.at("speed").number()};
+  if (const auto friction = slip.find("friction")) law.friction = friction->number();
   return law;
 }
 

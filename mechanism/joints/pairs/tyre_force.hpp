@@ -48,6 +48,9 @@ class TyreForce final : public Component {
   TyreLaw law_;
 };
 
+/// Returns the key `slip` of a wheel.
+Key tyre_key();
+
 /// Reads `slip: none | {longitudinal, lateral, friction, speed}` of a wheel's entry; no value: it rolls.
 std::optional<TyreLaw> read_tyre_law(const YamlValue& entry);
 

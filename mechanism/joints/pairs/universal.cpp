@@ -70,8 +70,24 @@ std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {
   return {};
 }
 
+const KeyTable& universal_keys() {
+  using namespace keys;
+  static const KeyTable table = [] {
+    const KeyForms direction_or_pair = {direction(), list_of(2, direction())};
+    return KeyTable{"a universal joint", "A cross between two shafts, which turns about its two arms.",
+                    joined({joint_place_keys(),
+                            {{"axis", direction_or_pair, required,
+                              "Arm of the cross that is fixed on the first node, as drawn; or a direction in the axes "
+                              "of each node."},
+                             {"second_axis", direction_or_pair, required,
+                              "Arm of the cross that is fixed on the second node, at right angles to `axis`; or a "
+                              "direction in the axes of each node."}},
+                            joint_action_keys(Moves::turns)})};
+  }();
+  return table;
+}
+
 void read_universal(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a universal joint", joint_frame_keys());
   const YamlValue second_axis = entry.at("second_axis"), axis = entry.at("axis");
   // Each direction of a pair is made orthogonal to the axis on its node.
   const auto is_pair = [](const YamlValue& value) {
@@ -104,10 +120,19 @@ void bend_frames(JointFrames& frames, const YamlValue& axes, const Model& model)
 
 }  // namespace
 
+const KeyTable& constant_velocity_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a constant-velocity joint", "A joint between two shafts that turn at equal rates at any bend below 180 degrees.",
+      joined({joint_frame_keys(AxisNeed::optional),
+              {{"axes", list_of(2, direction()), optional,
+                "Directions of the first and of the second shaft as drawn, in place of `axis`, of a joint that is "
+                "drawn bent."}},
+              joint_action_keys(Moves::turns)})};
+  return table;
+}
+
 void read_constant_velocity(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = joint_frame_keys();
-  keys.push_back("axes");
-  check_pair_keys(entry, "a constant-velocity joint", keys);
   const auto axes = entry.find("axes");
   if (axes)
     for (const char* key : {"axis", "second_axis"})

@@ -50,7 +50,9 @@ class ConstantVelocityJoint final : public MeasuredPair {
   void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
 };
 
+const KeyTable& universal_keys();
 void read_universal(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& constant_velocity_keys();
 void read_constant_velocity(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -112,13 +112,29 @@ void WheelJoint::describe(const LocalState& state, Description& description) con
   description.add(fmt::format("radius {:.6g} m, axis {}", radius_, format_vector(axis)));
 }
 
+const KeyTable& wheel_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a wheel", "A thin wheel of the second node on a plane of the first.",
+      joined({{type_key(),
+               {"nodes", list_of(2, name_of("node")), required, "Node of the plane and node of the wheel."},
+               {"position", vector3("m"), computed("the point below the rim as drawn"), "Point of the plane as drawn."},
+               {"at", list_of(2, vector3("m")), optional,
+                "Point of the plane and middle of the wheel, each in the axes of its node, in place of `position`."},
+               {"normal", direction(), required, "Normal of the plane, towards the wheel, as drawn."},
+               {"axis", direction(), required, "Axis of the wheel as drawn."},
+               {"radius", number("m").positive(), required, "Radius of the wheel."},
+               tyre_key()},
+              joint_action_keys(Moves::slides)})};
+  return table;
+}
+
 void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
-  check_pair_keys(entry, "a wheel", {"type", "nodes", "position", "at", "normal", "axis", "radius", "slip"});
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   if (nodes[0] == nodes[1]) entry.at("nodes").fail("a joint needs two different nodes");
   const Frame &plane_node = model.node(nodes[0]).frame, &hub = model.node(nodes[1]).frame;
   const Vector3 normal = entry.at("normal").direction(), axis = entry.at("axis").direction();
-  const double radius = entry.at("radius").positive_number();
+  const double radius = entry.at("radius").number();
   const double s = std::sqrt(std::max(0.0, 1 - std::pow(normal.dot(axis), 2)));
   if (s < flat) entry.at("axis").fail("the wheel lies flat on the plane: its axis is parallel to `normal`");
   // The point below the wheel's middle: at the distance given by the rim, or in the plane through `position` or the

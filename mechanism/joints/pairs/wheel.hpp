@@ -38,6 +38,7 @@ class WheelJoint final : public MeasuredPair {
   double radius_;
 };
 
+const KeyTable& wheel_keys();
 /// Reads `nodes: [of the plane, of the hub]`, `normal` of the plane, `position`: a point of it (default: below the
 /// hub), or `at`: a point of the plane and the middle of the wheel in the axes of their nodes, `axis` of the wheel,
 /// `radius`; inertial directions are initial ones.

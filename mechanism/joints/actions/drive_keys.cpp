@@ -1,0 +1,110 @@
+#include "mechanism/joints/actions/drive_keys.hpp"
+
+#include "mechanism/joints/actions/drive.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+Key limit_key(Moves moves) {
+  using namespace keys;
+  const char* unit = units_of(moves).force;
+  const KeyForms end = {number(unit), null()};
+  return {"limit",
+          {number(unit).positive(), tuple({end, end})},
+          optional,
+          "Largest amount of the torque or force, or its lower and upper limit, one of which may be open (`~`)."};
+}
+
+template <Moves moves>
+const KeyTable& keys_of_pid() {
+  using namespace keys;
+  static const KeyTable table{
+      "`pid`",
+      "A controller, whose torque or force moves a coordinate or a measure to a target.",
+      {{"coordinate", text(), computed("the only one of the joint"), "Coordinate on which the drive acts."},
+       {"measure",
+        {name_of("measure"), state_formula("any", {"t"})},
+        computed("the coordinate itself"),
+        "Quantity that is controlled."},
+       {"target", state_formula("any", {"t"}), required, "Target as a formula of t and measures."},
+       {"kp", number("any"), otherwise("0"), "Proportional gain: torque or force per error."},
+       {"ki", number("any"), otherwise("0"), "Integral gain: torque or force per error and time."},
+       {"kd", number("any"), otherwise("0"), "Derivative gain: torque or force per rate of the error."},
+       {"filter", number("s").non_negative(), otherwise("0"), "Time constant of the derivative; 0 is none."},
+       limit_key(moves),
+       {"tracking_time", number("s").positive(), computed("kp/ki"),
+        "Time in which the integral leaves a limit after the error has changed its sign."}}};
+  return table;
+}
+
+template <Moves moves>
+const KeyTable& keys_of_drive() {
+  using namespace keys;
+  const KeyForm sought = word({"sought"}, "a torque or force that inverse dynamics finds");
+  static const KeyTable table{
+      "a drive",
+      "A motor on a coordinate of a joint, by one of the laws angle, rate, torque, displacement, speed, force, pid.",
+      {{"joint", name_of("joint"), required, "Joint that is driven."},
+       {"coordinate", text(), computed("the only one of the law's kind"), "Coordinate that is driven."},
+       {"angle", formula("rad", {"t"}), optional, "Angle as a formula of t, kept by a constraint."},
+       {"rate", formula("rad/s", {"t"}), optional, "Rate of the angle as a formula of t, kept by a constraint."},
+       {"torque",
+        {state_formula("N m", {"t"}), sought},
+        optional,
+        "Torque as a formula of t and measures; or `sought`: inverse dynamics finds it."},
+       {"displacement", formula("m", {"t"}), optional, "Displacement as a formula of t, kept by a constraint."},
+       {"speed", formula("m/s", {"t"}), optional, "Rate of the displacement as a formula of t, kept by a constraint."},
+       {"force",
+        {state_formula("N", {"t"}), sought},
+        optional,
+        "Force as a formula of t and measures; or `sought`: inverse dynamics finds it."},
+       {"pid",
+        nested(moves == Moves::slides  ? keys_of_pid<Moves::slides>
+               : moves == Moves::turns ? keys_of_pid<Moves::turns>
+                                       : keys_of_pid<Moves::both>),
+        optional, "Torque or force of a controller."},
+       limit_key(moves),
+       {"release",
+        {number("s").positive(), nested(release_keys)},
+        optional,
+        "Time or event at which the drive releases its joint permanently."},
+       {"moves",
+        {name_of("node"), list_of(name_of("node"))},
+        computed("all nodes that have a motion"),
+        "Nodes whose prescribed motion a sought torque or force causes."}}};
+  return table;
+}
+
+}  // namespace
+
+const KeyTable& release_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "`release`",
+      "Event at which a drive releases its joint: a named one, or when a formula crosses a value.",
+      {{"event", name_of("event"), optional, "Event at which the drive lets go."},
+       {"when",
+        {name_of("measure"), state_formula("any", {"t"})},
+        optional,
+        "Measure or formula that crosses a value, in place of `event`."},
+       {"crosses", number("any"), otherwise("0"), "Value that is crossed."},
+       {"direction", word({"rising", "falling", "both"}, "a direction of crossing"), otherwise("both"),
+        "Direction of crossing."}}};
+  return table;
+}
+
+const KeyTable& drive_keys(Moves moves) {
+  return moves == Moves::slides  ? keys_of_drive<Moves::slides>()
+         : moves == Moves::turns ? keys_of_drive<Moves::turns>()
+                                 : keys_of_drive<Moves::both>();
+}
+
+const KeyTable& pid_keys(Moves moves) {
+  return moves == Moves::slides  ? keys_of_pid<Moves::slides>()
+         : moves == Moves::turns ? keys_of_pid<Moves::turns>()
+                                 : keys_of_pid<Moves::both>();
+}
+
+const KeyTable& drive_keys() { return drive_keys(Moves::both); }
+
+}  // namespace bielle::mechanism
