@@ -40,6 +40,16 @@ double integral(const Function& N, double from, double to, double whole, int dep
 
 thread_local FormulaGradient gradient;
 
+const KeyTable& table_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a law of force",
+      "A force that was measured.",
+      {{"table", file("table of two columns"), required,
+        "Values of the coordinate, or of its rate for a damper, and of the force, with straight lines between them."}}};
+  return table;
+}
+
 }  // namespace
 
 void ForceLaw::add(StateFormula formula) {
@@ -140,12 +150,16 @@ void ForceLaw::add_break_points(std::vector<double>& times) const {
   for (const StateFormula& formula : formulas_) formula.add_break_points(time_variable, times);
 }
 
+KeyForms forms_of_law(const std::string& unit, const LawVariables& variables) {
+  using namespace keys;
+  return {state_formula(unit, {variables.coordinate, variables.rate, "t"}).non_negative(), nested(table_keys)};
+}
+
 void read_law(const YamlValue& value, const LawVariables& variables, bool of_rate, Model& model, References& references,
               ForceLaw& law) {
   const std::vector<std::string> names = {variables.coordinate, variables.rate, "t"};
   if (value.is_map()) {
-    value.check_keys({"table"}, "a law of force");
-    const YamlValue file = value.at("table");
+    const YamlValue file = value.keyed(table_keys()).at("table");
     const std::string path = std::filesystem::absolute(file.file_path()).string();
     try {
       const Expression table(fmt::format("table('{}', {})", path, of_rate ? variables.rate : variables.coordinate),

@@ -74,6 +74,9 @@ struct LawVariables {
   std::string rate;        ///< "v"
 };
 
+/// Returns the forms of one key of a law. @param unit  of a number, which multiplies x or v: "N/m", "N m s/rad"
+KeyForms forms_of_law(const std::string& unit, const LawVariables& variables);
+
 /// Adds the term of one key: a number (times x or v), `{table: file.csv}` of x or v, or a formula of coordinate, rate,
 /// t and measures. Formulas are looked up when the model has been read: call this within
 /// Model::when_read(Stage::formulas).

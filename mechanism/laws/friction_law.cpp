@@ -58,10 +58,26 @@ std::string FrictionLaw::describe() const {
   return text;
 }
 
+std::vector<Key> keys_of_friction_law(const std::vector<std::string>& models) {
+  using namespace keys;
+  return {{"coefficient", number().non_negative(), required,
+           "Coefficient of sliding friction; with 0, also at rest, there is no dry friction."},
+          {"static", number().non_negative(), computed("as `coefficient`"), "Coefficient of friction at rest."},
+          {"stribeck_velocity", number("m/s").non_negative(), optional,
+           "Speed over which the coefficient falls from `static` to `coefficient`."},
+          {"viscous", number("s/m").non_negative(), otherwise("0"), "Viscous friction per speed and per normal force."},
+          {"model", word(models, "a model of friction"), otherwise(models.front()), "Model of friction near rest."},
+          {"velocity", number("m/s").positive(), computed("a tenth of `stribeck_velocity`, or 1 mm/s"),
+           "Speed within which `coulomb` makes the force smooth."},
+          {"bristle_stiffness", number("1/m").positive(), optional,
+           "Stiffness of the bristles of `lugre` per normal force, which that model needs."},
+          {"bristle_damping", number("s/m").non_negative(), otherwise("0"),
+           "Damping of the bristles of `lugre` per normal force."}};
+}
+
 const std::vector<std::string>& friction_law_keys() {
-  static const std::vector<std::string> keys = {"coefficient", "static",   "stribeck_velocity", "viscous",
-                                                "model",       "velocity", "bristle_stiffness", "bristle_damping"};
-  return keys;
+  static const std::vector<std::string> names = keys::names_of(keys_of_friction_law({"coulomb"}));
+  return names;
 }
 
 FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::string>& models) {

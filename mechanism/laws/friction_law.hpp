@@ -59,13 +59,14 @@ struct FrictionLaw {
   std::string describe() const;
 };
 
-/// The keys of a law: coefficient, static, stribeck_velocity, viscous, model, velocity, bristle_stiffness,
-/// bristle_damping. A caller that reads further keys from the same map checks all keys together.
+/// Returns the keys of a law, for the table of the map that holds them, which may have further ones.
+/// @param models  models that the caller supports; the first is the default
+std::vector<Key> keys_of_friction_law(const std::vector<std::string>& models);
+/// Returns their names.
 const std::vector<std::string>& friction_law_keys();
 
 /// @param models  models that the caller supports; the first is the default
-/// @throws InputError if a key is missing, out of range, or belongs to another model. The caller must check for unknown
-/// keys.
+/// @throws InputError if a key is missing, out of range, or belongs to another model
 FrictionLaw read_friction_law(const YamlValue& entry, const std::vector<std::string>& models);
 
 }  // namespace bielle::mechanism

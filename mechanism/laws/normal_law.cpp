@@ -60,9 +60,21 @@ std::string NormalLaw::describe() const {
   return text;
 }
 
+std::vector<Key> keys_of_normal_law() {
+  using namespace keys;
+  return {{"stiffness", number().positive(), required,
+           "Stiffness K of the force K p^n at the depth p, in N/m^n with the `exponent` n."},
+          {"exponent", number().at_least(1), otherwise("1.5"),
+           "Exponent of the force over the depth; 1.5 is a Hertzian contact."},
+          {"damping", number("s/m").non_negative(), otherwise("0"),
+           "Share of the elastic force that is added per speed of approach."},
+          {"restitution", number().positive().at_most(1), optional,
+           "Coefficient of restitution at every speed, in place of `damping`."}};
+}
+
 const std::vector<std::string>& normal_law_keys() {
-  static const std::vector<std::string> keys = {"stiffness", "exponent", "damping", "restitution"};
-  return keys;
+  static const std::vector<std::string> names = keys::names_of(keys_of_normal_law());
+  return names;
 }
 
 NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness) {

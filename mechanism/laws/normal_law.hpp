@@ -48,11 +48,13 @@ struct NormalLaw {
   std::string describe() const;
 };
 
-/// Returns the keys of a law: stiffness, exponent, damping, restitution.
+/// Returns the keys of a law, for the table of the map that holds them, which may have further ones.
+std::vector<Key> keys_of_normal_law();
+/// Returns their names.
 const std::vector<std::string>& normal_law_keys();
 
 /// @param exponent   default if the entry gives none @param stiffness  its value if it is known otherwise (materials,
-/// radii): the entry then has none @throws InputError. The caller must check for unknown keys.
+/// radii): the entry then has none @throws InputError
 NormalLaw read_normal_law(const YamlValue& entry, double exponent, std::optional<double> stiffness = {});
 
 }  // namespace bielle::mechanism

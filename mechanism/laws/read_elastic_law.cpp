@@ -14,6 +14,57 @@ namespace {
 
 constexpr double rounding_of_files = 1e-6;  ///< matrices come from other programs with some seven digits
 
+/// Returns the forms of a resistance: six numbers along and about x, y, z, or a matrix.
+KeyForms forms_of_resistance(const std::string& along, const std::string& about, const std::string& of_matrix) {
+  using namespace keys;
+  const KeyForms force{number(along).non_negative()}, moment{number(about).non_negative()};
+  KeyForms forms = forms_of_matrix(6, of_matrix);
+  forms.insert(forms.begin(), tuple({force, force, force, moment, moment, moment}));
+  return forms;
+}
+
+KeyForms forms_of_stiffness() { return forms_of_resistance("N/m", "N m/rad", "N/m or N or N/rad or N m/rad"); }
+
+const KeyTable& branch_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a branch",
+      "A spring in series with a damper, for hysteresis and relaxation.",
+      {{"stiffness", forms_of_stiffness(), optional, "Stiffness of the spring."},
+       {"factor", number().non_negative(), optional, "Share of the stiffness of the whole, in place of `stiffness`."},
+       {"time", number("s").non_negative(), required, "Relaxation time; with 0 there is no branch."}}};
+  return table;
+}
+
+const KeyTable& curve_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a curve",
+      "A force that was measured.",
+      {{"table", file("table of two columns"), required,
+        "Displacements and forces, with straight lines between them, which go straight on beyond the ends."}}};
+  return table;
+}
+
+const KeyTable& curves_keys() {
+  using namespace keys;
+  const auto along = [](const char* name, const char* unit, const char* about) {
+    return Key{name,
+               {state_formula(unit, {"q", "v", "t"}).non_negative(), file("table of two columns"), nested(curve_keys)},
+               optional,
+               about};
+  };
+  static const KeyTable table{"`curves`, which names directions",
+                              "Forces that are added to the rest of the law, by directions.",
+                              {along("x", "N/m", "Force along x over its displacement."),
+                               along("y", "N/m", "Force along y over its displacement."),
+                               along("z", "N/m", "Force along z over its displacement."),
+                               along("rx", "N m/rad", "Moment about x over its rotation."),
+                               along("ry", "N m/rad", "Moment about y over its rotation."),
+                               along("rz", "N m/rad", "Moment about z over its rotation.")}};
+  return table;
+}
+
 /// Reads six numbers, the diagonal, or a matrix.
 MatrixX read_diagonal_or_matrix(const YamlValue& value) {
   if (value.is_map()) return read_square_matrix(value, 6);
@@ -55,33 +106,43 @@ bool names_table(const YamlValue& value) {
 /// @returns whether it is a table, which is added to the law
 bool read_curve(const YamlValue& value, std::size_t k, ElasticLaw& law) {
   if (!value.is_map() && !names_table(value)) return false;
-  if (value.is_map()) value.check_keys({"table"}, "a curve");
-  law.curves[k] = read_named_file(value.is_map() ? value.at("table") : value,
+  law.curves[k] = read_named_file(value.is_map() ? value.keyed(curve_keys()).at("table") : value,
                                   [](const std::string& path) { return ForceCurve::from_file(path); });
   return true;
 }
 
-MaxwellBranch read_branch(const YamlValue& entry, const Matrix6& K) {
-  entry.check_keys({"stiffness", "factor", "time"}, "a branch");
+MaxwellBranch read_branch(const YamlValue& given, const Matrix6& K) {
+  const YamlValue entry = given.keyed(branch_keys());
   MaxwellBranch branch;
   if (entry.has("stiffness") == entry.has("factor"))
     entry.fail("a branch takes either its `stiffness` or a `factor` of that of the whole");
   if (const auto factor = entry.find("factor")) {
     if (K.isZero(0)) factor->fail("multiplies the `stiffness`, which is missing");
-    branch.K = factor->non_negative_number() * K;
+    branch.K = factor->number() * K;
   } else {
     branch.K = read_stiffness(entry.at("stiffness"));
   }
-  branch.time = entry.at("time").non_negative_number();
+  branch.time = entry.at("time").number();
   return branch;
 }
 
 }  // namespace
 
+const KeyTable& matrix_keys() {
+  using namespace keys;
+  static const KeyTable table{"a matrix",
+                              "A matrix that another program has written.",
+                              {{"file", file("table of numbers"), required, "Numbers of the matrix, by rows."}}};
+  return table;
+}
+
+KeyForms forms_of_matrix(std::size_t rows, const std::string& unit) {
+  return {keys::matrix(rows, rows, unit), keys::nested(matrix_keys)};
+}
+
 MatrixX read_square_matrix(const YamlValue& value, Eigen::Index rows) {
   if (!value.is_map()) return value.matrix(rows, rows);
-  value.check_keys({"file"}, "a matrix");
-  const YamlValue file = value.at("file");
+  const YamlValue file = value.keyed(matrix_keys()).at("file");
   const MatrixX A = read_named_file(file, [&](const std::string& path) { return MatrixX(read_table(path, rows)); });
   if (A.rows() != rows) file.fail(fmt::format("has {} rows: expected {} of {} numbers", A.rows(), rows, rows));
   return A;
@@ -117,9 +178,25 @@ void check_semidefinite(const YamlValue& value, const MatrixX& A, const char* wh
                     least, what));
 }
 
+std::vector<Key> keys_of_elastic_law() {
+  using namespace keys;
+  KeyForms damping = forms_of_resistance("N s/m", "N m s/rad", "N s/m or N s or N s/rad or N m s/rad");
+  damping.insert(damping.begin(), number("s").non_negative());
+  const KeyForms force{number("N")}, moment{number("N m")};
+  return {{"stiffness", forms_of_stiffness(), optional,
+           "Stiffness along and about x, y, z, or a symmetric matrix without negative eigenvalues."},
+          {"damping", std::move(damping), optional,
+           "Damping along and about x, y, z, or a matrix, or a time that multiplies the stiffness."},
+          {"preload", tuple({force, force, force, moment, moment, moment}), otherwise("[0, 0, 0, 0, 0, 0]"),
+           "Forces and moments that resist at zero coordinates."},
+          {"curves", nested(curves_keys), optional, "Further forces as tables or formulas, by directions."},
+          {"maxwell", list_of(nested(branch_keys)).items_at_least(1), optional,
+           "Branches of a spring and a damper in series."}};
+}
+
 const std::vector<std::string>& elastic_law_keys() {
-  static const std::vector<std::string> keys = {"stiffness", "damping", "preload", "curves", "maxwell"};
-  return keys;
+  static const std::vector<std::string> names = keys::names_of(keys_of_elastic_law());
+  return names;
 }
 
 std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& law) {
@@ -134,11 +211,9 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
     law.preload = forces;
   }
   if (curves) {
-    std::vector<std::string> names;
-    for (std::size_t k = 0; k < law.size(); ++k) names.push_back(law.measure_name(k));
-    curves->check_keys(names, "`curves`, which names directions");
+    const YamlValue named = curves->keyed(curves_keys());
     for (std::size_t k = 0; k < law.size(); ++k)
-      if (const auto curve = curves->find(law.measure_name(k)); curve && !read_curve(*curve, k, law))
+      if (const auto curve = named.find(law.measure_name(k)); curve && !read_curve(*curve, k, law))
         formulas.push_back({k, *curve});
   }
   if (maxwell) {

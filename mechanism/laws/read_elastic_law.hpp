@@ -9,6 +9,10 @@
 
 namespace bielle::mechanism {
 
+/// The key `file` of a matrix.
+const KeyTable& matrix_keys();
+/// Returns the forms of a matrix: by rows, or `{file: k.csv}`.
+KeyForms forms_of_matrix(std::size_t rows, const std::string& unit);
 /// Reads `rows` x `rows` numbers, by rows, or `{file: k.csv}` with as many columns. @throws InputError
 MatrixX read_square_matrix(const YamlValue& value, Eigen::Index rows);
 
@@ -19,7 +23,10 @@ void make_symmetric(const YamlValue& value, MatrixX& A);
 /// @param what  a clause for the message: "a spring that gives energy away"
 void check_semidefinite(const YamlValue& value, const MatrixX& A, const char* what);
 
-/// Returns the keys `stiffness`, `damping`, `preload`, `curves`, `maxwell`.
+/// Returns the keys `stiffness`, `damping`, `preload`, `curves`, `maxwell` of a law of the measures x, y, z, rx, ry,
+/// rz.
+std::vector<Key> keys_of_elastic_law();
+/// Returns their names.
 const std::vector<std::string>& elastic_law_keys();
 
 /// A formula of q, v, t and the state in `curves`: for a measure, by its number.
