@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/formula/formula_parser.hpp"
@@ -46,7 +47,8 @@ class Scanner {
 
   std::vector<FormulaReference> references;
   std::vector<Occurrence> occurrences;
-  std::vector<std::string> plain;  ///< all other names
+  std::vector<std::string> plain;     ///< all other names
+  std::vector<std::size_t> plain_at;  ///< their positions
 
  private:
   char next(std::size_t ahead) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
@@ -65,6 +67,14 @@ class Scanner {
     const std::size_t begin = at_;
     while (is_letter(here()) || is_digit(here())) ++at_;
     return since(begin);
+  }
+  std::string dotted_name() {
+    std::string all = name();
+    while (!all.empty() && here() == '.' && is_letter(next(1))) {
+      ++at_;
+      all += "." + name();
+    }
+    return all;
   }
   std::string quoted() {
     const std::size_t end = text_.find(here(), at_ + 1);
@@ -90,10 +100,12 @@ class Scanner {
       return;
     }
     const std::vector<std::string> words = path(begin);
-    if (words.empty())
+    if (words.empty()) {
       plain.push_back(word);
-    else
+      plain_at.push_back(begin);
+    } else {
       add(begin, "", {word}, words);
+    }
   }
 
   bool parenthesis_follows(std::size_t begin, const std::string& function) {
@@ -135,7 +147,7 @@ class Scanner {
     do {
       ++at_;
       skip_blanks();
-      names.push_back(is_quote(here()) ? quoted() : name());
+      names.push_back(is_quote(here()) ? quoted() : dotted_name());
       skip_blanks();
     } while (here() == ',' && !names.back().empty());
     if (here() != ')' || names.back().empty())
@@ -200,6 +212,55 @@ FormulaText find_references(const std::string& text, const std::vector<std::stri
     const std::size_t length = place->end - place->begin;
     result.replaced.replace(place->begin, length, fmt::format("{:{}}", identifier, length));
   }
+  return result;
+}
+
+namespace {
+
+/// Returns a name as it is written in a formula: in quotes unless it consists of words with dots between them.
+std::string spelled(const std::string& name) {
+  bool begins_word = true;
+  for (const char c : name) {
+    if (begins_word ? !is_letter(c) : !(is_letter(c) || is_digit(c) || c == '.')) return "'" + name + "'";
+    begins_word = c == '.';
+  }
+  return begins_word ? "'" + name + "'" : name;
+}
+
+}  // namespace
+
+std::string rename_in_formula(const std::string& text, const std::vector<std::string>& functions,
+                              const std::function<std::optional<std::string>(const std::string&)>& subject,
+                              const std::function<std::optional<std::string>(const std::string&)>& word) {
+  Scanner scanner(text, functions);
+  scanner.scan();
+  struct Change {
+    std::size_t begin, end;
+    std::string text;
+  };
+  std::vector<Change> changes;
+  for (std::size_t k = 0; k < scanner.plain.size(); ++k)
+    if (const auto other = word(scanner.plain[k]))
+      changes.push_back({scanner.plain_at[k], scanner.plain_at[k] + scanner.plain[k].size(), *other});
+  for (const Occurrence& place : scanner.occurrences) {
+    const FormulaReference& reference = scanner.references[place.reference];
+    std::vector<std::string> subjects;
+    bool changed = false;
+    for (const std::string& name : reference.subjects) {
+      const auto other = subject(name);
+      changed = changed || other;
+      subjects.push_back(spelled(other.value_or(name)));
+    }
+    if (!changed) continue;
+    std::string written = reference.function.empty()
+                              ? subjects.front()
+                              : fmt::format("{}({})", reference.function, fmt::join(subjects, ", "));
+    for (const std::string& step : reference.path) written += "." + step;
+    changes.push_back({place.begin, place.end, written});
+  }
+  std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.begin > b.begin; });
+  std::string result = text;
+  for (const Change& change : changes) result.replace(change.begin, change.end - change.begin, change.text);
   return result;
 }
 

@@ -42,6 +42,23 @@ KeyForm KeyForm::items_at_least(std::size_t count) const {
   return form;
 }
 
+KeyForm KeyForm::with_geometry(Geometry is) const {
+  KeyForm form = *this;
+  form.geometry = is;
+  return form;
+}
+
+KeyForm KeyForm::as_point() const { return with_geometry(Geometry::point); }
+KeyForm KeyForm::as_vector() const { return with_geometry(Geometry::vector); }
+KeyForm KeyForm::as_axial() const { return with_geometry(Geometry::axial); }
+KeyForm KeyForm::as_pseudoscalar() const { return with_geometry(Geometry::pseudoscalar); }
+
+KeyForm KeyForm::in_inertial_axes() const {
+  KeyForm form = *this;
+  form.inertial = true;
+  return form;
+}
+
 bool KeyForm::in_range(double value) const {
   return (above ? value > least : value >= least) && (below ? value < most : value <= most);
 }

@@ -30,8 +30,18 @@ struct KeyForm {
     entries,  ///< keys that the user chooses, each with a value of `items[0]`
     null      ///< `~`
   };
+  /// Behaviour when the part of a mechanism in which the value stands is placed elsewhere, or mirrored.
+  enum class Geometry {
+    none,         ///< it does not change
+    point,        ///< position of a point: three numbers
+    vector,       ///< direction, displacement, velocity or force: three numbers
+    axial,        ///< axis of a rotation, angular velocity or moment: three numbers, against a reflected vector
+    pseudoscalar  ///< angle or other number that changes its sign in a mirror
+  };
   Kind kind = Kind::text;
-  std::string unit;  ///< SI unit of numbers and formulas, or several: "m or rad". Empty for a number without unit.
+  Geometry geometry = Geometry::none;
+  bool inertial = false;  ///< whether the components are inertial; otherwise they are along axes of a node or body
+  std::string unit;       ///< SI unit of numbers and formulas, or several: "m or rad". Empty for a number without unit.
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
   bool above = false, below = false;  ///< whether `least` and `most` themselves are excluded
   std::vector<std::string> words;     ///< choices of a word, variables of a formula
@@ -49,6 +59,12 @@ struct KeyForm {
   KeyForm between(double least, double most) const;  ///< both included
   KeyForm inside(double least, double most) const;   ///< both excluded
   KeyForm items_at_least(std::size_t count) const;   ///< of a list
+  // Geometry, of a list of three numbers or of one number.
+  KeyForm as_point() const;
+  KeyForm as_vector() const;
+  KeyForm as_axial() const;
+  KeyForm as_pseudoscalar() const;
+  KeyForm in_inertial_axes() const;
   bool in_range(double value) const;
   /// Returns the range in words: "greater than 0", "between 0 and 1"; empty if every number is allowed.
   std::string range_words() const;
@@ -56,6 +72,9 @@ struct KeyForm {
   /// Tells whether a node may have this form, as far as it shows: a scalar, a map, or a list of so many items of which
   /// the first one fits.
   bool fits(const YamlNode& node) const;
+
+ private:
+  KeyForm with_geometry(Geometry is) const;
 };
 
 namespace keys {

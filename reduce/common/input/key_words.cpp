@@ -1,0 +1,161 @@
+#include "reduce/common/input/key_words.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace bielle {
+namespace {
+
+std::string number_words(const KeyForm& form) {
+  std::string words =
+      form.kind == KeyForm::Kind::integer ? "whole number"
+      : form.kind == KeyForm::Kind::formula
+          ? fmt::format("formula of {}{}", fmt::join(form.words, ", "), form.reads_state ? " and measures" : "")
+          : "number";
+  if (!form.unit.empty() && form.unit != "any") words += fmt::format(" [{}]", form.unit);
+  if (const std::string range = form.range_words(); !range.empty()) words += " " + range;
+  return words;
+}
+
+std::string list_words(const KeyForm& form) {
+  if (form.items.size() > 1) {
+    std::vector<std::string> each;
+    for (const KeyForms& forms : form.items) each.push_back(form_words(forms));
+    return fmt::format("[{}]", fmt::join(each, ", "));
+  }
+  const std::string item = form_words(form.items.front());
+  constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
+  if (form.fewest == form.most_items) return fmt::format("list of {}: {}", form.fewest, item);
+  if (form.fewest > 0 && form.most_items == any) return fmt::format("list of at least {}: {}", form.fewest, item);
+  if (form.most_items != any) return fmt::format("list of {} to {}: {}", form.fewest, form.most_items, item);
+  return "list: " + item;
+}
+
+std::string words_of(const KeyForm& form) {
+  using Kind = KeyForm::Kind;
+  switch (form.kind) {
+    case Kind::number:
+    case Kind::integer:
+    case Kind::formula:
+      return number_words(form);
+    case Kind::boolean:
+      return "true or false";
+    case Kind::text:
+      return "text";
+    case Kind::word:
+      return fmt::format("`{}`", fmt::join(form.words, "`, `"));
+    case Kind::file:
+      return fmt::format("file ({})", form.of);
+    case Kind::name:
+      return "name of a " + form.of;
+    case Kind::list:
+      return list_words(form);
+    case Kind::table:
+      return "keys of " + form.table().of;
+    case Kind::entries:
+      return fmt::format("map by {}: {}", form.of, form_words(form.items.front()));
+    case Kind::null:
+      return "`~`";
+  }
+  return {};
+}
+
+std::string default_words(const Key& key) {
+  if (key.presence.required) return "required";
+  if (!key.presence.value.empty()) return key.presence.value;
+  return key.presence.words;
+}
+
+/// Breaks a text at blanks into lines of at most `columns`, each after `indent` blanks.
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t columns) {
+  std::istringstream words(text);
+  std::string result, line(indent, ' ');
+  for (std::string word; words >> word;) {
+    if (line.size() > indent && line.size() + 1 + word.size() > columns) {
+      result += line + "\n";
+      line.assign(indent, ' ');
+    }
+    if (line.size() > indent) line += ' ';
+    line += word;
+  }
+  return result + line + "\n";
+}
+
+std::string escaped(std::string text) {
+  for (std::size_t k = 0; (k = text.find('|', k)) != std::string::npos; k += 2) text.insert(k, 1, '\\');
+  return text;
+}
+
+void visit_forms(const KeyForms& forms, const std::function<void(const KeyTable&)>& visit) {
+  for (const KeyForm& form : forms) {
+    if (form.table) visit(form.table());
+    for (const KeyForms& items : form.items) visit_forms(items, visit);
+  }
+}
+
+}  // namespace
+
+std::string form_words(const KeyForms& forms) {
+  std::vector<std::string> each;
+  for (const KeyForm& form : forms) each.push_back(words_of(form));
+  return fmt::format("{}", fmt::join(each, "; or "));
+}
+
+std::string key_sentence(const Key& key) {
+  const std::string preset = default_words(key);
+  return fmt::format("{}\n\n{}{}", key.about, form_words(key.forms),
+                     key.presence.required ? "; required"
+                     : preset.empty()      ? ""
+                                           : fmt::format("; default: {}", preset));
+}
+
+std::string thing_named(const std::string& of) {
+  for (const char* article : {"a ", "an ", "the "})
+    if (of.starts_with(article)) return of.substr(std::string(article).size());
+  std::string name;
+  std::copy_if(of.begin(), of.end(), std::back_inserter(name), [](char letter) { return letter != '`'; });
+  return name;
+}
+
+std::vector<const KeyTable*> tables_below(const KeyTable& root) {
+  std::vector<const KeyTable*> all;
+  std::set<const KeyTable*> seen;
+  const std::function<void(const KeyTable&)> visit = [&](const KeyTable& table) {
+    if (!seen.insert(&table).second) return;
+    if (!table.keys.empty()) all.push_back(&table);
+    for (const Key& key : table.keys) visit_forms(key.forms, visit);
+    for (const KeyTable::Variant& variant : table.variants) visit(variant.table());
+  };
+  visit(root);
+  return all;
+}
+
+std::string keys_as_text(const KeyTable& table, std::size_t columns) {
+  std::string text = fmt::format("{}\n{}\n", thing_named(table.of), wrapped(table.about, 2, columns));
+  for (const Key& key : table.keys) {
+    const std::string preset = default_words(key);
+    text += fmt::format("  {}{}\n", key.name,
+                        key.presence.required ? " (required)"
+                        : preset.empty()      ? ""
+                                              : fmt::format(" (default: {})", preset));
+    text += wrapped(form_words(key.forms), 6, columns) + wrapped(key.about, 6, columns);
+  }
+  return text;
+}
+
+std::string keys_as_markdown(const KeyTable& table, int level) {
+  std::string text = fmt::format("{} {}\n\n{}\n\n", std::string(static_cast<std::size_t>(level), '#'),
+                                 thing_named(table.of), table.about);
+  text += "| key | value | default | |\n|---|---|---|---|\n";
+  for (const Key& key : table.keys)
+    text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, escaped(form_words(key.forms)),
+                        escaped(default_words(key)), escaped(key.about));
+  return text;
+}
+
+}  // namespace bielle

@@ -1,0 +1,31 @@
+// Keys in words: lists for the terminal and tables for the manual.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reduce/common/input/key_table.hpp"
+
+namespace bielle {
+
+/// Returns the forms in words: "number [N/m] of at least 0, or formula of e, v, t and the state".
+std::string form_words(const KeyForms& forms);
+
+/// Returns the sentence of a key with its forms and default, as an editor shows it.
+std::string key_sentence(const Key& key);
+
+/// Returns the name of the thing without its article: "hinge" of "a hinge".
+std::string thing_named(const std::string& of);
+
+/// Lists a table and the tables below it, each once, in the order in which they are met. A table that consists of
+/// variants alone is not listed, its variants are.
+std::vector<const KeyTable*> tables_below(const KeyTable& root);
+
+/// Writes the keys of a table for a terminal.
+/// @param columns  width of the lines
+std::string keys_as_text(const KeyTable& table, std::size_t columns = 100);
+
+/// Writes the keys of a table as a table in Markdown, with a heading of the given level.
+std::string keys_as_markdown(const KeyTable& table, int level);
+
+}  // namespace bielle
