@@ -36,13 +36,13 @@ namespace bielle::mechanism {
 
 const std::vector<ComponentType>& component_table() {
   static const std::vector<ComponentType> table = {
-      {Section::elements, "rigid_body", read_rigid_body, nullptr},
-      {Section::elements, "point_mass", read_point_mass, nullptr},
-      {Section::elements, "beam", read_beam, nullptr},
-      {Section::elements, "superelement", read_superelement_body, nullptr},
+      {Section::elements, "rigid_body", read_rigid_body, rigid_body_keys},
+      {Section::elements, "point_mass", read_point_mass, point_mass_keys},
+      {Section::elements, "beam", read_beam, beam_keys},
+      {Section::elements, "superelement", read_superelement_body, superelement_keys},
       {Section::elements, "spring_damper", read_spring_damper, spring_damper_keys},
-      {Section::elements, "node_force", read_node_force, nullptr},
-      {Section::elements, "stiffness_field", read_stiffness_field, nullptr},
+      {Section::elements, "node_force", read_node_force, node_force_keys},
+      {Section::elements, "stiffness_field", read_stiffness_field, stiffness_field_keys},
       {Section::elements, "hydraulic_actuator", read_hydraulic_actuator, nullptr},
       {Section::joints, "rigid", read_rigid, rigid_keys},
       {Section::joints, "hinge", read_hinge, hinge_keys},
@@ -74,8 +74,8 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "cable", read_cable, cable_keys},
       {Section::joints, "contact", read_contact, contact_keys},
       {Section::drives, "drive", read_drive, drive_keys},
-      {Section::loads, "load", read_load, nullptr},
-      {Section::states, "state", read_state, nullptr},
+      {Section::loads, "load", read_load, load_keys},
+      {Section::states, "state", read_state, state_keys},
   };
   return table;
 }

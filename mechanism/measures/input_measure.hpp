@@ -28,7 +28,8 @@ class InputMeasure final : public Measure {
   std::string units_;
 };
 
+const KeyTable& input_keys();
 /// Reads an entry of `inputs`: the value at the start, or `{start, units}`. @throws InputError
-void read_input(const std::string& name, const YamlValue& entry, Model& model);
+void read_input(const std::string& name, const YamlValue& given, Model& model);
 
 }  // namespace bielle::mechanism

@@ -38,22 +38,45 @@ void MeasureEvent::describe(const LocalState& /*state*/, Description& descriptio
                                                : "is noted");
 }
 
+namespace {
+const std::vector<std::string> crossing_directions = {"rising", "falling", "both"};
+}  // namespace
+
+Key crossing_direction_key() {
+  using namespace keys;
+  return {"direction", word(crossing_directions, "a direction of crossing"), otherwise("both"),
+          "Direction in which the value is crossed."};
+}
+
 EventFunction::Direction read_crossing_direction(const YamlValue& entry) {
-  const auto word = entry.find("direction");
-  if (!word) return EventFunction::Direction::both;
-  const std::string chosen = word->word({"rising", "falling", "both"}, "a direction of crossing");
+  const auto given = entry.find("direction");
+  if (!given) return EventFunction::Direction::both;
+  const std::string chosen = given->word(crossing_directions, "a direction of crossing");
   return chosen == "rising"    ? EventFunction::Direction::rising
          : chosen == "falling" ? EventFunction::Direction::falling
                                : EventFunction::Direction::both;
 }
 
-void read_event(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"when", "crosses", "direction", "action"}, "an event");
+const KeyTable& event_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "an event",
+      "A measure that crosses a value.",
+      {{"when", state_formula("any", {"t"}), required, "Measure that is watched, or a formula of measures."},
+       {"crosses", number("any"), otherwise("0"), "Value that is crossed."},
+       crossing_direction_key(),
+       {"action", word({"note", "restart", "stop"}, "an action"), otherwise("note"),
+        "Action at the crossing: `note` lists its time, `restart` ends a step there and solves for accelerations and "
+        "reactions again, `stop` ends the analysis."}}};
+  return table;
+}
+
+void read_event(const std::string& name, const YamlValue& given, Model& model) {
+  const YamlValue entry = given.keyed(event_keys());
   const YamlValue when = entry.at("when");
-  const double value = entry.has("crosses") ? entry.at("crosses").number() : 0;
+  const double value = entry.at("crosses").number();
   const EventFunction::Direction direction = read_crossing_direction(entry);
-  const std::string word =
-      entry.has("action") ? entry.at("action").word({"note", "restart", "stop"}, "an action") : "note";
+  const std::string word = entry.at("action").word();
   const MeasureEvent::Action action = word == "stop"      ? MeasureEvent::Action::stop
                                       : word == "restart" ? MeasureEvent::Action::restart
                                                           : MeasureEvent::Action::note;

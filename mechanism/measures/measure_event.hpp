@@ -34,11 +34,14 @@ class MeasureEvent final : public Component {
   Action action_;
 };
 
+/// Returns the key `direction` of an entry with `crosses`.
+Key crossing_direction_key();
 /// Reads the key `direction` of an entry; the default is both.
 EventFunction::Direction read_crossing_direction(const YamlValue& entry);
 
+const KeyTable& event_keys();
 /// Reads an entry of `events`, after the model has been read: `{when: measure or formula, crosses: value, direction:
 /// rising | falling | both, action: note | restart | stop}`. @throws InputError
-void read_event(const std::string& name, const YamlValue& entry, Model& model);
+void read_event(const std::string& name, const YamlValue& given, Model& model);
 
 }  // namespace bielle::mechanism

@@ -166,18 +166,34 @@ std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue&
   return std::make_unique<CombinedMeasure>(name, std::move(references), std::move(of_state), std::move(inferred));
 }
 
+const std::vector<std::string> quantity_words = {"position", "velocity", "rotation", "angular_velocity"};
+
+const KeyTable& measure_of_node_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the measure of a node",
+      "A quantity of a node along a direction.",
+      {{"node", name_of("node"), required, "The node."},
+       {"relative_to", name_of("node"), otherwise("ground"), "Node in whose axes the quantity is seen."},
+       {"quantity", word(quantity_words, "a quantity"), otherwise("position"), "Quantity of the node."},
+       {"direction",
+        {word({"x", "y", "z"}, "a direction (x, y, z or a vector)"), direction()},
+        required,
+        "Direction along which the quantity is measured, in the axes of `relative_to`."},
+       {"at",
+        {vector3("m"), list_of(2, vector3("m"))},
+        otherwise("[0, 0, 0]"),
+        "Point of the node in its axes, or two points, one of `relative_to` and one of the node."}}};
+  return table;
+}
+
 std::unique_ptr<Measure> read_of_node(const std::string& name, const YamlValue& entry, const Model& model) {
-  entry.check_keys({"node", "relative_to", "quantity", "direction", "at"}, "the measure of a node");
   NodePair pair;
+  pair.first = node_named_by(entry.at("relative_to"), model);
   pair.second = node_named_by(entry.at("node"), model);
-  if (const auto relative = entry.find("relative_to")) pair.first = node_named_by(*relative, model);
   if (pair.first == pair.second) entry.at("node").fail("a node relative to itself does not move");
-  NodeQuantity quantity = NodeQuantity::position;
-  if (const auto word = entry.find("quantity")) {
-    const std::vector<std::string> words = {"position", "velocity", "rotation", "angular_velocity"};
-    const std::string chosen = word->word(words, "a quantity");
-    quantity = static_cast<NodeQuantity>(std::find(words.begin(), words.end(), chosen) - words.begin());
-  }
+  const auto chosen = std::find(quantity_words.begin(), quantity_words.end(), entry.at("quantity").word());
+  const auto quantity = static_cast<NodeQuantity>(chosen - quantity_words.begin());
   if (const auto at = entry.find("at")) {
     if (quantity == NodeQuantity::rotation || quantity == NodeQuantity::angular_velocity)
       at->fail("a rotation is that of the whole node: it has no point");
@@ -190,9 +206,7 @@ std::unique_ptr<Measure> read_of_node(const std::string& name, const YamlValue& 
   }
   const YamlValue direction = entry.at("direction");
   const Vector3 axis =
-      direction.is_sequence()
-          ? Vector3(direction.direction())
-          : Vector3::Unit(direction.word({"x", "y", "z"}, "a direction (x, y, z or a vector)")[0] - 'x');
+      direction.is_sequence() ? Vector3(direction.direction()) : Vector3::Unit(direction.word()[0] - 'x');
   return make_node_measure(name, model, pair, quantity, axis);
 }
 
@@ -222,10 +236,22 @@ void check_measure_name(const std::string& name, const YamlValue& entry, const M
     entry.fail("this is a name in formulas: letters, digits and '_', no digit first");
 }
 
-void read_measure(const std::string& name, const YamlValue& entry, Model& model) {
-  check_measure_name(name, entry, model);
-  if (entry.is_map() && !entry.has("formula") && !entry.has("node"))
-    entry.fail("expected a formula, `formula` with `units`, or a `node`");
+const KeyTable& measure_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a measure",
+      "A quantity of the state by a formula, with its units.",
+      {{"formula", state_formula("any", {"t"}), required, "Formula of the time t, parameters and measures."},
+       {"units", text(), computed("units that follow from the formula"), "Units that are recorded with the values."}},
+      {{"node", "", measure_of_node_keys}}};
+  return table;
+}
+
+void read_measure(const std::string& name, const YamlValue& given, Model& model) {
+  check_measure_name(name, given, model);
+  if (given.is_map() && !given.has("formula") && !given.has("node"))
+    given.fail("expected a formula, `formula` with `units`, or a `node`");
+  const YamlValue entry = given.is_map() ? given.keyed(measure_keys()) : given;
   model.announce_measure(name, [name, entry, &model] {
     std::unique_ptr<Measure> measure;
     if (!entry.is_map()) {
@@ -233,7 +259,6 @@ void read_measure(const std::string& name, const YamlValue& entry, Model& model)
     } else if (entry.has("node")) {
       measure = read_of_node(name, entry, model);
     } else {
-      entry.check_keys({"formula", "units"}, "a measure");
       measure = read_combined(name, entry.at("formula"), entry.find("units"), model);
     }
     model.add_measure(std::move(measure), true);

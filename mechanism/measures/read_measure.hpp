@@ -24,9 +24,11 @@ std::string units_of_formula(const YamlValue& value, Model& model);
 /// Rejects text that cannot be the name of a measure or input in formulas. @throws InputError
 void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model);
 
+/// The keys of a measure that is no plain formula.
+const KeyTable& measure_keys();
 /// Reads an entry of `measures`: a formula; `{formula, units}`; or `{node, relative_to, quantity, direction, at}`.
 /// @throws InputError also if measures refer to each other in a circle
-void read_measure(const std::string& name, const YamlValue& entry, Model& model);
+void read_measure(const std::string& name, const YamlValue& given, Model& model);
 
 /// Returns the measure that a value names or defines by a formula.
 const Measure& measure_named_by(const YamlValue& value, Model& model);

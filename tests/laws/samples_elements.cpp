@@ -115,7 +115,7 @@ elements:
 
 const std::vector<BadValue> bad_beam = {{"nodes", "[a, a]", "two different nodes"},
                                         {"nodes", "[a]", "2 node names"},
-                                        {"elements", "0", "at least one"},
+                                        {"elements", "0", "between 1 and 100000"},
                                         {"elements", "1.5", ""},
                                         {"orientation", "[0.8, 0.4, 0.6]", "parallel"},
                                         {"twist", "100", "more `elements`"},
@@ -127,7 +127,7 @@ Sample beam() {
   std::vector<BadValue> bad = bad_beam;
   bad.insert(bad.end(), {{"section.rectangle", "[1, 0]", "greater than 0"},
                          {"section.young", "0", "greater than 0"},
-                         {"section.poisson", "0.7", "(-1, 0.5]"},
+                         {"section.poisson", "0.7", "greater than -1 and at most 0.5"},
                          {"section.density", "-1", "at least 0"},
                          {"section.offset", "[1, 2, 3]", "[y, z]"},
                          {"section.shear_factors", "[0, 1]", "greater than 0"}});
@@ -163,7 +163,7 @@ elements:
       mass: [[2, 0, 0, 0, 0.4, -0.2], [0, 2, 0, -0.4, 0, 0], [0, 0, 2, 0.2, 0, 0], [0, -0.4, 0.2, 1, 0, 0], [0.4, 0, 0, 0, 0.8, 0.1], [-0.2, 0, 0, 0, 0.1, 0.6]]
 )yaml",
           {{"nodes", "[a, c]", "no node 'c'"},
-           {"elements", "-1", "at least one"},
+           {"elements", "-1", "between 1 and 100000"},
            {"arc_through", "[0.7, 0.3, 0.1]", "one line"},
            {"bending", "none", "'constant'"},
            {"section.stiffness", "[[1, 2], [2, 1]]", ""},
@@ -216,7 +216,7 @@ elements:
       - {l: {width: 1, height: 1.1, thickness: 0.3}, young: 2, poisson: 0.2, density: 1.5, stress_points: [[0, -0.2]]}
 )yaml",
           {{"nodes", "[a, c]", "no node 'c'"},
-           {"elements", "0", "at least one"},
+           {"elements", "0", "between 1 and 100000"},
            {"section.0.l", "[1, 2]", "section"},
            {"section.0.l.width", "0", "greater than 0"},
            {"section.0.l.height", "", "height"},
@@ -230,7 +230,7 @@ elements:
 
 /// Every other kind of section, with all of its keys.
 Sample beam_of(const std::string& variant, const std::string& section, std::vector<BadValue> bad) {
-  bad.insert(bad.end(), {{"nodes", "[a, c]", "no node 'c'"}, {"elements", "0", "at least one"}});
+  bad.insert(bad.end(), {{"nodes", "[a, c]", "no node 'c'"}, {"elements", "0", "between 1 and 100000"}});
   return {Section::elements, "beam", variant,
           two_nodes + "elements:\n  it: {type: beam, nodes: [a, b], elements: 1, section: " + section + "}\n",
           std::move(bad)};
@@ -282,7 +282,7 @@ elements:
     distributed: )yaml" +
                     load + "\n",
                 {{"nodes", "[a, c]", "no node 'c'"},
-                 {"elements", "0", "at least one"},
+                 {"elements", "0", "between 1 and 100000"},
                  {"arc_through", "[0.7, 0.3, 0.1]", "one line"},
                  {"twist", "100", "more `elements`"},
                  {"section", "[1, 2]", ""},
@@ -447,7 +447,7 @@ elements:
 )yaml",
                 {{"file", "", ""},
                  {"nodes", "{z: tip}", "no interface"},
-                 {"frame", "middle", "no frame of a superelement"},
+                 {"frame", "middle", "not a frame of a superelement"},
                  {"frame", "{interface: z}", "no interface"}}};
   sample.scales.length = 0.25;  // see above; points are nearer still
   sample.scales.deformation = 0.1;

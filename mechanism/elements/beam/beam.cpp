@@ -9,6 +9,7 @@
 #include "mechanism/elements/beam/beam_element.hpp"
 #include "mechanism/elements/beam/beam_geometry.hpp"
 #include "mechanism/elements/beam/distributed_load.hpp"
+#include "mechanism/elements/beam/section_keys.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/start_motion.hpp"
 
@@ -49,27 +50,40 @@ std::vector<int> make_nodes(const std::string& name, const YamlValue& entry, con
 
 }  // namespace
 
+const KeyTable& beam_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a beam",
+      "A straight or curved beam between two nodes, cut into elements of equal length.",
+      {type_key(),
+       {"nodes", list_of(2, name_of("node")), required, "The nodes at the start and at the end."},
+       {"section", section_forms(), required, "Cross section, or `[start, end]` of a linear taper."},
+       {"elements", integer().between(1, 100000), otherwise("8"), "Number of elements."},
+       {"orientation", direction(), computed("the inertial axis most normal to the beam"),
+        "Vector whose part normal to the beam is the section's y axis at the start."},
+       {"twist", number("rad"), otherwise("0"), "Rotation of the section about the line, from start to end."},
+       {"damping", number("s").non_negative(), otherwise("0"),
+        "Kelvin-Voigt time, which multiplies the stiffness to give the damping."},
+       {"bending", word({"residual", "constant"}, "a kind of `bending`"), otherwise("residual"),
+        "Flexibility in bending: `residual` is exact for linear bending, `constant` has constant strains."},
+       {"arc_centre", vector3("m"), optional, "Centre of a circular arc from start to end."},
+       {"arc_through", vector3("m"), optional, "Point of a circular arc from start to end, in place of `arc_centre`."},
+       {"distributed",
+        {nested(line_load_keys), list_of(nested(line_load_keys)).items_at_least(1)},
+        optional,
+        "Load per length, or a list of such loads."}}};
+  return table;
+}
+
 void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "section", "elements", "orientation", "twist", "damping", "bending", "arc_centre",
-                    "arc_through", "distributed"},
-                   "a beam");
   const std::vector<int> ends = nodes_named_by(entry.at("nodes"), 2, model);
   if (ends[0] == ends[1]) entry.at("nodes").fail("a beam joins two different nodes");
-  const auto elements = entry.find("elements"), twist = entry.find("twist"), damping = entry.find("damping"),
-             bending = entry.find("bending");
-  const int count = elements ? elements->integer() : 8;
-  constexpr int most = 100000;
-  if (count < 1) elements->fail(fmt::format("expected at least one element; found {}", count));
-  if (count > most) elements->fail(fmt::format("a beam has at most {} elements; found {}", most, count));
-  const BeamBending law = bending && bending->word({"residual", "constant"}, "a kind of `bending`") == "constant"
-                              ? BeamBending::constant
-                              : BeamBending::residual;
-  const double damping_time = damping ? damping->non_negative_number() : 0;
+  const int count = entry.at("elements").integer();
+  const BeamBending law = entry.at("bending").word() == "constant" ? BeamBending::constant : BeamBending::residual;
+  const double damping_time = entry.at("damping").number(), total_twist = entry.at("twist").number();
   const SectionLaw section(entry.at("section"));
   const auto distributed = entry.find("distributed");
   const std::vector<LineLoad> loads = distributed ? read_line_loads(*distributed, count) : std::vector<LineLoad>{};
-
-  const double total_twist = twist ? twist->number() : 0;
   const BeamLine line = read_beam_line(entry, model.node(ends[0]).frame.x, model.node(ends[1]).frame.x);
   const Matrix6 stiffness = section.at(0.5).stiffness;
   if (const double thickness = 2 * std::sqrt(std::max(stiffness(4, 4), stiffness(5, 5)) / stiffness(0, 0));

@@ -8,6 +8,7 @@
 
 namespace bielle::mechanism {
 
+const KeyTable& beam_keys();
 /// `{type: beam, nodes: [a, b], section, elements, orientation, twist, damping, bending,
 ///   arc_centre | arc_through, distributed}` creates
 ///

@@ -78,7 +78,7 @@ class SectionLaw {
     VectorX shear_factors;                         ///< (2), or empty: values of the shape
     VectorX points;                                ///< y and z of each stress point, from the centroid
   };
-  static Definition read(const YamlValue& value);
+  static Definition read(const YamlValue& given);
   static Definition read_shape(const std::string& kind, const YamlValue& value);
   static void check_taper(const YamlValue& value, const Definition& start, const Definition& end);
   Definition between(double s) const;

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam_section.hpp"
+#include "mechanism/elements/beam/section_keys.hpp"
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
+#include "mechanism/reading/read_numbers.hpp"
 #include "reduce/common/input/plausible.hpp"
 #include "reduce/dense/symmetric_factors.hpp"
 
@@ -16,42 +18,27 @@ namespace {
 constexpr std::array constants_keys{"EA", "GAy", "GAz", "GJ", "EIy", "EIz"};
 constexpr std::array mass_keys{"mass_per_length", "Jx", "Jy", "Jz"};
 
-/// Keys in addition to the shape itself.
-const std::vector<std::string> shape_keys{"young",         "poisson", "shear",        "density",
-                                          "shear_factors", "offset",  "stress_points"};
-
 double shear_modulus(const YamlValue& value, double young_modulus) {
   const auto modulus = value.find("shear"), poisson = value.find("poisson");
   if (modulus && poisson) modulus->fail("give either `shear` or `poisson`");
-  if (modulus) return modulus->positive_number();
+  if (modulus) return modulus->number();
   if (!poisson) value.fail("a section of a shape needs `poisson` or `shear`");
-  const double nu = poisson->number();
-  if (!(nu > -1 && nu <= 0.5)) poisson->fail(fmt::format("Poisson's ratio lies in (-1, 0.5]; found {:.6g}", nu));
-  return young_modulus / (2 * (1 + nu));
+  return young_modulus / (2 * (1 + poisson->number()));
 }
 
-/// Reads the offset (2), zero if absent.
 Vector2 read_offset(const YamlValue& value, const std::string& what) {
-  const auto offset = value.find("offset");
-  if (!offset) return Vector2::Zero();
-  const VectorX numbers = offset->vector();
-  if (numbers.size() != 2) offset->fail(fmt::format("expected {} [y, z] from the node line", what));
-  return numbers;
+  return read_numbers(value.at("offset"), 2, fmt::format("{} [y, z] from the node line", what));
 }
 
 VectorX read_constants(const YamlValue& value) {
-  std::vector<std::string> keys(constants_keys.begin(), constants_keys.end());
-  for (const char* key : mass_keys) keys.emplace_back(key);
-  keys.emplace_back("offset");
-  value.check_keys(keys, "a section by constants");
   VectorX numbers = VectorX::Zero(10);
-  for (int k = 0; k < 6; ++k) numbers[k] = value.at(constants_keys[static_cast<std::size_t>(k)]).positive_number();
+  for (int k = 0; k < 6; ++k) numbers[k] = value.at(constants_keys[static_cast<std::size_t>(k)]).number();
   const bool has_mass =
       std::any_of(mass_keys.begin(), mass_keys.end(), [&](const char* key) { return value.has(key); });
   if (!has_mass) return numbers;
   for (int k = 0; k < 4; ++k) {
     const YamlValue item = value.at(mass_keys[static_cast<std::size_t>(k)]);
-    numbers[6 + k] = item.non_negative_number();
+    numbers[6 + k] = item.number();
     // Without rotary inertia the section's rotation would have no mass.
     if (numbers[6] > 0 && numbers[6 + k] == 0) item.fail("a section with mass has mass moments > 0 about all its axes");
     if (numbers[6] == 0 && numbers[6 + k] > 0) item.fail("a section without mass has no mass moments");
@@ -84,7 +71,6 @@ void check_mass(const YamlValue& value, const Matrix6& M) {
 }
 
 VectorX read_matrices(const YamlValue& value) {
-  value.check_keys({"stiffness", "mass", "offset"}, "a section by matrices");
   const YamlValue stiffness = value.at("stiffness");
   const Matrix6 C = stiffness.matrix(6, 6);
   check_positive_definite(stiffness, C, "a section's stiffness");
@@ -108,13 +94,11 @@ std::string kind_of(const YamlValue& value) {
   if (given.size() == 1) return given.front();
   if (given.size() > 1)
     value.at(given[1]).fail(fmt::format("a section is given by one of `{}` and `{}`, not by both", given[0], given[1]));
-  std::vector<std::string> others = shape_keys;
-  for (const char* key : constants_keys) others.emplace_back(key);
-  for (const char* key : mass_keys) others.emplace_back(key);
-  others.emplace_back("mass");
+  const auto is_known = [&](const std::string& key) {
+    return shape_section_keys().find(key) || constants_section_keys().find(key) || matrices_section_keys().find(key);
+  };
   for (const auto& [key, item] : value.entries())
-    if (std::find(others.begin(), others.end(), key) == others.end())
-      item.fail(fmt::format("'{}' is no kind of section{}", key, did_you_mean(key, kinds)));
+    if (!is_known(key)) item.fail(fmt::format("'{}' is no kind of section{}", key, did_you_mean(key, kinds)));
   value.fail(
       "expected exactly one of `rectangle`, `circle`, `tube`, `i`, `t`, `l`, `box`, the constants `EA`, `GAy`, ..., or "
       "a 6x6 `stiffness`");
@@ -123,28 +107,23 @@ std::string kind_of(const YamlValue& value) {
 }  // namespace
 
 SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const YamlValue& value) {
-  std::vector<std::string> keys = shape_keys;
-  keys.push_back(kind);
-  value.check_keys(keys, fmt::format("a section '{}'", kind));
   Definition d;
   d.kind = kind;
   d.numbers = read_shape_dimensions(kind, value.at(kind));
-  const double young = value.at("young").positive_number();
-  const auto density = value.find("density");
+  const double young = value.at("young").number(), density = value.at("density").number();
   warn_outside(value.at("young"), young, plausible_modulus);
-  if (density && density->non_negative_number() > 0) warn_outside(*density, density->number(), plausible_density);
-  d.material = Vector3(young, shear_modulus(value, young), density ? density->non_negative_number() : 0);
+  if (density > 0) warn_outside(value.at("density"), density, plausible_density);
+  d.material = Vector3(young, shear_modulus(value, young), density);
   d.offset = read_offset(value, "the centroid");
-  d.has_density = density.has_value();
+  d.has_density = value.has("density");
   d.has_offset = value.has("offset");
-  if (const auto factors = value.find("shear_factors")) d.shear_factors = factors->positive_numbers(2, "[k_y, k_z]");
+  if (const auto factors = value.find("shear_factors")) d.shear_factors = read_numbers(*factors, 2, "[k_y, k_z]");
   if (const auto points = value.find("stress_points")) {
     if (points->items().empty()) points->fail("expected at least one point [y, z]; leave the key out for none");
     d.points.resize(static_cast<Eigen::Index>(2 * points->items().size()));
     Eigen::Index k = 0;
     for (const YamlValue& item : points->items()) {
-      const Eigen::VectorXd point = item.vector();
-      if (point.size() != 2) item.fail("expected a point [y, z] of the section, from its centroid");
+      const Vector2 point = read_numbers(item, 2, "a point [y, z] of the section, from its centroid");
       if (!shape_contains(kind, d.numbers, point))
         item.fail("the point lies outside of the section; y and z count from its centroid");
       d.points.segment<2>(k) = point;
@@ -154,10 +133,11 @@ SectionLaw::Definition SectionLaw::read_shape(const std::string& kind, const Yam
   return d;
 }
 
-SectionLaw::Definition SectionLaw::read(const YamlValue& value) {
-  if (!value.is_map()) value.fail("expected a section: a map, or a pair [start, end] of maps");
-  const std::string kind = kind_of(value);
-  if (kind != "EA" && kind != "stiffness") return read_shape(kind, value);
+SectionLaw::Definition SectionLaw::read(const YamlValue& given) {
+  if (!given.is_map()) given.fail("expected a section: a map, or a pair [start, end] of maps");
+  const std::string kind = kind_of(given);
+  if (kind != "EA" && kind != "stiffness") return read_shape(kind, given.keyed(shape_section_keys()));
+  const YamlValue value = given.keyed(kind == "EA" ? constants_section_keys() : matrices_section_keys());
   Definition d;
   d.kind = kind;
   d.numbers = kind == "EA" ? read_constants(value) : read_matrices(value);

@@ -9,6 +9,7 @@
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
 #include "mechanism/model/description.hpp"
+#include "mechanism/reading/read_numbers.hpp"
 #include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
@@ -206,14 +207,12 @@ void DistributedLoad::describe(const LocalState& /*state*/, Description& descrip
 namespace {
 
 FormulaVector vector_along(const YamlValue& value) {
-  return read_formula_vector(value, {"s", "t"},
+  return read_formula_vector(value,
                              "three components per length, numbers or expressions of s (0 to 1 along the beam) and t");
 }
 
 LineLoad read_line_load(const YamlValue& value) {
-  value.check_keys({"force", "moment", "at", "follower"}, "a distributed load");
-  const auto force = value.find("force"), moment = value.find("moment"), at = value.find("at"),
-             follower = value.find("follower");
+  const auto force = value.find("force"), moment = value.find("moment"), at = value.find("at");
   if (!force && !moment) value.fail("a distributed load needs `force` or `moment`, per length");
   LineLoad load;
   load.has_force = force.has_value();
@@ -222,11 +221,10 @@ LineLoad read_line_load(const YamlValue& value) {
   if (moment) load.moment = vector_along(*moment);
   if (at) {
     if (!force) at->fail("`at` is the point of the section where a `force` acts, and there is none");
-    const Eigen::VectorXd point = at->vector();
-    if (point.size() != 2) at->fail("expected the point [y, z] of the section, from the node line");
+    const Vector2 point = read_numbers(*at, 2, "the point [y, z] of the section, from the node line");
     load.at = {0, point[0], point[1]};
   }
-  load.follower = follower && follower->boolean();
+  load.follower = value.at("follower").boolean();
   return load;
 }
 
@@ -262,6 +260,21 @@ void check_integrals(const YamlValue& value, const LineLoad& load, const Express
 }
 
 }  // namespace
+
+const KeyTable& line_load_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a distributed load",
+      "A force and a moment per length of a beam, as formulas of s, from 0 at its start to 1 at its end, and the time "
+      "t.",
+      {{"force", list_of(3, formula("N/m", {"s", "t"})), optional, "Components of the force per length."},
+       {"moment", list_of(3, formula("N m/m", {"s", "t"})), optional, "Components of the moment per length."},
+       {"at", list_of(2, number("m")), otherwise("[0, 0]"),
+        "Point of the section at which the force acts, from the node line along y and z."},
+       {"follower", boolean(), otherwise("false"),
+        "Whether the components are along the axes of the section and turn with it; otherwise they are inertial."}}};
+  return table;
+}
 
 std::vector<LineLoad> read_line_loads(const YamlValue& value, int elements) {
   const std::vector<YamlValue> items = value.is_sequence() ? value.items() : std::vector<YamlValue>{value};

@@ -36,6 +36,7 @@ struct LineLoad {
   bool follower = false;
 };
 
+const KeyTable& line_load_keys();
 /// Reads `{force, moment, at: [y, z], follower}`, or a list of such loads.
 /// @param elements  number of elements of the beam: three points on each, and between its kinks, must integrate the
 /// load to 1 % @throws InputError

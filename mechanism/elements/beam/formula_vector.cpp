@@ -2,11 +2,10 @@
 
 namespace bielle::mechanism {
 
-FormulaVector read_formula_vector(const YamlValue& value, const std::vector<std::string>& variables,
-                                  const std::string& expected) {
+FormulaVector read_formula_vector(const YamlValue& value, const std::string& expected) {
   if (!value.is_sequence() || value.size() != 3) value.fail("expected " + expected);
   FormulaVector vector;
-  for (std::size_t k = 0; k < 3; ++k) vector[k] = value.at(k).expression(variables);
+  for (std::size_t k = 0; k < 3; ++k) vector[k] = value.at(k).expression();
   return vector;
 }
 

@@ -13,10 +13,8 @@ namespace bielle::mechanism {
 /// Components along three axes; initially zero.
 using FormulaVector = std::array<Expression, 3>;
 
-/// @param variables  variables that the formulas may use, e.g. {"s", "t"} @param expected  description of them, for the
-///                   message
-FormulaVector read_formula_vector(const YamlValue& value, const std::vector<std::string>& variables,
-                                  const std::string& expected);
+/// @param value  three formulas of the variables of their form @param expected  description of them, for the message
+FormulaVector read_formula_vector(const YamlValue& value, const std::string& expected);
 
 /// Returns "(0, sin(t), 2)", as the user wrote it.
 std::string format_vector(const FormulaVector& vector);

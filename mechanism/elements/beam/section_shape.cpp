@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "mechanism/reading/read_numbers.hpp"
+
 namespace bielle::mechanism {
 
 using std::numbers::pi;
@@ -152,32 +154,28 @@ std::vector<SectionRectangle> walls(const std::string& shape, const VectorX& d) 
 
 /// Reads a number for both, or a pair.
 Vector2 one_or_two(const YamlValue& value, const std::string& pair) {
-  if (value.is_scalar()) return Vector2::Constant(value.positive_number());
-  return value.positive_numbers(2, "a number or a pair " + pair);
+  if (value.is_scalar()) return Vector2::Constant(value.number());
+  return read_numbers(value, 2, "a number or a pair " + pair);
 }
 
 VectorX read_walls(const std::string& shape, const YamlValue& value) {
   VectorX d(6);
-  const bool flanged = shape == "i" || shape == "t";
-  value.check_keys(flanged ? std::vector<std::string>{"width", "height", "web", "flange"}
-                           : std::vector<std::string>{"width", "height", "thickness"},
-                   (shape == "i" || shape == "l" ? "an " : "a ") + shape + " section");
-  const double height = value.at("height").positive_number();
+  const double height = value.at("height").number();
   const auto check = [&](const char* key, bool fits, const char* why) {
     if (!fits) value.at(key).fail(why);
   };
   if (shape == "i") {
     const Vector2 width = one_or_two(value.at("width"), "[below, above]"),
                   flange = one_or_two(value.at("flange"), "[below, above]");
-    const double web = value.at("web").positive_number();
+    const double web = value.at("web").number();
     d << width, height, web, flange;
     check("web", d[3] < width.minCoeff(), "the web must be thinner than the flanges are wide");
     check("flange", flange.sum() < height, "the flanges must leave room for a web within the height");
     return d;
   }
   if (shape == "t") {
-    const double width = value.at("width").positive_number(), web = value.at("web").positive_number(),
-                 flange = value.at("flange").positive_number();
+    const double width = value.at("width").number(), web = value.at("web").number(),
+                 flange = value.at("flange").number();
     d << width, height, web, flange, 0, 0;
     check("web", d[2] < d[0], "the web must be thinner than the flange is wide");
     check("flange", d[3] < height, "the flange must leave room for a web within the height");
@@ -185,7 +183,7 @@ VectorX read_walls(const std::string& shape, const YamlValue& value) {
   }
   const Vector2 thickness = one_or_two(
       value.at("thickness"), shape == "l" ? "[leg along y, leg along z]" : "[walls across y, walls across z]");
-  const double width = value.at("width").positive_number();
+  const double width = value.at("width").number();
   d << width, height, thickness, 0, 0;
   if (shape == "l")
     check("thickness", thickness[0] < height && thickness[1] < d[0],
@@ -224,12 +222,10 @@ constexpr double least_size = 1e-12, most_size = 1e6;
 }
 
 VectorX read_sizes(const std::string& shape, const YamlValue& value) {
-  if (shape == "rectangle") return value.positive_numbers(2, "[width_y, height_z]");
-  if (shape == "circle") return VectorX::Constant(1, value.positive_number());
+  if (shape == "rectangle") return read_numbers(value, 2, "[width_y, height_z]");
+  if (shape == "circle") return VectorX::Constant(1, value.number());
   if (shape == "tube") {
-    if (!value.is_sequence() || value.size() != 2) value.fail("expected [outer radius, inner radius]");
-    VectorX radii(2);
-    radii << value.at(std::size_t{0}).positive_number(), value.at(std::size_t{1}).non_negative_number();
+    const VectorX radii = read_numbers(value, 2, "[outer radius, inner radius]");
     if (radii[1] >= radii[0]) value.fail("the inner radius must be smaller than the outer one");
     return radii;
   }

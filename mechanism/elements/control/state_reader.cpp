@@ -33,26 +33,17 @@ struct StateSetup {
   std::vector<Output> outputs{};
 };
 
-std::vector<std::string> with_common_keys(std::vector<std::string> keys) {
-  keys.insert(keys.end(), {"start", "units", "scale"});
-  return keys;
-}
-
 /// Whether the value is `start: equilibrium`.
-bool says_equilibrium(const std::optional<YamlValue>& start) {
-  return start && start->is_scalar() && !start->is_null() && start->text() == "equilibrium";
-}
+bool says_equilibrium(const YamlValue& start) { return start.is_scalar() && start.text() == "equilibrium"; }
 
 StateSetup read_rate(const std::string& name, const YamlValue& entry) {
-  entry.check_keys(with_common_keys({"rate"}), "a state with a `rate`");
   StateSetup setup{"state", "rate", integrator(), {entry.at("rate")}, {"value"}, VectorX::Zero(1)};
-  if (const auto start = entry.find("start")) setup.start[0] = start->number();
+  setup.start[0] = entry.at("start").number();
   setup.outputs = {{name, VectorX::Ones(1), {}, true}};
   return setup;
 }
 
 StateSetup read_filter(const std::string& name, const YamlValue& entry) {
-  entry.check_keys(with_common_keys({"filter", "time_constant", "frequency", "damping"}), "a filter");
   if (entry.has("time_constant") == entry.has("frequency"))
     entry.fail(
         "a filter is of first order, with a `time_constant` [s], or of second order, with a `frequency` [Hz] and a "
@@ -60,12 +51,11 @@ StateSetup read_filter(const std::string& name, const YamlValue& entry) {
   StateSetup setup{"filter", "", {}, {entry.at("filter")}, {"value"}, VectorX::Zero(1)};
   if (const auto time = entry.find("time_constant")) {
     if (const auto damping = entry.find("damping")) damping->fail("belongs to a filter with a `frequency`");
-    const double T = time->non_negative_number();
+    const double T = time->number();
     setup.block = T > 0 ? first_order_filter(T) : no_filter();
     setup.about = fmt::format("first-order filter, {:.6g} s, of", T);
   } else {
-    const double frequency = entry.at("frequency").positive_number();
-    const double damping = entry.has("damping") ? entry.at("damping").non_negative_number() : std::sqrt(0.5);
+    const double frequency = entry.at("frequency").number(), damping = entry.at("damping").number();
     setup.block = second_order_filter(frequency, damping);
     setup.about = fmt::format("second-order filter, {:.6g} Hz, damping {:.6g}, of", frequency, damping);
     setup.unknowns.emplace_back("rate/frequency");
@@ -74,9 +64,9 @@ StateSetup read_filter(const std::string& name, const YamlValue& entry) {
   for (Eigen::Index k = 0; k < setup.block.C.rows(); ++k)
     setup.outputs.push_back({k == 0 ? name : name + ".rate", setup.block.C.row(k).transpose(),
                              setup.block.D.isZero(0) ? VectorX() : VectorX(setup.block.D.row(k).transpose()), k == 0});
-  const auto start = entry.find("start");
-  setup.starts_at_rest = !start || says_equilibrium(start);
-  if (!setup.starts_at_rest) setup.start[0] = start->number();
+  const YamlValue start = entry.at("start");
+  setup.starts_at_rest = says_equilibrium(start);
+  if (!setup.starts_at_rest) setup.start[0] = start.number();
   return setup;
 }
 
@@ -95,9 +85,7 @@ void name_unknowns(StateSetup& setup) {
 }
 
 StateSetup read_transfer_function(const std::string& name, const YamlValue& entry) {
-  entry.check_keys(with_common_keys({"transfer_function", "input"}), "a transfer function");
   const YamlValue function = entry.at("transfer_function");
-  function.check_keys({"numerator", "denominator"}, "`transfer_function`");
   const std::vector<double> numerator = read_coefficients(function.at("numerator")),
                             denominator = read_coefficients(function.at("denominator"));
   if (denominator.size() < 2)
@@ -112,18 +100,12 @@ StateSetup read_transfer_function(const std::string& name, const YamlValue& entr
   name_unknowns(setup);
   setup.start = VectorX::Zero(setup.block.A.rows());
   setup.outputs = {{name, setup.block.C.row(0).transpose(), setup.block.D.row(0).transpose(), true}};
-  if (const auto start = entry.find("start")) {
-    if (!says_equilibrium(start) && start->word({"zero", "equilibrium"}, "a start of a transfer function") == "zero")
-      return setup;
-    setup.starts_at_rest = true;
-  }
+  setup.starts_at_rest = entry.at("start").word() == "equilibrium";
   return setup;
 }
 
 StateSetup read_state_space(const std::string& name, const YamlValue& entry) {
-  entry.check_keys(with_common_keys({"state_space", "inputs"}), "a state-space block");
   const YamlValue matrices = entry.at("state_space");
-  matrices.check_keys({"A", "B", "C", "D"}, "`state_space`");
   StateSetup setup{"state_space", "", {}, entry.at("inputs").items(), {}};
   const auto inputs = static_cast<Eigen::Index>(setup.inputs.size());
   if (inputs == 0) entry.at("inputs").fail("expected at least one input");
@@ -145,7 +127,7 @@ StateSetup read_state_space(const std::string& name, const YamlValue& entry) {
     setup.outputs.push_back({fmt::format("{}.x{}", name, k + 1), VectorX::Unit(n, k), {}, false});
   setup.start = VectorX::Zero(n);
   const auto start = entry.find("start");
-  setup.starts_at_rest = says_equilibrium(start);
+  setup.starts_at_rest = start && says_equilibrium(*start);
   if (!start || setup.starts_at_rest) return setup;
   if (!start->is_sequence() || static_cast<Eigen::Index>(start->size()) != n)
     start->fail(fmt::format("expected a list of {} numbers, one for each state, or equilibrium", n));
@@ -155,21 +137,18 @@ StateSetup read_state_space(const std::string& name, const YamlValue& entry) {
 
 /// Reads units: one text, or a list with one for each of the recorded outputs.
 void read_units(const YamlValue& entry, StateSetup& setup) {
-  const auto units = entry.find("units");
-  if (!units) {
-    if (setup.type != "filter") setup.units = std::vector<std::string>{"-"};
-    return;
-  }
-  if (!units->is_sequence()) {
-    setup.units = std::vector<std::string>{units->text()};
+  if (setup.type == "filter" && !entry.has("units")) return;
+  const YamlValue units = entry.at("units");
+  if (!units.is_sequence()) {
+    setup.units = std::vector<std::string>{units.text()};
     return;
   }
   const auto recorded = static_cast<std::size_t>(
       std::count_if(setup.outputs.begin(), setup.outputs.end(), [](const auto& output) { return output.recorded; }));
   setup.units.emplace();
-  for (const YamlValue& each : units->items()) setup.units->push_back(each.text());
+  for (const YamlValue& each : units.items()) setup.units->push_back(each.text());
   if (setup.units->size() != recorded)
-    units->fail(fmt::format("expected {}, one for each output, found {}", recorded, setup.units->size()));
+    units.fail(fmt::format("expected {}, one for each output, found {}", recorded, setup.units->size()));
 }
 
 std::string per_second(const std::string& units) { return units == "-" ? "1/s" : units + "/s"; }
@@ -207,20 +186,12 @@ void announce_outputs(const Entry& entry, const StateSetup& setup, const StateUn
   }
 }
 
+/// The entry is bound to the keys of its kind.
 StateSetup read_setup(const std::string& name, const YamlValue& entry) {
-  const std::vector<std::string> kinds = {"rate", "filter", "transfer_function", "state_space"};
-  std::string kind;
-  if (entry.is_map())
-    for (const std::string& each : kinds) {
-      if (!entry.has(each)) continue;
-      if (!kind.empty()) entry.fail(fmt::format("a state is one thing, this one has both '{}' and '{}'", kind, each));
-      kind = each;
-    }
-  if (kind == "rate") return read_rate(name, entry);
-  if (kind == "filter") return read_filter(name, entry);
-  if (kind == "transfer_function") return read_transfer_function(name, entry);
-  if (kind == "state_space") return read_state_space(name, entry);
-  entry.check_keys(with_common_keys({"rate", "filter", "transfer_function", "state_space"}), "a state");
+  if (entry.has("rate")) return read_rate(name, entry);
+  if (entry.has("filter")) return read_filter(name, entry);
+  if (entry.has("transfer_function")) return read_transfer_function(name, entry);
+  if (entry.has("state_space")) return read_state_space(name, entry);
   entry.fail("a state needs a `rate`, or it is a `filter`, a `transfer_function` or a `state_space`");
 }
 
@@ -239,7 +210,7 @@ void read_state(const std::string& name, const YamlValue& entry, Model& model) {
           "singular)");
   }
   double scale = std::max(1.0, setup.start.cwiseAbs().maxCoeff());
-  if (const auto given = entry.find("scale")) scale = given->positive_number();
+  if (const auto given = entry.find("scale")) scale = given->number();
   const std::string units = setup.type == "state_space" || !setup.units ? "-" : setup.units->front();
   const Entry own{Section::states, name};
   auto& unknowns = static_cast<StateUnknowns&>(model.add(

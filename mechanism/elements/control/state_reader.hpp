@@ -14,6 +14,7 @@
 
 namespace bielle::mechanism {
 
+const KeyTable& state_keys();
 /// Reads an entry of `states`. @throws InputError
 void read_state(const std::string& name, const YamlValue& entry, Model& model);
 

@@ -91,14 +91,28 @@ void Load::describe(const LocalState& /*state*/, Description& description) const
   description.add(follower_ ? "turning with the node" : "fixed in space");
 }
 
+const KeyTable& load_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a load",
+      "A force and a moment on a node.",
+      {{"node", name_of("node"), required, "The loaded node."},
+       {"force", list_of(3, state_formula("N", {"t"})), optional,
+        "Components of the force as formulas of the time t and measures."},
+       {"moment", list_of(3, state_formula("N m", {"t"})), optional,
+        "Components of the moment as formulas of the time t and measures."},
+       {"at", vector3("m"), otherwise("[0, 0, 0]"), "Point of application of the force in the axes of the node."},
+       {"follower", boolean(), otherwise("false"),
+        "Whether the components are along the axes of the node and turn with it; otherwise they are inertial."}}};
+  return table;
+}
+
 void read_load(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "node", "force", "moment", "at", "follower"}, "a load");
   const int node = node_named_by(entry.at("node"), model);
-  const auto force = entry.find("force"), moment = entry.find("moment"), at = entry.find("at"),
-             follower = entry.find("follower");
+  const auto force = entry.find("force"), moment = entry.find("moment"), at = entry.find("at");
   if (!force && !moment) entry.fail("a load needs `force` or `moment`");
   if (at && !force) at->fail("`at` is the point where a `force` acts, and there is none");
-  auto load = std::make_unique<Load>(name, node, at ? at->vector3() : Vector3::Zero(), follower && follower->boolean());
+  auto load = std::make_unique<Load>(name, node, entry.at("at").vector3(), entry.at("follower").boolean());
   model.when_read(Model::Stage::formulas, [load = load.get(), force, moment, &model] {
     if (force) load->read(*force, false, model);
     if (moment) load->read(*moment, true, model);

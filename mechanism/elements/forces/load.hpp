@@ -48,6 +48,7 @@ class Load : public Component, public TimeDependent {
   bool follower_;
 };
 
+const KeyTable& load_keys();
 /// Reads `{node, force, moment, at, follower}`.
 void read_load(const std::string& name, const YamlValue& entry, Model& model);
 

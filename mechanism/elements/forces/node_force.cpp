@@ -114,20 +114,34 @@ void NodeForce::describe(const LocalState& /*state*/, Description& description) 
                                           : "along inertial axes");
 }
 
+const KeyTable& node_force_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a node_force",
+      "A force and a moment between two nodes.",
+      {type_key(),
+       {"nodes", list_of(2, name_of("node")), required,
+        "The two nodes: force and moment act on the second, and back on the first at the same place."},
+       {"force", list_of(3, state_formula("N", {"t"})), optional,
+        "Components of the force as formulas of the time t and measures."},
+       {"moment", list_of(3, state_formula("N m", {"t"})), optional,
+        "Components of the moment as formulas of the time t and measures."},
+       {"at", vector3("m"), otherwise("[0, 0, 0]"), "Point of application in the axes of the second node."},
+       {"axes", word({"first", "second", "inertial"}, "whose axes the components are along"), otherwise("first"),
+        "Axes of the components: those of the first node, of the second node, or inertial ones."}}};
+  return table;
+}
+
 void read_node_force(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "nodes", "force", "moment", "at", "axes"}, "a node_force");
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   if (nodes[0] == nodes[1]) entry.at("nodes").fail("a node_force acts between two different nodes");
-  const auto force = entry.find("force"), moment = entry.find("moment"), at = entry.find("at"),
-             axes = entry.find("axes");
+  const auto force = entry.find("force"), moment = entry.find("moment");
   if (!force && !moment) entry.fail("a node_force needs `force` or `moment`");
-  const std::string along =
-      axes ? axes->word({"first", "second", "inertial"}, "whose axes the components are along") : "first";
-  auto made =
-      std::make_unique<NodeForce>(name, std::array<int, 2>{nodes[0], nodes[1]}, at ? at->vector3() : Vector3::Zero(),
-                                  along == "first"    ? NodeForce::Axes::first
-                                  : along == "second" ? NodeForce::Axes::second
-                                                      : NodeForce::Axes::inertial);
+  const std::string along = entry.at("axes").word();
+  auto made = std::make_unique<NodeForce>(name, std::array<int, 2>{nodes[0], nodes[1]}, entry.at("at").vector3(),
+                                          along == "first"    ? NodeForce::Axes::first
+                                          : along == "second" ? NodeForce::Axes::second
+                                                              : NodeForce::Axes::inertial);
   model.when_read(Model::Stage::formulas, [added = made.get(), force, moment, &model] {
     if (force) added->read(*force, false, model);
     if (moment) added->read(*moment, true, model);

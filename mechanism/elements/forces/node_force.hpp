@@ -51,6 +51,7 @@ class NodeForce final : public Component, public TimeDependent {
   References references_;
 };
 
+const KeyTable& node_force_keys();
 /// Reads `{nodes, force, moment, at, axes: first | second | inertial}`.
 void read_node_force(const std::string& name, const YamlValue& entry, Model& model);
 

@@ -138,10 +138,22 @@ Matrix6 read_field(const YamlValue& value, const Vector3& way, bool symmetric, c
 
 }  // namespace
 
+const KeyTable& stiffness_field_keys() {
+  using namespace keys;
+  KeyForms damping = forms_of_matrix(12, "N s/m or N s or N s/rad or N m s/rad");
+  damping.insert(damping.begin(), number("s").non_negative());
+  static const KeyTable table{
+      "a stiffness_field", "A part between two nodes with the stiffness matrix of another program.",
+      joined({{type_key(),
+               {"nodes", list_of(2, name_of("node")), required, "The two nodes."},
+               {"stiffness", forms_of_matrix(12, "N/m or N or N/rad or N m/rad"), required,
+                "Symmetric matrix in the order x y z rx ry rz of the first node, then of the second."},
+               {"damping", damping, optional, "Matrix in the same order, or a time that multiplies the stiffness."}},
+              orientation_keys()})};
+  return table;
+}
+
 void read_stiffness_field(const std::string& name, const YamlValue& entry, Model& model) {
-  std::vector<std::string> keys = {"type", "nodes", "stiffness", "damping"};
-  for (const Key& key : orientation_keys()) keys.push_back(key.name);
-  entry.check_keys(keys, "a stiffness_field");
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   if (nodes[0] == nodes[1]) entry.at("nodes").fail("a stiffness_field joins two different nodes");
   const Frame &a = model.node(nodes[0]).frame, &b = model.node(nodes[1]).frame;
@@ -150,7 +162,7 @@ void read_stiffness_field(const std::string& name, const YamlValue& entry, Model
   const Matrix6 K = read_field(entry.at("stiffness"), way, true, "a field that pushes away from where it is free");
   Matrix6 D = Matrix6::Zero();
   if (const auto damping = entry.find("damping"))
-    D = damping->is_scalar() ? Matrix6(damping->non_negative_number() * K)
+    D = damping->is_scalar() ? Matrix6(damping->number() * K)
                              : read_field(*damping, way, false, "a damper that drives the motion");
   if (K.isZero(0) && D.isZero(0)) entry.at("stiffness").fail("does nothing: all of its stiffness and damping is zero");
   const auto on = [&](const Frame& node) { return Frame{Vector3::Zero(), node.R.transpose() * axes}; };

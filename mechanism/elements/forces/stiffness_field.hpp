@@ -47,6 +47,7 @@ class StiffnessField final : public Component {
   ElasticLaw law_;
 };
 
+const KeyTable& stiffness_field_keys();
 /// Reads `{nodes: [a, b], stiffness: 12x12 | {file}, damping: time | 12x12 | {file}, an orientation of the matrix's
 /// axes}`.
 void read_stiffness_field(const std::string& name, const YamlValue& entry, Model& model);

@@ -54,9 +54,11 @@ class RigidBody final : public Component {
   std::vector<std::pair<std::string, std::string>> attributes_;
 };
 
+const KeyTable& rigid_body_keys();
 /// Reads `{type: rigid_body, node, mass, centre, inertia, inertia_about, inertia_axes, also}`, or the same with `solid`
 /// instead of mass and inertia.
 void read_rigid_body(const std::string& name, const YamlValue& entry, Model& model);
+const KeyTable& point_mass_keys();
 /// Reads `{type: point_mass, node, mass, centre}`.
 void read_point_mass(const std::string& name, const YamlValue& entry, Model& model);
 

@@ -46,12 +46,10 @@ Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre)
   const YamlValue value = entry.at("inertia");
   Matrix3 J = inertia_entries(value);
   if (const auto axes = entry.find("inertia_axes")) {
-    axes->check_keys(keys::names_of(orientation_keys()), "`inertia_axes`");
     const Matrix3 R = read_orientation(*axes);
     J = R * J * R.transpose();
   }
-  const bool about_node = entry.has("inertia_about") &&
-                          entry.at("inertia_about").word({"centre", "node"}, "a point for the inertia") == "node";
+  const bool about_node = entry.at("inertia_about").word() == "node";
   if (about_node) J += mass * skew(centre) * skew(centre);
   const std::string fault = inertia_fault(J);
   if (!fault.empty())
@@ -112,11 +110,42 @@ void carry(const YamlValue& also, int carrier, const std::string& body, Model& m
   }
 }
 
+const KeyTable& inertia_axes_keys() {
+  static const KeyTable table{"`inertia_axes`", "Axes of an inertia tensor by their orientation.", orientation_keys()};
+  return table;
+}
+
 }  // namespace
 
+const KeyTable& rigid_body_keys() {
+  using namespace keys;
+  const char* unit = "kg m^2";
+  static const KeyTable table{
+      "a rigid_body",
+      "A rigid body on a node, by its mass and inertia or by solids.",
+      {type_key(),
+       {"node", name_of("node"), required, "The node that moves with the body."},
+       {"mass", number("kg").positive(), optional, "Mass, which is needed without `solid`."},
+       {"centre", vector3("m"), computed("the node, or the centre of the solid"),
+        "Centre of mass in the axes of the node."},
+       {"inertia",
+        {list_of(3, number(unit)), list_of(6, number(unit)), matrix(3, 3, unit)},
+        optional,
+        "Inertia tensor as `[xx, yy, zz]`, `[xx, yy, zz, xy, xz, yz]` or three rows of three, which is needed without "
+        "`solid`."},
+       {"inertia_about", word({"centre", "node"}, "a point for the inertia"), otherwise("centre"),
+        "Point about which the inertia is given."},
+       {"inertia_axes", nested(inertia_axes_keys), computed("the axes of the node"),
+        "Orientation of the axes of the inertia, relative to those of the node."},
+       {"solid",
+        {nested(solid_keys), list_of(nested(solid_keys)).items_at_least(1)},
+        optional,
+        "Solid, or list of solids that are added up, in place of mass and inertia."},
+       {"also", list_of(name_of("node")), optional, "Further nodes that the body carries rigidly."}}};
+  return table;
+}
+
 void read_rigid_body(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "node", "mass", "centre", "inertia", "inertia_about", "inertia_axes", "solid", "also"},
-                   "a rigid_body");
   const int node = node_named_by(entry.at("node"), model);
   MassProperties p;
   if (const auto solid = entry.find("solid")) {
@@ -128,7 +157,7 @@ void read_rigid_body(const std::string& name, const YamlValue& entry, Model& mod
       p.centre = centre->vector3();
     }
   } else {
-    p.mass = entry.at("mass").positive_number();
+    p.mass = entry.at("mass").number();
     if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
     p.inertia = read_inertia(entry, p.mass, p.centre);
   }
@@ -139,11 +168,22 @@ void read_rigid_body(const std::string& name, const YamlValue& entry, Model& mod
             Entry{Section::elements, name});
 }
 
+const KeyTable& point_mass_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a point_mass",
+      "A mass without inertia about its centre.",
+      {type_key(),
+       {"node", name_of("node"), required, "The node that moves with the mass."},
+       {"mass", number("kg").non_negative(), required, "Mass."},
+       {"centre", vector3("m"), otherwise("[0, 0, 0]"), "Place of the mass in the axes of the node."}}};
+  return table;
+}
+
 void read_point_mass(const std::string& name, const YamlValue& entry, Model& model) {
-  entry.check_keys({"type", "node", "mass", "centre"}, "a point_mass");
   MassProperties p;
-  p.mass = entry.at("mass").non_negative_number();
-  if (const auto centre = entry.find("centre")) p.centre = centre->vector3();
+  p.mass = entry.at("mass").number();
+  p.centre = entry.at("centre").vector3();
   if (p.mass > 0) check_representable(entry, p);
   const int node = node_named_by(entry.at("node"), model);
   model.add(std::make_unique<RigidBody>("point_mass", name, node, p, model.node(node).name),

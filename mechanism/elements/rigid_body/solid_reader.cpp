@@ -9,6 +9,7 @@
 
 #include "mechanism/elements/rigid_body/solid_space.hpp"
 #include "mechanism/reading/read_frame.hpp"
+#include "mechanism/reading/read_numbers.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -20,40 +21,34 @@ struct UnitSolid {
 };
 
 UnitSolid read_box(const YamlValue& value) {
-  const Vector3 edges = value.positive_numbers(3, "three edges [a, b, c]");
+  const Vector3 edges = read_numbers(value, 3, "three edges [a, b, c]");
   return {box(edges), box_space(edges)};
 }
 
 UnitSolid read_sphere(const YamlValue& value) {
-  const double radius = value.positive_number();
+  const double radius = value.number();
   return {sphere(radius), sphere_space(radius)};
 }
 
 UnitSolid read_cylinder(const YamlValue& value) {
-  const VectorX e = value.positive_numbers(2, "[radius, length]");
+  const VectorX e = read_numbers(value, 2, "[radius, length]");
   return {cylinder(e[0], e[1]), tube_space(e[0], 0, e[1])};
 }
 
 UnitSolid read_tube(const YamlValue& value) {
-  if (!value.is_sequence() || value.size() != 3) value.fail("expected [outer radius, inner radius, length]");
-  VectorX e(3);
-  for (const Eigen::Index k : {0, 2}) e[k] = value.at(static_cast<std::size_t>(k)).positive_number();
-  e[1] = value.at(std::size_t{1}).non_negative_number();
+  const VectorX e = read_numbers(value, 3, "[outer radius, inner radius, length]");
   if (e[1] >= e[0]) value.fail("the inner radius must be smaller than the outer one");
   return {tube(e[0], e[1], e[2]), tube_space(e[0], e[1], e[2])};
 }
 
 UnitSolid read_cone(const YamlValue& value) {
-  if (!value.is_sequence() || value.size() != 3) value.fail("expected [radius below, radius above, length]");
-  const double below = value.at(std::size_t{0}).non_negative_number();
-  const double above = value.at(std::size_t{1}).non_negative_number();
-  if (below == 0 && above == 0) value.fail("one of the two radii must be greater than 0");
-  const double length = value.at(std::size_t{2}).positive_number();
-  return {cone(below, above, length), cone_space(below, above, length)};
+  const VectorX e = read_numbers(value, 3, "[radius below, radius above, length]");
+  if (e[0] == 0 && e[1] == 0) value.fail("one of the two radii must be greater than 0");
+  return {cone(e[0], e[1], e[2]), cone_space(e[0], e[1], e[2])};
 }
 
 UnitSolid read_ring(const YamlValue& value) {
-  const VectorX e = value.positive_numbers(2, "[radius of the centre line, radius of the section]");
+  const VectorX e = read_numbers(value, 2, "[radius of the centre line, radius of the section]");
   if (e[1] > e[0]) value.fail("the radius of the section must not exceed that of the centre line");
   return {ring(e[0], e[1]), ring_space(e[0], e[1])};
 }
@@ -75,9 +70,8 @@ struct Solid {
   PlacedSpace space;
 };
 
-Solid read_solid(const YamlValue& solid) {
-  std::vector<std::string> keys = {"density", "mass", "position", "cut"};
-  for (const Key& key : orientation_keys()) keys.push_back(key.name);
+Solid read_solid(const YamlValue& value) {
+  const YamlValue solid = value.keyed(solid_keys());
   std::vector<std::string> names;
   const Shape* given = nullptr;
   int count = 0;
@@ -87,23 +81,16 @@ Solid read_solid(const YamlValue& solid) {
     given = &shape;
     ++count;
   }
-  if (count == 0)
-    for (const auto& [key, item] : solid.entries())
-      if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        item.fail(fmt::format("'{}' is no solid{}", key, did_you_mean(key, names)));
   if (count != 1) solid.fail(fmt::format("expected exactly one of '{}'", fmt::join(names, "', '")));
-  keys.insert(keys.end(), names.begin(), names.end());
-  solid.check_keys(keys, "a solid");
   UnitSolid unit = given->read(solid.at(given->name));
   if (!solid.has("mass") && !solid.has("density")) solid.fail("a solid needs `density` or `mass`");
   if (solid.has("mass") && solid.has("density")) solid.at("mass").fail("give either `density` or `mass` of a solid");
   if (!(unit.properties.mass > 0 && std::isfinite(unit.properties.mass)))
     solid.at(given->name).fail("the volume is too large or too small for a number; lengths are in m");
-  const double density = solid.has("mass") ? solid.at("mass").positive_number() / unit.properties.mass
-                                           : solid.at("density").positive_number();
-  const bool cut = solid.has("cut") && solid.at("cut").boolean();
+  const double density =
+      solid.has("mass") ? solid.at("mass").number() / unit.properties.mass : solid.at("density").number();
   const Frame frame = read_frame(solid);
-  const double signed_density = cut ? -density : density;
+  const double signed_density = solid.at("cut").boolean() ? -density : density;
   return {placed(frame, signed_density * unit.properties), density, {std::move(unit.space), frame, signed_density}};
 }
 
@@ -132,6 +119,26 @@ void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& so
 }
 
 }  // namespace
+
+const KeyTable& solid_keys() {
+  using namespace keys;
+  const KeyForm length = number("m").positive(), radius = number("m").non_negative();
+  static const KeyTable table{
+      "a solid", "A homogeneous solid, by its shape and its density or mass.",
+      joined({{{"box", list_of(3, length), optional, "Edges along x, y and z."},
+               {"sphere", length, optional, "Radius."},
+               {"cylinder", list_of(2, length), optional, "Radius, and length along z."},
+               {"tube", tuple({{length}, {radius}, {length}}), optional,
+                "Outer radius, inner radius, and length along z."},
+               {"cone", tuple({{radius}, {radius}, {length}}), optional,
+                "Radius at the end at -z, radius at the end at +z, and length."},
+               {"ring", list_of(2, length), optional, "Radius of the centre line around z, and radius of the section."},
+               {"density", number("kg/m^3").positive(), optional, "Density; a solid has either this or a `mass`."},
+               {"mass", number("kg").positive(), optional, "Mass, in place of the density."}},
+              frame_keys(),
+              {{"cut", boolean(), otherwise("false"), "Whether the solid is removed from the others."}}})};
+  return table;
+}
 
 MassProperties read_solids(const YamlValue& value) {
   if (!value.is_sequence()) {

@@ -6,6 +6,8 @@
 
 namespace bielle::mechanism {
 
+/// The keys of a solid.
+const KeyTable& solid_keys();
 /// Reads a solid, or the sum of a list of solids, in the axes of the body's node:
 // clang-format off
 ///   {box: [a, b, c] | sphere: r | cylinder: [r, length] | tube: [outer, inner, length] | cone: [below, above, length] |

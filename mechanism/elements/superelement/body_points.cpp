@@ -27,7 +27,7 @@ YamlValue element_of(const YamlValue& point, const std::optional<YamlValue>& ele
         if (element == name) value.fail(fmt::format("'{}' is no superelement: points are inside superelements", name));
         continue;
       }
-      if (element == name) return entry;
+      if (element == name) return entry.keyed(superelement_keys());
       superelements.push_back(element);
     }
   value.fail(fmt::format("there is no superelement '{}'{}", name, did_you_mean(name, superelements)));
@@ -121,8 +121,8 @@ void join(const PointEntry& point, int index, Model& model) {
   body.attach(std::move(attached));
 }
 
-PointEntry read_point(const std::string& name, const YamlValue& entry, const std::optional<YamlValue>& elements) {
-  entry.check_keys({"element", "at", "point"}, "a point");
+PointEntry read_point(const std::string& name, const YamlValue& given, const std::optional<YamlValue>& elements) {
+  const YamlValue entry = given.keyed(point_keys());
   const YamlValue element = element_of(entry, elements);
   if (entry.has("at") == entry.has("point"))
     entry.fail(
@@ -134,6 +134,17 @@ PointEntry read_point(const std::string& name, const YamlValue& entry, const std
 }
 
 }  // namespace
+
+const KeyTable& point_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a point",
+      "A node that moves with a point of a superelement.",
+      {{"element", name_of("element"), required, "The superelement."},
+       {"at", vector3("m"), optional, "Place in the axes of the mesh; a point has either this or `point`."},
+       {"point", text(), optional, "Name of a point that the body file has, in place of `at`."}}};
+  return table;
+}
 
 void read_body_points(const YamlValue& points, const std::optional<YamlValue>& elements, Model& model) {
   for (const auto& [name, entry] : points.entries()) {

@@ -14,6 +14,8 @@
 
 namespace bielle::mechanism {
 
+/// The keys of an entry of `points`.
+const KeyTable& point_keys();
 /// Creates the nodes; they are attached to their bodies after all entries have been read.
 /// @param elements  the section of the file
 void read_body_points(const YamlValue& points, const std::optional<YamlValue>& elements, Model& model);

@@ -161,6 +161,7 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   std::unique_ptr<Workspaces> workspaces_;
 };
 
+const KeyTable& superelement_keys();
 /// Reads `name: {type: superelement, ...}` of the elements; see superelement_body_reader.cpp.
 void read_superelement_body(const std::string& name, const YamlValue& entry, Model& model);
 

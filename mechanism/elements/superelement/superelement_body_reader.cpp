@@ -18,7 +18,6 @@
 namespace bielle::mechanism {
 
 void read_superelement_body(const std::string& name, const YamlValue& entry, Model& model) {
-  check_superelement_keys(entry);
   const std::string path = entry.at("file").file_path();
   std::optional<Superelement> whole;
   try {
@@ -32,8 +31,8 @@ void read_superelement_body(const std::string& name, const YamlValue& entry, Mod
   SuperelementPlacement setup =
       place_superelement(read_interface_nodes(name, entry, body, placement, model), placement, model);
   setup.file = std::filesystem::absolute(path).lexically_normal().string();
-  if (const auto frame = entry.find("frame")) read_body_frame(*frame, body, setup);
-  if (const auto most = entry.find("largest_error")) setup.largest_error = most->positive_number();
+  read_body_frame(entry.at("frame"), body, setup);
+  if (const auto most = entry.find("largest_error")) setup.largest_error = most->number();
   if (const auto damping = entry.find("damping")) setup.damping = read_superelement_damping(*damping, body);
   if (const auto loads = entry.find("loads")) setup.loads = read_superelement_loads(*loads, body);
   try {

@@ -30,11 +30,10 @@ CutBody read_file(const YamlValue& entry, const std::string& path) {
 MatrixX read_damping(const YamlValue& damping, const Superelement& piece, const CutBody& body) {
   const auto ratio = damping.find("ratio");
   if (!ratio || damping.has("rayleigh")) return read_superelement_damping(damping, piece);
-  damping.check_keys({"ratio", "rayleigh"}, "the damping");
   if (ratio->is_sequence())
     ratio->fail("a body in pieces has one ratio, that of its first free mode: expected a number");
   if (body.free_frequencies.size() == 0) ratio->fail("the body has no elastic mode that could be damped");
-  return damping_of_piece(piece, ratio->non_negative_number(), body.free_frequencies[0]);
+  return damping_of_piece(piece, ratio->number(), body.free_frequencies[0]);
 }
 
 /// Returns all interfaces, each once, the patterns of all pieces, and the mass properties, for the readers.
@@ -80,12 +79,11 @@ void read_superelement_pieces(const std::string& name, const YamlValue& entry, c
     const Superelement& piece = body.pieces[k];
     SuperelementPlacement setup = place_superelement(nodes_of(piece, whole, nodes), placement, model);
     setup.file = {file, group_of_piece(k)};
-    if (const auto most = entry.find("largest_error")) setup.largest_error = most->positive_number();
+    if (const auto most = entry.find("largest_error")) setup.largest_error = most->number();
     if (const auto damping = entry.find("damping")) setup.damping = read_damping(*damping, piece, body);
-    if (const auto frame = entry.find("frame")) {
-      if (frame->is_map()) frame->fail("no interface is that of all pieces: expected mean or mean_axes");
-      read_body_frame(*frame, piece, setup);
-    }
+    const YamlValue frame = entry.at("frame");
+    if (frame.is_map()) frame.fail("no interface is that of all pieces: expected mean or mean_axes");
+    read_body_frame(frame, piece, setup);
     for (const SuperelementPlacement::Load& load : loads)
       if (piece.loads.contains(load.pattern)) setup.loads.push_back(load);
     const Entry own{Section::elements, fmt::format("{}.{}", name, k + 1)};

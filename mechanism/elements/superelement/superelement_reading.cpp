@@ -99,27 +99,20 @@ void follow_rigidly(int node, const RigidlyFollowed& followed, Model& model) {
   });
 }
 
-void check_superelement_keys(const YamlValue& entry) {
-  std::vector<std::string> keys = {"type", "file", "nodes", "position", "damping", "loads", "frame", "largest_error"};
-  for (const Key& key : orientation_keys()) keys.push_back(key.name);
-  entry.check_keys(keys, "a superelement");
-}
-
 MatrixX read_superelement_damping(const YamlValue& entry, const Superelement& body) {
-  entry.check_keys({"ratio", "rayleigh"}, "the damping");
   if (entry.has("ratio") == entry.has("rayleigh")) entry.fail("expected either `ratio` or `rayleigh`");
   if (const auto rayleigh = entry.find("rayleigh")) {
     if (!rayleigh->is_sequence() || rayleigh->size() != 2)
       rayleigh->fail("expected [alpha, beta]: alpha [1/s] times the mass plus beta [s] times the stiffness");
-    return rayleigh_damping(body, rayleigh->at(std::size_t{0}).non_negative_number(),
-                            rayleigh->at(std::size_t{1}).non_negative_number());
+    const VectorX factors = rayleigh->vector();
+    return rayleigh_damping(body, factors[0], factors[1]);
   }
   const YamlValue ratio = entry.at("ratio");
   std::vector<double> ratios;
   if (ratio.is_sequence())
-    for (const YamlValue& item : ratio.items()) ratios.push_back(item.non_negative_number());
+    for (const YamlValue& item : ratio.items()) ratios.push_back(item.number());
   else
-    ratios.push_back(ratio.non_negative_number());
+    ratios.push_back(ratio.number());
   for (const double each : ratios) warn_outside(ratio, each, plausible_damping_ratio);
   try {
     return modal_damping(body, ratios);
@@ -130,15 +123,9 @@ MatrixX read_superelement_damping(const YamlValue& entry, const Superelement& bo
 
 void read_body_frame(const YamlValue& entry, const Superelement& body, SuperelementPlacement& setup) {
   if (!entry.is_map()) {
-    const std::string frame = entry.text();
-    const std::vector<std::string> frames = {"mean", "mean_axes"};
-    if (frame != "mean" && frame != "mean_axes")
-      entry.fail(fmt::format("'{}' is no frame of a superelement{}; or {{interface: name}}", frame,
-                             did_you_mean(frame, frames)));
-    setup.frame = frame == "mean" ? BodyFrame::mean : BodyFrame::mean_axes;
+    setup.frame = entry.word() == "mean" ? BodyFrame::mean : BodyFrame::mean_axes;
     return;
   }
-  entry.check_keys({"interface"}, "the frame of a superelement");
   const YamlValue value = entry.at("interface");
   const std::string name = value.text();
   std::vector<std::string> interfaces;
@@ -162,11 +149,10 @@ std::vector<SuperelementPlacement::Load> read_superelement_loads(const YamlValue
     SuperelementPlacement::Load load;
     load.pattern = name;
     if (value.is_map()) {
-      value.check_keys({"factor", "follower"}, "a load of a superelement");
-      load.factor = value.at("factor").expression({"t"});
-      if (value.has("follower")) load.follows = value.at("follower").boolean();
+      load.factor = value.at("factor").expression();
+      load.follows = value.at("follower").boolean();
     } else {
-      load.factor = value.expression({"t"});
+      load.factor = value.expression();
     }
     loads.push_back(std::move(load));
   }
@@ -175,8 +161,9 @@ std::vector<SuperelementPlacement::Load> read_superelement_loads(const YamlValue
 
 std::vector<int> read_interface_nodes(const std::string& name, const YamlValue& entry, const Superelement& body,
                                       const Frame& placement, Model& model) {
-  const bool placed = entry.has("position") || std::any_of(orientation_keys().begin(), orientation_keys().end(),
-                                                           [&](const std::string& key) { return entry.has(key); });
+  const std::vector<Key> of_frame = frame_keys();
+  const bool placed =
+      std::any_of(of_frame.begin(), of_frame.end(), [&](const Key& key) { return entry.has(key.name); });
   std::vector<std::string> interfaces;
   for (const Interface& interface : body.interfaces) interfaces.push_back(interface.name);
   std::vector<int> nodes(interfaces.size(), -1);

@@ -8,9 +8,6 @@
 
 namespace bielle::mechanism {
 
-/// Checks the keys of `name: {type: superelement, ...}`.
-void check_superelement_keys(const YamlValue& entry);
-
 /// Reads C~ from `damping: {ratio: ..}` or `{rayleigh: ..}`, instead of the file's.
 MatrixX read_superelement_damping(const YamlValue& damping, const Superelement& body);
 

@@ -87,3 +87,15 @@ TEST_CASE("measures that refer to themselves, at once or through others, are ref
         "(nothing thrown)");
   CHECK_THAT(message("1", "measures: {one: \"2*t\"}\n"), Contains("formula of the state"));
 }
+
+TEST_CASE("values of measures, inputs and events may have units, which must fit where they are known") {
+  const auto said = [](const std::string& sections) { return message("1", sections); };
+  CHECK(said("measures: {tip: {node: pin, direction: x, at: [12 mm, 0, 0]}}\n") == "(nothing thrown)");
+  CHECK(said("inputs: {command: {start: 5 deg, units: rad}}\n") == "(nothing thrown)");
+  CHECK(said("events: {there: {when: main.angle, crosses: 90 deg}}\n") == "(nothing thrown)");
+  CHECK_THAT(said("measures: {tip: {node: pin, direction: x, at: [12 kg, 0, 0]}}\n"),
+             Contains("measures.tip.at[1]: expected a value in m, found one in 'kg'"));
+  CHECK_THAT(said("inputs: {command: {start: 5 nonsense}}\n"), Contains("inputs.command.start: 'nonsense' is no unit"));
+  CHECK_THAT(said("events: {there: {when: main.angle, crosses: 9 nonsense}}\n"),
+             Contains("events.there.crosses: 'nonsense' is no unit"));
+}

@@ -18,7 +18,10 @@ using Catch::Contains;
 
 namespace {
 
-Frame frame(const std::string& text) { return read_frame(YamlValue::parse(text, "model.yaml")); }
+Frame frame(const std::string& text) {
+  static const bielle::KeyTable table{"a frame", "A frame.", frame_keys()};
+  return read_frame(YamlValue::parse(text, "model.yaml").keyed(table));
+}
 
 std::string refusal(const std::string& text) {
   return message_of<InputError>([&] { frame(text); });
@@ -81,4 +84,13 @@ TEST_CASE("what gives no orientation is refused") {
   CHECK_THAT(refusal("axes: {x: [0, 0, 0], y: [0, 1, 0]}"), Contains("axes.x"));
   CHECK_THAT(refusal("axes: {x: [1, 0, 0]}"), Contains("two of the axes"));
   CHECK_THAT(refusal("axes: {x: [1, 0, 0], w: [2, 0, 0]}"), Contains("'w'"));
+}
+
+TEST_CASE("positions and angles may have units, which must fit") {
+  CHECK(error(frame("position: [12 mm, 1 inch, 0]").x, Vector3(0.012, 0.0254, 0)) < 1e-16);
+  CHECK(error(frame("bryant: [0, 0, 90 deg]").R, exp_so3({0, 0, M_PI / 2})) < 1e-15);
+  CHECK_THAT(refusal("position: [12 s, 0, 0]"),
+             Contains("model.yaml:1: position[1]: expected a value in m, found one in 's'"));
+  CHECK_THAT(refusal("bryant: [12 mm, 0, 0]"),
+             Contains("model.yaml:1: bryant[1]: expected a value in rad, found one in 'mm'"));
 }

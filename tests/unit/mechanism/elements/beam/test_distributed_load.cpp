@@ -170,6 +170,9 @@ TEST_CASE("a load that the elements' points would lose in part is refused with w
   CHECK_THAT(refusal("{moment: [\"1/(s-0.51)^2\", 0, 0]}"), Catch::Contains("distributed.moment[1]"));
   CHECK_THAT(refusal("{force: [\"sqrt(s-0.5)\", 0, 0]}"), Catch::Contains("distributed.force[1]"));
   CHECK_THAT(refusal("[]"), Catch::Contains("at least one load"));
+  CHECK(refusal("{force: [2 kN/m, 1 N/mm, 0], at: [10 mm, 0], moment: [1 kN m/m, 0, 0]}") == "(nothing thrown)");
+  CHECK_THAT(refusal("{force: [2 kN, 0, 0]}"),
+             Catch::Contains("distributed.force[1]: expected a value in N/m, found one in 'kN'"));
   // Kinks that the formula shows are integrated on both sides of them.
   CHECK(refusal("{force: [\"100*(s>0.49)*(s<0.51)\", \"sin(3*s)\", 0]}") == "(nothing thrown)");
 }

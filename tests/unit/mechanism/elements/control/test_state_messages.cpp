@@ -20,7 +20,8 @@ TEST_CASE("a state is one thing, and says which") {
   CHECK_THAT(message("states: {x: {start: 1}}\n"),
              Contains("model.yaml:") && Contains("states.x") && Contains("needs a `rate`"));
   CHECK_THAT(message("states: {x: {rte: 1}}\n"), Contains("'rte'") && Contains("did you mean 'rate'"));
-  CHECK_THAT(message("states: {x: {rate: 1, filter: main.angle}}\n"), Contains("both 'rate' and 'filter'"));
+  CHECK_THAT(message("states: {x: {rate: 1, filter: main.angle}}\n"),
+             Contains("'filter' is not a key of a state with a `rate`"));
   CHECK_THAT(message("states: {x: 3}\n"), Contains("states.x"));
   CHECK_THAT(message("stats: {x: {rate: 1}}\n"), Contains("did you mean 'states'"));
 }
@@ -56,4 +57,13 @@ TEST_CASE("what has no equilibrium of its own does not start there") {
       message("states: {total: {transfer_function: {numerator: [1], denominator: [1, 0]}, input: main.angle, start: "
               "equilibrium}}\n"),
       Contains("states.total.start") && Contains("it integrates"));
+}
+
+TEST_CASE("values of states may have units, which must fit") {
+  CHECK(message("states: {x: {filter: main.angle, time_constant: 10 ms, start: 5 deg}}\n") == "(nothing thrown)");
+  CHECK(message("states: {x: {filter: main.angle, frequency: 1200 1/min, damping: 0.7}}\n") == "(nothing thrown)");
+  CHECK_THAT(message("states: {x: {filter: main.angle, time_constant: 10 m}}\n"),
+             Contains("states.x.time_constant: expected a value in s, found one in 'm'"));
+  CHECK_THAT(message("states: {x: {filter: main.angle, frequency: 3 rad/s}}\n"),
+             Contains("states.x.frequency: expected a value in Hz, found one in 'rad/s'"));
 }

@@ -59,3 +59,37 @@ TEST_CASE("a load without force or moment is refused") {
   CHECK_THROWS_WITH(force("moment: [1, 0, 0], at: [1, 0, 0]", 0), Contains("loads.gas.at"));
   CHECK_THROWS_WITH(force("force: [1, 0]", 0), Contains("three components"));
 }
+
+TEST_CASE("components of a load may have units, which must fit") {
+  CHECK((force("force: [2 kN, 0, 0], at: [100 mm, 0, 0]", 0) - six(2000, 0, 0, 0, 0, -200)).norm() < 1e-12);
+  CHECK((force("moment: [0, 4 kN m, 0]", 0) - six(0, 0, 0, 4000, 0, 0)).norm() < 1e-12);
+  CHECK_THROWS_WITH(force("force: [0, 2 N m, 0]", 0),
+                    Contains("loads.gas.force[2]: expected a value in N, found one in 'N m'"));
+}
+
+TEST_CASE("forces and fields between nodes may have units, which must fit") {
+  const auto residual = [](const std::string& keys) {
+    const auto model = model_from_text(
+        "nodes: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0]}}\nelements: {it: {nodes: [a, b], " + keys + "}}");
+    const DenseModel dense(*model);
+    State state = dense.start();
+    state.nodes[2].x += Vector3(0.1, 0, 0);
+    return VectorX(dense.residual(state).tail<12>());
+  };
+  const auto field = [](const std::string& k, const std::string& minus_k) {
+    std::string rows;
+    for (int i = 0; i < 12; ++i) {
+      rows += "[";
+      for (int j = 0; j < 12; ++j)
+        rows += std::string(i % 6 == 0 && j % 6 == 0 ? (i == j ? k : minus_k) : "0") + (j < 11 ? ", " : "], ");
+    }
+    return "type: stiffness_field, stiffness: [" + rows + "]";
+  };
+  CHECK((residual("type: node_force, force: [1 kN, 0, 0], at: [20 mm, 0, 0]") -
+         residual("type: node_force, force: [1000, 0, 0], at: [0.02, 0, 0]"))
+            .norm() < 1e-12);
+  CHECK((residual(field("2 kN/m", "-2 kN/m")) - residual(field("2000", "-2000"))).norm() < 1e-10);
+  CHECK_THROWS_WITH(residual("type: node_force, moment: [1 kN, 0, 0]"),
+                    Contains("moment[1]: expected a value in N m, found one in 'kN'"));
+  CHECK_THROWS_WITH(residual(field("2 kg", "-2 kg")), Contains("expected a value in N/m or N") && Contains("'kg'"));
+}

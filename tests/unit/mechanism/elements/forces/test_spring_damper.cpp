@@ -94,3 +94,15 @@ TEST_CASE("contradictions in a spring are refused") {
   CHECK_THROWS_WITH(spring("stiffness: -1"), Contains("elements.s.stiffness"));
   CHECK_THROWS_WITH(spring("force: 'x*e'"), Contains("elements.s.force"));
 }
+
+TEST_CASE("values of a spring_damper may have units, which must fit") {
+  const auto tension = [](const std::string& keys) {
+    const auto model = spring(keys);
+    const DenseModel dense(*model);
+    return dense.residual(dense.start()).tail<3>().norm();
+  };
+  CHECK_THAT(tension("stiffness: 10 N/mm, length: 400 cm"), Catch::WithinRel(10000.0, 1e-14));
+  CHECK_THAT(tension("force: 2 kN"), Catch::WithinRel(2000.0, 1e-14));
+  CHECK_THROWS_WITH(spring("damping: 1 N/m"),
+                    Contains("elements.s.damping: expected a value in N s/m, found one in 'N/m'"));
+}

@@ -226,7 +226,7 @@ TEST_CASE("solids that make no body are refused") {
   CHECK_THROWS_WITH(body("solid: {sphere: 1, density: 1, mass: 2}"), Contains("either `density` or `mass`"));
   CHECK_THROWS_WITH(body("solid: {sphere: 1}"), Contains("density"));
   CHECK_THROWS_WITH(body("solid: {shpere: 1, density: 1}"),
-                    Contains("'shpere' is no solid") && Contains("did you mean 'sphere'"));
+                    Contains("'shpere' is not a key of a solid") && Contains("did you mean 'sphere'"));
   CHECK_THROWS_WITH(body("solid: {density: 1}"), Contains("exactly one of 'box', 'sphere'"));
   CHECK_THROWS_WITH(body("solid: {box: [1e200, 1e200, 1], density: 1}"),
                     Contains("elements.disk.solid.box") && Contains("too large or too small"));
@@ -363,4 +363,19 @@ TEST_CASE("the share of each shape that projects is that of its volume") {
     CHECK_THAT(ReadSolids(material + ", {" + shape + turned).warnings,
                Contains(fmt::format("about {} % of what", share == std::string("27") ? "73" : share)));
   }
+}
+
+TEST_CASE("masses, lengths and inertias of bodies may have units, which must fit") {
+  CHECK(error(mass_matrix(*body("mass: 2000 g, centre: [0, 0, 300 mm], inertia: [1, 1.5, 2e6 kg mm^2]")),
+              mass_matrix(*body("mass: 2, centre: [0, 0, 0.3], inertia: [1, 1.5, 2]"))) < 1e-14);
+  CHECK(error(mass_matrix(*body("mass: 2, inertia: [1, 1.5, 2], inertia_axes: {bryant: [90 deg, 0, 0]}")),
+              mass_matrix(*body("mass: 2, inertia: [1, 2, 1.5]"))) < 1e-14);
+  CHECK(error(mass_matrix(*body("solid: {tube: [20 cm, 100 mm, 0.3], density: 7.85 g/cm^3}")),
+              mass_matrix(*body("solid: {tube: [0.2, 0.1, 0.3], density: 7850}"))) < 1e-12);
+  CHECK_THROWS_WITH(body("mass: 2 m, inertia: [1, 1, 1]"),
+                    Contains("elements.disk.mass: expected a value in kg, found one in 'm'"));
+  CHECK_THROWS_WITH(body("solid: {sphere: 2 kg, density: 1}"),
+                    Contains("elements.disk.solid.sphere: expected a value in m, found one in 'kg'"));
+  CHECK_THROWS_WITH(model_from_text("nodes: {a: {}}\nelements: {p: {type: point_mass, node: a, mass: 1 s}}\n"),
+                    Contains("elements.p.mass: expected a value in kg, found one in 's'"));
 }

@@ -139,6 +139,9 @@ TEST_CASE("wrong points are refused with what to do") {
   };
   CHECK_THAT(refusal("points: {p: {element: it, at: [0.5, 0.3, 0]}}\n"),
              Contains("points.p.at") && Contains("away from the nearest node"));
+  CHECK(refusal("points: {p: {element: it, at: [500 mm, 0, 0]}}\n") == "(nothing thrown)");
+  CHECK_THAT(refusal("points: {p: {element: it, at: [500 kg, 0, 0]}}\n"),
+             Contains("points.p.at[1]: expected a value in m, found one in 'kg'"));
   CHECK_THAT(refusal("points: {p: {element: bit, at: [0.5, 0, 0]}}\n"),
              Contains("no superelement 'bit'; did you mean 'it'"));
   CHECK_THAT(refusal("points: {root: {element: it, at: [0.5, 0, 0]}}\n"), Contains("points.root") && Contains("root"));

@@ -121,9 +121,11 @@ TEST_CASE("what does not fit a body in pieces is refused with its place") {
              Contains("'wnd' is no load pattern of 'beam'; did you mean 'wind'"));
   CHECK_THAT(files.message("", ", damping: {ratio: [0.1, 0.2]}"), Contains("a body in pieces has one ratio"));
   CHECK_THAT(files.message("", ", frame: {interface: root}"), Contains("no interface is that of all pieces"));
-  CHECK_THAT(files.message("", ", frame: men"), Contains("'men' is no frame of a superelement; did you mean 'mean'"));
+  CHECK_THAT(files.message("", ", frame: men"),
+             Contains("'men' is not a frame of a superelement; did you mean 'mean'"));
   CHECK_THAT(files.message("", ", frame: {interface: root}"), Contains("no interface is that of all pieces"));
-  CHECK_THAT(files.message("", ", frame: men"), Contains("'men' is no frame of a superelement; did you mean 'mean'"));
+  CHECK_THAT(files.message("", ", frame: men"),
+             Contains("'men' is not a frame of a superelement; did you mean 'mean'"));
   CHECK_THAT(files.message("", ", damping: {}"), Contains("expected either `ratio` or `rayleigh`"));
   CHECK_THAT(files.message("a: {position: [5, 0, 0]}", "", "  blade.2: {type: point_mass, node: a, mass: 1}\n"),
              Contains("a piece of this body is called 'blade.2', as another element is"));

@@ -223,3 +223,19 @@ TEST_CASE("mistakes in a superelement's entry are named") {
   CHECK_THAT(files.message("", "beam.h5, damping: {ratio: [0,0,0,0,0,0,0,0,0,0,0,0]}"),
              Contains("expected 1 to 10 damping ratios") && Contains("found 12"));
 }
+
+TEST_CASE("placement and damping of a superelement may have units, which must fit") {
+  const Files files;
+  const auto damping = [&](const std::string& keys) {
+    const auto model = files.model("", "beam.h5, " + keys);
+    return MatrixX(body_of(*model).damping());
+  };
+  CHECK((damping("damping: {rayleigh: [60 1/min, 2 ms]}") - damping("damping: {rayleigh: [1, 0.002]}")).norm() <
+        1e-14 * damping("damping: {rayleigh: [1, 0.002]}").norm());
+  const auto placed = files.model("", "beam.h5, position: [12 mm, 0, 0], bryant: [0, 0, 90 deg]");
+  CHECK(error(placed->node(*placed->find_node("rod.a")).frame.x, Vector3(0.012, 0, 0)) < 1e-15);
+  CHECK_THAT(files.message("", "beam.h5, damping: {rayleigh: [1, 2 m]}"),
+             Contains("damping.rayleigh[2]: expected a value in s, found one in 'm'"));
+  CHECK_THAT(files.message("", "bent.h5, loads: {push: 2 N}"),
+             Contains("expected a number without a unit") && Contains("'N'"));
+}
