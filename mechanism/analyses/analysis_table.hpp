@@ -18,6 +18,9 @@ struct AnalysisType {
   const KeyTable& (*keys)();  ///< what an entry may contain
 };
 
+/// Returns the key that names the type of an analysis.
+Key analysis_type_key(const std::string& type);
+
 const std::vector<AnalysisType>& analysis_table();
 
 /// Reads an entry of the section `analysis`. @throws InputError for an unknown type, naming the nearest name

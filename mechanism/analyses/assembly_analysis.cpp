@@ -34,8 +34,7 @@ class AssemblyAnalysis : public Analysis {
 
 void read_kept(const YamlValue& item, const Model& model, AssemblyOptions& options) {
   if (item.is_map()) {
-    options.kept_coordinates.push_back(
-        read_coordinate_map(item, "`keep`, which names a node or a coordinate of a joint", model));
+    options.kept_coordinates.push_back(read_coordinate_map(item, model));
     return;
   }
   const std::string word = item.text();
@@ -57,8 +56,20 @@ void read_kept(const YamlValue& item, const Model& model, AssemblyOptions& optio
 
 }  // namespace
 
+const KeyTable& assembly_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the analysis 'assembly'",
+      "Positions and velocities are made consistent, and recorded.",
+      {analysis_type_key("assembly"),
+       {"keep",
+        list_of(KeyForms{name_of("node"), name_of("joint"), state_formula("any", {}), nested(kept_coordinate_keys)}),
+        optional,
+        "Nodes that stay exactly in place, and coordinates of joints, `joint.coordinate`, that keep their values."}}};
+  return table;
+}
+
 std::unique_ptr<Analysis> read_assembly(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "keep"}, "the analysis 'assembly'");
   AssemblyOptions options;
   if (const auto keep = entry.find("keep"))
     for (const YamlValue& item : keep->items()) {

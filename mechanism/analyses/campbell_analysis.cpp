@@ -15,6 +15,59 @@
 namespace bielle::mechanism {
 namespace {
 
+std::vector<Key> range_keys(const char* unit) {
+  using namespace keys;
+  return {{"from", number(unit), otherwise("0"), "The first value."},
+          {"to", number(unit), required, "The last value, greater than `from`."},
+          {"count", integer().at_least(2), otherwise("41"), "Number of equidistant values."}};
+}
+
+const KeyTable& rates_keys() {
+  static const KeyTable table{"`speeds`", "A range of rates of the rotation.", range_keys("rad/s")};
+  return table;
+}
+
+const KeyTable& values_keys() {
+  static const KeyTable table{"`speeds`", "A range of values of the parameter.", range_keys("any")};
+  return table;
+}
+
+const KeyTable& swept_rotation_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "`rotation` of a sweep",
+      "Steady rotation of all free parts about an axis, into which the mechanism is brought at each value.",
+      {{"axis", direction().as_axial().in_inertial_axes(), required, "Direction of the axis, in inertial components."},
+       {"position", vector3("m").as_point().in_inertial_axes(), otherwise("[0, 0, 0]"), "A point of the axis."},
+       {"rate", number("rad/s"), computed("the parameter, or the `speeds` themselves"),
+        "Angular velocity about the axis, a formula of the parameters."}}};
+  return table;
+}
+
+/// Returns the keys of a sweep, with or without a parameter.
+std::vector<Key> sweep_keys(const char* unit, const KeyTable& (*range)()) {
+  using namespace keys;
+  return {analysis_type_key("campbell"),
+          {"parameter", name_of("parameter"), optional,
+           "Parameter of the model that the `speeds` are values of; without it they are rates of the `rotation`."},
+          {"rotation", nested(swept_rotation_keys), optional, "Steady rotation of everything free at each value."},
+          {"speeds",
+           {list_of(number(unit)).items_at_least(2), nested(range)},
+           required,
+           "Values of the parameter or of the rate of the rotation, ascending, as a list or a range."},
+          {"modes", integer().at_least(1), otherwise("8"),
+           "Number of modes that are tracked: the slowest that oscillate at the first value."},
+          {"orders", list_of(number().positive()), otherwise("[1]"), "Multiples of the speed, for critical speeds."},
+          {"node", name_of("node"), computed("the node that turns fastest"),
+           "Node whose angular velocity about the axis is the speed."}};
+}
+
+const KeyTable& parameter_sweep_keys() {
+  static const KeyTable table{"the analysis 'campbell'", "Modes over the values of a parameter, and critical speeds.",
+                              sweep_keys("any", values_keys)};
+  return table;
+}
+
 /// Reads `{from: 0, to: 300, count: 61}`, or a list.
 std::vector<double> read_speeds(const YamlValue& entry) {
   std::vector<double> values;
@@ -26,11 +79,9 @@ std::vector<double> read_speeds(const YamlValue& entry) {
     if (values.size() < 2) entry.fail("expected at least two values");
     return values;
   }
-  entry.check_keys({"from", "to", "count"}, "`speeds`");
-  const double from = entry.has("from") ? entry.at("from").number() : 0, to = entry.at("to").number();
+  const double from = entry.at("from").number(), to = entry.at("to").number();
   if (to <= from) entry.at("to").fail("expected more than `from`");
-  const int count = entry.has("count") ? entry.at("count").integer() : 41;
-  if (count < 2) entry.at("count").fail("expected at least 2 values");
+  const int count = entry.at("count").integer();
   for (int k = 0; k < count; ++k) values.push_back(from + (to - from) * k / (count - 1));
   return values;
 }
@@ -45,21 +96,16 @@ std::string read_swept_parameter(const YamlValue& entry, const Model& model) {
 }
 
 /// Reads `{axis: [0, 0, 1], position: [0, 0, 0], rate: "rpm*pi/30"}`.
-void read_swept_rotation(const YamlValue& entry, const Model& model, CampbellOptions& options) {
-  entry.check_keys({"axis", "position", "rate"}, "`rotation` of a sweep");
+void read_swept_rotation(const YamlValue& entry, CampbellOptions& options) {
   options.rotation = true;
   options.axis = Vector3(entry.at("axis").direction());
-  if (const auto position = entry.find("position")) options.through = position->vector3();
+  options.through = entry.at("position").vector3();
   const auto rate = entry.find("rate");
   if (!rate) return;
   if (options.parameter.empty())
     rate->fail("the rates are the `speeds`: give a formula where a `parameter` is swept that is no speed in rad/s");
-  options.rate = rate->text();
-  try {
-    Expression(options.rate, {}, model.parameters)({});
-  } catch (const std::runtime_error& error) {
-    rate->fail(error.what());
-  }
+  rate->number();  // refuses a text that is no formula of the parameters
+  options.rate = rate->formula_text({}, {}).replaced;
 }
 
 std::string format_frequency(const TrackedMode& mode) {
@@ -133,24 +179,26 @@ std::string CampbellAnalysis::format(const Campbell& found) const {
   return text;
 }
 
+const KeyTable& campbell_keys() {
+  static const KeyTable table{"the analysis 'campbell'",
+                              "Modes over the speed of a rotor, each followed by its shape, and critical speeds.",
+                              sweep_keys("rad/s", rates_keys),
+                              {{"parameter", "", parameter_sweep_keys}}};
+  return table;
+}
+
 std::unique_ptr<Analysis> read_campbell(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "parameter", "rotation", "speeds", "modes", "orders", "node"}, "the analysis 'campbell'");
   CampbellOptions options;
   if (const auto parameter = entry.find("parameter")) options.parameter = read_swept_parameter(*parameter, model);
-  if (const auto rotation = entry.find("rotation")) read_swept_rotation(*rotation, model, options);
+  if (const auto rotation = entry.find("rotation")) read_swept_rotation(*rotation, options);
   if (options.parameter.empty() && !options.rotation)
     entry.fail(
         "expected the `parameter` whose values are swept, or a `rotation` about an axis in which everything free "
         "turns");
   options.values = read_speeds(entry.at("speeds"));
-  if (const auto modes = entry.find("modes")) {
-    options.modes = modes->integer();
-    if (options.modes < 1) modes->fail("expected at least one mode");
-  }
-  if (const auto orders = entry.find("orders")) {
-    options.orders.clear();
-    for (const YamlValue& item : orders->items()) options.orders.push_back(item.positive_number());
-  }
+  options.modes = entry.at("modes").integer();
+  options.orders.clear();
+  for (const YamlValue& item : entry.at("orders").items()) options.orders.push_back(item.number());
   if (const auto node = entry.find("node")) options.node = node_named_by(*node, model);
   return std::make_unique<CampbellAnalysis>(std::move(options));
 }

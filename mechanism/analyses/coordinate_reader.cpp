@@ -39,8 +39,17 @@ const Component* joint_before_dot(const std::string& word, const Model& model) {
   return members.empty() ? nullptr : model.members()[members.front()].component.get();
 }
 
-AssemblyOptions::Coordinate read_coordinate_map(const YamlValue& item, const std::string& key, const Model& model) {
-  item.check_keys({"joint", "coordinate"}, key);
+const KeyTable& kept_coordinate_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a coordinate that keeps its value",
+      "A coordinate of a joint.",
+      {{"joint", name_of("joint"), required, "The joint."},
+       {"coordinate", text(), computed("the only coordinate of the joint"), "Name of the coordinate."}}};
+  return table;
+}
+
+AssemblyOptions::Coordinate read_coordinate_map(const YamlValue& item, const Model& model) {
   const Component& joint = component_named_by(Section::joints, item.at("joint"), model);
   const auto coordinate = item.find("coordinate");
   return read_coordinate(coordinate ? *coordinate : item, joint,
@@ -51,7 +60,7 @@ namespace {
 
 void read_held(const YamlValue& item, const Model& model, std::vector<AssemblyOptions::Coordinate>& held) {
   if (item.is_map()) {
-    held.push_back(read_coordinate_map(item, "`hold`, which names joints or coordinates of joints", model));
+    held.push_back(read_coordinate_map(item, model));
     return;
   }
   const std::string word = item.text();

@@ -19,8 +19,9 @@ std::vector<std::string> names_of_coordinates(const Component& joint);
 AssemblyOptions::Coordinate read_coordinate(const YamlValue& item, const Component& joint,
                                             const std::optional<std::string>& name);
 
+const KeyTable& kept_coordinate_keys();
 /// Reads `{joint: .., coordinate: ..}`; the coordinate may be omitted if there is only one.
-AssemblyOptions::Coordinate read_coordinate_map(const YamlValue& item, const std::string& key, const Model& model);
+AssemblyOptions::Coordinate read_coordinate_map(const YamlValue& item, const Model& model);
 
 /// Returns the joint of a word "joint.coordinate", or nullptr.
 const Component* joint_before_dot(const std::string& word, const Model& model);

@@ -18,28 +18,19 @@ namespace bielle::mechanism {
 namespace {
 
 Scheme read_scheme(const YamlValue& entry, std::string& description) {
-  const std::string name = entry.has("scheme")
-                               ? entry.at("scheme").word({"generalized_alpha", "hht", "newmark"}, "a scheme")
-                               : std::string("generalized_alpha");
+  const std::string name = entry.at("scheme").word();
   const auto refuse = [&](const char* key) {
     if (entry.has(key)) entry.at(key).fail(fmt::format("is no parameter of the scheme '{}'", name));
   };
-  const auto in_range = [&](const char* key, double fallback, double least, double most) {
-    if (!entry.has(key)) return fallback;
-    const double value = entry.at(key).number();
-    if (value < least || value > most)
-      entry.at(key).fail(fmt::format("expected a number from {} to {:.4g}, found {}", least, most, value));
-    return value;
-  };
   if (name == "generalized_alpha") {
     refuse("alpha");
-    const double rho = in_range("rho", 0.8, 0, 1);
+    const double rho = entry.at("rho").number();
     description = fmt::format("generalised-alpha, rho = {}", rho);
     return Scheme::generalized_alpha(rho);
   }
   refuse("rho");
   if (name == "hht") {
-    const double alpha = in_range("alpha", 0.1, 0, 1.0 / 3);
+    const double alpha = entry.at("alpha").number();
     description = fmt::format("HHT, alpha = {}", alpha);
     return Scheme::hht(alpha);
   }
@@ -51,18 +42,17 @@ Scheme read_scheme(const YamlValue& entry, std::string& description) {
 /// Reads `step`: steps are fixed if it is given alone. With `tolerance` they are adaptive, and `step` is the first.
 StepOptions read_stepping(const YamlValue& entry, double duration) {
   StepOptions options;
+  const auto largest = entry.find("largest_step");
   if (entry.has("tolerance")) {
-    options.tolerance = entry.at("tolerance").positive_number();
-    if (options.tolerance >= 1)
-      entry.at("tolerance").fail("expected less than 1: it is relative to the mechanism's size");
-    options.size = entry.has("step") ? entry.at("step").positive_number() : 1e-4 * duration;
-    if (entry.has("largest_step")) options.largest = entry.at("largest_step").positive_number();
+    options.tolerance = entry.at("tolerance").number();
+    options.size = entry.has("step") ? entry.at("step").number() : 1e-4 * duration;
+    if (largest) options.largest = largest->number();
     if (options.size > options.largest)
       entry.at("step").fail(
           fmt::format("{:.6g} s is longer than the largest step, {:.6g} s", options.size, options.largest));
   } else {
-    options.size = entry.at("step").positive_number();
-    if (entry.has("largest_step")) entry.at("largest_step").fail("is for adaptive steps: give a `tolerance` as well");
+    options.size = entry.at("step").number();
+    if (largest) largest->fail("is for adaptive steps: give a `tolerance` as well");
   }
   check_step(entry, entry.has("step") ? "step" : "duration", options.size, duration);
   return options;
@@ -182,13 +172,24 @@ std::string format_energy(const Session& session, const Motion& motion, const Dy
 
 namespace {
 
+const KeyTable& start_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a start",
+      "Start in static equilibrium.",
+      {{"equilibrium", boolean(), required, "Whether the motion starts in static equilibrium under the loads."},
+       {"hold", list_of(KeyForms{name_of("joint"), state_formula("any", {}), nested(kept_coordinate_keys)}), optional,
+        "Joints, or coordinates of joints as `joint.coordinate`, that keep their values while the rest comes into "
+        "equilibrium."}}};
+  return table;
+}
+
 /// Reads `start: as_given`, `start: equilibrium`, or `start: {equilibrium: true, hold: [shaft]}`.
 void read_start(const YamlValue& start, const Model& model, DynamicsOptions& options) {
   if (!start.is_map()) {
-    options.equilibrium = start.word({"as_given", "equilibrium"}, "a start") == "equilibrium";
+    options.equilibrium = start.word() == "equilibrium";
     return;
   }
-  start.check_keys({"equilibrium", "hold"}, "a start");
   options.equilibrium = start.at("equilibrium").boolean();
   const auto hold = start.find("hold");
   if (!hold) return;
@@ -198,27 +199,49 @@ void read_start(const YamlValue& start, const Model& model, DynamicsOptions& opt
 
 }  // namespace
 
+const KeyTable& dynamic_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the analysis 'dynamic'",
+      "Motion by integration in time.",
+      {analysis_type_key("dynamic"),
+       {"duration", number("s").positive(), required, "Duration of the motion."},
+       {"step", number("s").positive(), computed("with `tolerance` 1e-4 of the duration; else it is required"),
+        "Length of the steps; with `tolerance`, that of the first one."},
+       {"tolerance", number().inside(0, 1), optional,
+        "Error of each adaptive step, relative to the size of the mechanism; without it steps are of equal length."},
+       {"largest_step", number("s").positive(), optional, "Greatest length of adaptive steps."},
+       {"scheme", word({"generalized_alpha", "hht", "newmark"}, "a scheme"), otherwise("generalized_alpha"),
+        "Scheme of integration."},
+       {"rho", number().between(0, 1), otherwise("0.8"),
+        "Spectral radius of `generalized_alpha` at infinite frequency; 1 is without dissipation."},
+       {"alpha", number().between(0, 1.0 / 3), otherwise("0.1"), "Parameter of `hht`; 0 is without dissipation."},
+       {"constraints", word({"corrected", "position", "stabilized"}, "a form of constraints"), otherwise("corrected"),
+        "Form of the joints' constraints: `corrected` positions and, in fast turns, velocities; `stabilized` positions "
+        "and velocities together; `position` alone."},
+       {"start",
+        {word({"as_given", "equilibrium"}, "a start"), nested(start_keys)},
+        otherwise("as_given"),
+        "Positions at the start: `as_given`, or in static `equilibrium` under the loads."},
+       dynamic_newton_key()}};
+  return table;
+}
+
 std::unique_ptr<Analysis> read_dynamic(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "duration", "step", "tolerance", "largest_step", "scheme", "rho", "alpha", "constraints",
-                    "start", "newton"},
-                   "the analysis 'dynamic'");
   DynamicsOptions options;
-  options.duration = entry.at("duration").positive_number();
+  options.duration = entry.at("duration").number();
   options.stepping = read_stepping(entry, options.duration);
   std::string scheme;
   options.scheme = read_scheme(entry, scheme);
-  options.newton = read_newton(entry, true);
-  if (const auto start = entry.find("start")) read_start(*start, model, options);
-  if (entry.has("constraints")) {
-    const std::string form =
-        entry.at("constraints").word({"corrected", "position", "stabilized"}, "a form of constraints");
-    if (form == "position") {
-      options.form = ConstraintForm::position;
-      scheme += ", constraints of positions alone";
-    } else if (form == "stabilized") {
-      options.form = ConstraintForm::stabilised;
-      scheme += ", stabilised constraints";
-    }
+  options.newton = read_newton(entry);
+  read_start(entry.at("start"), model, options);
+  const std::string form = entry.at("constraints").word();
+  if (form == "position") {
+    options.form = ConstraintForm::position;
+    scheme += ", constraints of positions alone";
+  } else if (form == "stabilized") {
+    options.form = ConstraintForm::stabilised;
+    scheme += ", stabilised constraints";
   }
   return std::make_unique<DynamicAnalysis>(std::move(options), std::move(scheme));
 }

@@ -112,24 +112,34 @@ std::string format_remarks(const ModesReport& report) {
 
 }  // namespace
 
+const KeyTable& eigen_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the analysis 'eigen'",
+      "Modes of small motions about the present state.",
+      {analysis_type_key("eigen"),
+       {"count", integer().at_least(1), otherwise("20"),
+        "Number of modes: the slowest besides rigid ones, or the nearest to `near`."},
+       {"near", number("Hz").positive(), optional, "Frequency around which modes are sought."},
+       {"below", number("Hz").positive(), optional, "Limit of frequencies below which all modes are found."},
+       rotation_key(),
+       {"shapes", boolean(), otherwise("true"), "Whether the shapes of the modes are recorded."}}};
+  return table;
+}
+
 std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& /*model*/) {
-  entry.check_keys({"type", "count", "near", "below", "rotation", "shapes"}, "the analysis 'eigen'");
   ModesOptions all;
   ModeOptions& options = all.search;
-  if (const auto count = entry.find("count")) {
-    options.count = count->integer();
-    if (options.count < 1) count->fail("expected at least one mode");
-  }
-  if (const auto near = entry.find("near")) options.near = near->positive_number();
+  options.count = entry.at("count").integer();
+  if (const auto near = entry.find("near")) options.near = near->number();
   if (const auto below = entry.find("below")) {
     if (options.near)
       below->fail("give either `near`, a frequency around which modes are sought, or `below`, their limit");
     if (entry.has("count")) below->fail("all modes below a frequency are found, however many: leave `count` out");
-    options.below = below->positive_number();
+    options.below = below->number();
   }
   if (const auto rotation = entry.find("rotation")) all.rotation = read_rotation(*rotation);
-  const bool shapes = !entry.has("shapes") || entry.at("shapes").boolean();
-  return std::make_unique<EigenAnalysis>(std::move(all), shapes);
+  return std::make_unique<EigenAnalysis>(std::move(all), entry.at("shapes").boolean());
 }
 
 void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {

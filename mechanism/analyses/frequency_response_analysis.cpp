@@ -14,25 +14,32 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Reads `{from: 1, to: 100, count: 200, spacing: logarithmic}`, or a list.
+const KeyTable& frequencies_keys() {
+  using namespace keys;
+  static const KeyTable table{"`frequencies`",
+                              "A range of frequencies.",
+                              {{"from", number("Hz").non_negative(), required,
+                                "The first frequency, greater than 0 if the spacing is not even."},
+                               {"to", number("Hz").positive(), required, "The last frequency, greater than `from`."},
+                               {"count", integer().at_least(2), otherwise("200"), "Number of frequencies."},
+                               {"spacing", word({"logarithmic", "even"}, "a spacing"), otherwise("logarithmic"),
+                                "Distances of the frequencies: in equal ratios, or `even`."}}};
+  return table;
+}
+
+/// Reads a range of frequencies, or a list.
 std::vector<double> read_frequencies(const YamlValue& entry) {
   std::vector<double> frequencies;
   if (entry.is_sequence()) {
-    for (const YamlValue& item : entry.items()) {
-      frequencies.push_back(item.number());
-      if (frequencies.back() < 0) item.fail("expected a frequency of 0 or more [Hz]");
-    }
+    for (const YamlValue& item : entry.items()) frequencies.push_back(item.number());
     if (frequencies.empty()) entry.fail("expected at least one frequency");
     return frequencies;
   }
-  entry.check_keys({"from", "to", "count", "spacing"}, "`frequencies`");
-  const bool even = entry.has("spacing") && entry.at("spacing").word({"logarithmic", "even"}, "a spacing") == "even";
-  const double from = even ? entry.at("from").number() : entry.at("from").positive_number();
-  const double to = entry.at("to").positive_number();
-  if (from < 0) entry.at("from").fail("expected a frequency of 0 or more [Hz]");
+  const bool even = entry.at("spacing").word() == "even";
+  const double from = entry.at("from").number(), to = entry.at("to").number();
+  if (from == 0 && !even) entry.at("from").fail("expected a frequency greater than 0, or `spacing: even`");
   if (to <= from) entry.at("to").fail("expected more than `from`");
-  const int count = entry.has("count") ? entry.at("count").integer() : 200;
-  if (count < 2) entry.at("count").fail("expected at least 2 frequencies");
+  const int count = entry.at("count").integer();
   for (int k = 0; k < count; ++k) {
     const double part = static_cast<double>(k) / (count - 1);
     frequencies.push_back(even ? from + part * (to - from) : from * std::pow(to / from, part));
@@ -42,9 +49,24 @@ std::vector<double> read_frequencies(const YamlValue& entry) {
 
 }  // namespace
 
+const KeyTable& frequency_response_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the analysis 'frequency_response'", "Harmonic responses of small motions.",
+      joined({{analysis_type_key("frequency_response")},
+              response_keys(),
+              {{"frequencies",
+                {list_of(number("Hz").non_negative()).items_at_least(1), nested(frequencies_keys)},
+                required,
+                "The frequencies, as a list or a range."},
+               {"modes", integer().at_least(1), optional,
+                "Number of the slowest modes over which responses are summed; without the key each frequency is solved "
+                "directly."},
+               rotation_key()}})};
+  return table;
+}
+
 std::unique_ptr<Analysis> read_frequency_response(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "inputs", "outputs", "frequencies", "rotation", "modes"},
-                   "the analysis 'frequency_response'");
   FrequencyResponseOptions options;
   options.inputs = read_response_inputs(entry, model);
   options.outputs = read_response_outputs(entry, model);
@@ -52,8 +74,6 @@ std::unique_ptr<Analysis> read_frequency_response(const YamlValue& entry, const 
   if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation);
   if (const auto modes = entry.find("modes")) {
     options.modes = modes->integer();
-    if (options.modes < 1)
-      modes->fail("expected at least one mode; without `modes` each frequency is answered directly");
     if (std::all_of(options.frequencies.begin(), options.frequencies.end(), [](double f) { return f == 0; }))
       modes->fail("a sum over modes is for frequencies above 0; the answer at 0 alone is found directly");
   }

@@ -52,17 +52,36 @@ class KinematicAnalysis final : public Analysis {
   KinematicsOptions options_;
 };
 
+std::vector<Key> keys_of(const std::string& type) {
+  using namespace keys;
+  return {analysis_type_key(type),
+          {"duration", number("s").positive(), required, "Duration of the motion."},
+          {"step", number("s").positive(), required, "Time from one position to the next."}};
+}
+
 std::unique_ptr<Analysis> read(const YamlValue& entry, const std::string& type) {
-  entry.check_keys({"type", "duration", "step"}, fmt::format("the analysis '{}'", type));
   KinematicsOptions options;
-  options.duration = entry.at("duration").positive_number();
-  options.step = entry.at("step").positive_number();
+  options.duration = entry.at("duration").number();
+  options.step = entry.at("step").number();
   check_step(entry, "step", options.step, options.duration);
   options.elastic = type == "inverse_dynamics";
   return std::make_unique<KinematicAnalysis>(type, options);
 }
 
 }  // namespace
+
+const KeyTable& kinematic_keys() {
+  static const KeyTable table{"the analysis 'kinematic'", "Motion of rigid parts that is driven completely.",
+                              keys_of("kinematic")};
+  return table;
+}
+
+const KeyTable& inverse_dynamics_keys() {
+  static const KeyTable table{"the analysis 'inverse_dynamics'",
+                              "Forces of a motion that is driven completely; elastic parts follow in equilibrium.",
+                              keys_of("inverse_dynamics")};
+  return table;
+}
 
 std::unique_ptr<Analysis> read_kinematic(const YamlValue& entry, const Model& /*model*/) {
   return read(entry, "kinematic");

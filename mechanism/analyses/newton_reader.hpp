@@ -6,8 +6,11 @@
 
 namespace bielle::mechanism {
 
-/// Reads `newton: {tolerance, iterations, line_search, tangent}` of an analysis; defaults apply if it is missing.
-/// @param dynamic  whether the key `tangent` is allowed. @throws InputError
-NewtonOptions read_newton(const YamlValue& analysis, bool dynamic);
+/// Returns the key `newton` of a static analysis, and of a dynamic one, which has `tangent` as well.
+Key newton_key();
+Key dynamic_newton_key();
+
+/// Reads the key `newton` of an analysis; defaults apply if it is missing. @throws InputError
+NewtonOptions read_newton(const YamlValue& analysis);
 
 }  // namespace bielle::mechanism

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/analyses/direction_reader.hpp"
 #include "mechanism/measures/input_measure.hpp"
 #include "mechanism/reading/names.hpp"
 
@@ -24,6 +25,28 @@ std::string named_measure(const YamlValue& item, const Model& model, const char*
   return name;
 }
 
+const KeyTable& input_keys() {
+  using namespace keys;
+  static const KeyTable table{"an input: a force on a node",
+                              "A force or moment on a node.",
+                              {{"node", name_of("node"), required, "The node on which it acts."},
+                               {"direction", direction_forms(), required, "Inertial direction: x, y, z or a vector."},
+                               {"quantity", word({"force", "moment"}, "a quantity"), otherwise("force"),
+                                "A `force` [N], or a `moment` [N m]."}}};
+  return table;
+}
+
+const KeyTable& output_motion_keys() {
+  using namespace keys;
+  static const KeyTable table{"an output: what a node does",
+                              "A small motion of a node.",
+                              {{"node", name_of("node"), required, "The node that moves."},
+                               {"direction", direction_forms(), required, "Inertial direction: x, y, z or a vector."},
+                               {"quantity", word({"displacement", "rotation"}, "a quantity"), otherwise("displacement"),
+                                "The `displacement` [m], or the `rotation` [rad]."}}};
+  return table;
+}
+
 struct Directed {
   int node;
   bool turning;
@@ -31,35 +54,36 @@ struct Directed {
   std::string name;
 };
 
-/// Reads `{node: tip, direction: z}`. @param straight,turning  permitted values of `quantity`
-Directed read_directed(const YamlValue& item, const Model& model, const char* straight, const char* turning,
-                       const char* what) {
-  item.check_keys({"node", "direction", "quantity"}, what);
+/// Reads `{node: tip, direction: z}`.
+Directed read_directed(const YamlValue& item, const Model& model) {
   Directed result;
   result.node = node_named_by(item.at("node"), model);
-  const std::string quantity =
-      item.has("quantity") ? item.at("quantity").word({straight, turning}, "a quantity") : std::string(straight);
-  result.turning = quantity == turning;
+  const std::string quantity = item.at("quantity").word();
+  result.turning = quantity == "moment" || quantity == "rotation";
   const YamlValue direction = item.at("direction");
-  std::string axis;
-  if (direction.is_sequence()) {
-    result.direction = direction.direction();
-    axis = fmt::format("({:.3g}, {:.3g}, {:.3g})", result.direction.x(), result.direction.y(), result.direction.z());
-  } else {
-    axis = direction.word({"x", "y", "z"}, "a direction (x, y, z or a vector)");
-    result.direction = Vector3::Unit(axis[0] - 'x');
-  }
+  result.direction = read_direction(direction);
+  const Vector3& d = result.direction;
+  const std::string axis =
+      direction.is_sequence() ? fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x(), d.y(), d.z()) : direction.text();
   result.name = fmt::format("{} {} of node '{}'", quantity, axis, model.node(result.node).name);
   return result;
 }
 
 }  // namespace
 
+std::vector<Key> response_keys() {
+  using namespace keys;
+  return {{"inputs", list_of(KeyForms{name_of("input"), nested(input_keys)}).items_at_least(1), required,
+           "Inputs of the model, and forces or moments on nodes."},
+          {"outputs", list_of(KeyForms{name_of("measure"), nested(output_motion_keys)}).items_at_least(1), required,
+           "Measures of the model, and motions of nodes."}};
+}
+
 std::vector<ResponseInput> read_response_inputs(const YamlValue& entry, const Model& model) {
   std::vector<ResponseInput> inputs;
   for (const YamlValue& item : entry.at("inputs").items()) {
     if (item.is_map()) {
-      const Directed directed = read_directed(item, model, "force", "moment", "an input: a force on a node");
+      const Directed directed = read_directed(item, model);
       inputs.push_back({directed.name, directed.node, directed.turning, directed.direction});
     } else {
       inputs.push_back({named_measure<InputMeasure>(item, model, "input"), -1, false, Vector3::Zero()});
@@ -73,7 +97,7 @@ std::vector<ResponseOutput> read_response_outputs(const YamlValue& entry, const 
   std::vector<ResponseOutput> outputs;
   for (const YamlValue& item : entry.at("outputs").items()) {
     if (item.is_map()) {
-      const Directed directed = read_directed(item, model, "displacement", "rotation", "an output: what a node does");
+      const Directed directed = read_directed(item, model);
       outputs.push_back({directed.name, directed.node, directed.turning, directed.direction});
     } else {
       outputs.push_back({named_measure<Measure>(item, model, "measure"), -1, false, Vector3::Zero()});

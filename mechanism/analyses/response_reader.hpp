@@ -9,6 +9,8 @@
 
 namespace bielle::mechanism {
 
+/// Returns the keys `inputs` and `outputs`.
+std::vector<Key> response_keys();
 /// Reads `inputs: [push, {node: tip, direction: z, quantity: moment}]` of an analysis; at least one.
 std::vector<ResponseInput> read_response_inputs(const YamlValue& entry, const Model& model);
 /// Reads `outputs: [error, {node: tip, direction: z, quantity: rotation}]` of an analysis; at least one.

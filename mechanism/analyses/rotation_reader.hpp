@@ -6,7 +6,9 @@
 
 namespace bielle::mechanism {
 
-/// Reads `rotation: {rate: 12, axis: [0, 0, 1], position: [0, 0, 0]}`. @throws InputError
+/// Returns the key `rotation` of an analysis.
+Key rotation_key();
+/// Reads its value. @throws InputError
 SteadyRotation read_rotation(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

@@ -24,8 +24,15 @@ void write_matrix(Session& session, const char* name, const MatrixX& matrix, con
 
 }  // namespace
 
+const KeyTable& state_space_keys() {
+  using namespace keys;
+  static const KeyTable table{"the analysis 'state_space'",
+                              "Small motions as matrices: E x' = A x + B u, y = C x + D u.",
+                              joined({{analysis_type_key("state_space")}, response_keys(), {rotation_key()}})};
+  return table;
+}
+
 std::unique_ptr<Analysis> read_state_space_analysis(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "inputs", "outputs", "rotation"}, "the analysis 'state_space'");
   StateSpaceOptions options;
   options.inputs = read_response_inputs(entry, model);
   options.outputs = read_response_outputs(entry, model);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/direction_reader.hpp"
 #include "mechanism/analyses/newton_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
 #include "mechanism/reading/names.hpp"
@@ -11,9 +12,31 @@
 namespace bielle::mechanism {
 namespace {
 
+const KeyTable& until_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "`until`",
+      "End of a path of equilibria: a load factor, or the displacement of a node.",
+      {{"load_factor", number(), optional, "Load factor at which the path ends."},
+       {"node", name_of("node"), optional, "Node whose displacement ends the path."},
+       {"displacement", number("m"), optional,
+        "Displacement of the node from its drawn position; without a direction, its distance from there."},
+       {"direction", direction_forms(), optional, "Inertial direction of the displacement: x, y, z or a vector."}}};
+  return table;
+}
+
+const KeyTable& arc_length_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "`arc_length`",
+      "A path of equilibria past limit points of the load.",
+      {{"until", nested(until_keys), required, "End of the path."},
+       {"points", integer().at_least(1), otherwise("1000"), "Largest number of points of the path."}}};
+  return table;
+}
+
 /// Reads `until: {load_factor: s}` or `{node: tip, displacement: d, direction: x}`.
 PathEnd read_path_end(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"load_factor", "node", "displacement", "direction"}, "`until`");
   PathEnd end;
   const bool by_node = entry.has("node") || entry.has("displacement") || entry.has("direction");
   if (entry.has("load_factor") == by_node)
@@ -25,9 +48,7 @@ PathEnd read_path_end(const YamlValue& entry, const Model& model) {
   end.node = node_named_by(entry.at("node"), model);
   end.displacement = entry.at("displacement").number();
   if (const auto direction = entry.find("direction")) {
-    const std::string axis =
-        direction->is_sequence() ? "" : direction->word({"x", "y", "z"}, "a direction (x, y, z or a vector)");
-    end.direction = axis.empty() ? Vector3(direction->direction()) : Vector3::Unit(axis[0] - 'x');
+    end.direction = read_direction(*direction);
   } else if (end.displacement <= 0) {
     entry.at("displacement")
         .fail("expected a positive number: without `direction` it is the distance from where the node is drawn [m]");
@@ -43,12 +64,10 @@ PathEnd read_path_end(const YamlValue& entry, const Model& model) {
 
 /// Reads `arc_length: {until: {..}, points: 1000}`.
 ContinuationOptions read_path(const YamlValue& entry, int steps, const Model& model) {
-  entry.check_keys({"until", "points"}, "`arc_length`");
   ContinuationOptions path;
   path.end = read_path_end(entry.at("until"), model);
   path.steps = steps;
-  if (entry.has("points")) path.most_points = entry.at("points").integer();
-  if (path.most_points < 1) entry.at("points").fail("expected at least 1");
+  path.most_points = entry.at("points").integer();
   return path;
 }
 
@@ -85,23 +104,39 @@ std::string format_stability(const StaticsLog& log, bool path, bool hint) {
 
 }  // namespace
 
+const KeyTable& static_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the analysis 'static'",
+      "Equilibrium under the loads, which grow with the load factor.",
+      {analysis_type_key("static"),
+       {"steps",
+        {integer().at_least(1), word({"auto"}, "a number of load steps")},
+        computed("1; `auto` with `arc_length`"),
+        "Number of equal increments of the load factor, or `auto`."},
+       {"branch", number().positive().at_most(0.5), optional,
+        "Deflection by which a load step leaves an equilibrium that becomes unstable, relative to the mechanism's size "
+        "(or in radians)."},
+       {"arc_length", nested(arc_length_keys), optional,
+        "Path of equilibria that is followed past limit points of the load, in place of load steps."},
+       newton_key()}};
+  return table;
+}
+
 std::unique_ptr<Analysis> read_static(const YamlValue& entry, const Model& model) {
-  entry.check_keys({"type", "steps", "branch", "arc_length", "newton"}, "the analysis 'static'");
   StaticsOptions options;
   const auto path = entry.find("arc_length");
   if (path) options.steps = 0;
   if (const auto steps = entry.find("steps")) {
     const bool automatic = steps->is_scalar() && steps->text() == "auto";
     options.steps = automatic ? 0 : steps->integer();
-    if (!automatic && options.steps < 1) steps->fail("expected at least one load step, or auto");
   }
   if (path) options.path = read_path(*path, options.steps, model);
   if (const auto branch = entry.find("branch")) {
     if (path) branch->fail("belongs to load steps; a path of `arc_length` goes on as it comes");
-    options.branch = branch->positive_number();
-    if (options.branch > 0.5) branch->fail("expected at most 0.5: it is relative to the mechanism's size");
+    options.branch = branch->number();
   }
-  options.newton = read_newton(entry, false);
+  options.newton = read_newton(entry);
   return std::make_unique<StaticAnalysis>(std::move(options));
 }
 

@@ -43,7 +43,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::elements, "spring_damper", read_spring_damper, spring_damper_keys},
       {Section::elements, "node_force", read_node_force, node_force_keys},
       {Section::elements, "stiffness_field", read_stiffness_field, stiffness_field_keys},
-      {Section::elements, "hydraulic_actuator", read_hydraulic_actuator, nullptr},
+      {Section::elements, "hydraulic_actuator", read_hydraulic_actuator, hydraulic_actuator_keys},
       {Section::joints, "rigid", read_rigid, rigid_keys},
       {Section::joints, "hinge", read_hinge, hinge_keys},
       {Section::joints, "prismatic", read_prismatic, prismatic_keys},

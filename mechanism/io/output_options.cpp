@@ -11,9 +11,19 @@
 namespace bielle::mechanism {
 namespace {
 
+const KeyTable& only_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "`only`",
+      "Parts of the model that are recorded: in the named sections these alone.",
+      {{"nodes", list_of(name_of("node")), optional, "Nodes that are recorded; all without the key."},
+       {"joints", list_of(name_of("joint")), optional, "Joints that are recorded; all without the key."},
+       {"elements", list_of(name_of("element")), optional, "Elements that are recorded; all without the key."}}};
+  return table;
+}
+
 /// Reads `only: {nodes: [pin], joints: []}`: in the named sections, nothing else is recorded.
 void read_only(const YamlValue& only, Model& model) {
-  only.check_keys({"nodes", "joints", "elements"}, "`only`");
   for (const Section section : {Section::nodes, Section::joints, Section::elements}) {
     const auto list = only.find(section_name(section));
     if (!list) continue;
@@ -38,9 +48,11 @@ void read_only(const YamlValue& only, Model& model) {
 /// Calls act(component, name of the element, entry) for `key: {rod: entry}` and each component of the element (the
 /// pieces of a body); the elements record.
 template <class Act>
-void for_each_element(const YamlValue& entries, const std::string& key, Model& model, Act&& act) {
-  entries.check_keys(model.names_in(Section::elements), fmt::format("`{}`, which names elements", key));
+void for_each_element(const YamlValue& entries, Model& model, Act&& act) {
+  const std::vector<std::string> names = model.names_in(Section::elements);
   for (const auto& [element, entry] : entries.entries()) {
+    if (std::find(names.begin(), names.end(), element) == names.end())
+      entry.fail(fmt::format("there is no element '{}'{}", element, did_you_mean(element, names)));
     if (!model.records({Section::elements, element})) entry.fail(fmt::format("`only` leaves out '{}'", element));
     for (Component* component : model.components_of({Section::elements, element})) act(*component, element, entry);
   }
@@ -58,19 +70,17 @@ void at_place_of(const YamlValue& value, Act&& act) {
 
 /// Reads `fields: {rod: [displacement, von_mises]}`: outputs of elements in addition to the usual ones.
 void read_fields(const YamlValue& fields, Model& model) {
-  for_each_element(
-      fields, "fields", model, [](Component& component, const std::string& element, const YamlValue& names) {
-        MeshFields* mesh = component.mesh_fields();
-        if (!mesh)
-          names.fail(
-              fmt::format("a {} has no further fields: all that it knows is recorded already", component.type()));
-        for (const YamlValue& name : names.items()) {
-          const std::string field = name.word(mesh->field_names(), "a field of '" + element + "'");
-          for (const OutputField& recorded : component.output_fields())
-            if (recorded.name == field) name.fail("is asked for twice");
-          at_place_of(name, [&] { mesh->record_field(field); });
-        }
-      });
+  for_each_element(fields, model, [](Component& component, const std::string& element, const YamlValue& names) {
+    MeshFields* mesh = component.mesh_fields();
+    if (!mesh)
+      names.fail(fmt::format("a {} has no further fields: all that it knows is recorded already", component.type()));
+    for (const YamlValue& name : names.items()) {
+      const std::string field = name.word(mesh->field_names(), "a field of '" + element + "'");
+      for (const OutputField& recorded : component.output_fields())
+        if (recorded.name == field) name.fail("is asked for twice");
+      at_place_of(name, [&] { mesh->record_field(field); });
+    }
+  });
 }
 
 /// Reads a point of a mesh, `[x, y, z]`, or the number of one of its nodes.
@@ -86,7 +96,7 @@ MeshPlace read_mesh_place(const YamlValue& value) {
 /// Reads `stress_at: {rod: {root: [x, y, z]}}`: a field of stress or strain at single points of an element's mesh.
 void read_points(const YamlValue& points, const std::string& field, Model& model) {
   const std::string key = field + "_at";
-  for_each_element(points, key, model, [&](Component& component, const std::string& element, const YamlValue& named) {
+  for_each_element(points, model, [&](Component& component, const std::string& element, const YamlValue& named) {
     if (model.components_of({Section::elements, element}).size() > 1)
       named.fail(fmt::format("'{}' is in pieces; ask for `fields` of its stress, or for `peaks`", element));
     MeshFields* mesh = component.mesh_fields();
@@ -102,7 +112,7 @@ void read_points(const YamlValue& points, const std::string& field, Model& model
 
 /// Reads `peaks: {rod: [von_mises, principal_stress]}`: largest values over all steps.
 void read_peaks(const YamlValue& peaks, Model& model) {
-  for_each_element(peaks, "peaks", model, [](Component& component, const std::string& element, const YamlValue& names) {
+  for_each_element(peaks, model, [](Component& component, const std::string& element, const YamlValue& names) {
     MeshFields* mesh = component.mesh_fields();
     if (!mesh)
       names.fail(fmt::format("a {} has no stresses of a mesh; `peaks` is for superelements", component.type()));
@@ -145,10 +155,49 @@ std::vector<double> read_load_factors(const YamlValue& entry, bool statics) {
 
 }  // namespace
 
-OutputOptions read_output(const YamlValue& entry, double end, bool statics, Model& model) {
-  entry.check_keys({"every", "times", "load_factors", "only", "fields", "stress_at", "strain_at", "peaks", "layout",
-                    "checkpoint", "log"},
-                   "`output`");
+const KeyTable& output_keys() {
+  using namespace keys;
+  const KeyForm places = entries("element", {entries("point", {vector3("m").as_point(), integer().non_negative()})});
+  static const KeyTable table{
+      "`output`",
+      "Rows and contents of the results file.",
+      {{"every", integer().at_least(1), otherwise("1"),
+        "Steps between recorded rows; the first and the last are always recorded."},
+       {"times", list_of(number("s")).items_at_least(1), optional,
+        "Ascending times that are recorded exactly, besides the start of each dynamic analysis, in place of steps."},
+       {"load_factors", list_of(number()).items_at_least(1), optional,
+        "Ascending load factors that static analyses meet exactly, and record alone."},
+       {"only", nested(only_keys), optional, "Nodes, joints and elements that are recorded; all without the key."},
+       {"fields",
+        entries("element",
+                {list_of(word({"displacement", "stress", "strain", "von_mises", "principal_stress", "principal_strain"},
+                              "a field"))}),
+        optional, "Fields of superelements that are recorded at the nodes of their mesh."},
+       {"stress_at", places, optional,
+        "Points of superelements at which the stress is recorded: each in the mesh's axes, or the number of a node "
+        "from "
+        "0."},
+       {"strain_at", places, optional,
+        "Points of superelements at which the strain is recorded: each in the mesh's axes, or the number of a node "
+        "from "
+        "0."},
+       {"peaks", entries("element", {list_of(word({"von_mises", "principal_stress"}, "a peak")).items_at_least(1)}),
+        optional, "Stresses of superelements of which the largest values over all accepted steps are recorded."},
+       {"layout",
+        word({layout_name(ResultsLayout::named), layout_name(ResultsLayout::stacked)}, "a layout of the results file"),
+        computed("`stacked` for large models"),
+        "Layout of the results file: datasets of each node, joint and element (`named`), or one dataset for each "
+        "quantity of similar ones (`stacked`)."},
+       {"checkpoint", integer().at_least(1), optional,
+        "Steps between points from which the run can be continued; without the key there is one where the run is "
+        "interrupted, fails or ends."},
+       {"log", boolean(), otherwise("false"),
+        "Whether a table of all attempted steps is written next to the results."}}};
+  return table;
+}
+
+OutputOptions read_output(const YamlValue& section, double end, bool statics, Model& model) {
+  const YamlValue entry = section.keyed(output_keys());
   OutputOptions output;
   if (entry.has("times")) {
     if (entry.has("every")) entry.at("every").fail("either `every` or `times`, not both");
@@ -156,18 +205,11 @@ OutputOptions read_output(const YamlValue& entry, double end, bool statics, Mode
   }
   if (const auto factors = entry.find("load_factors"))
     output.recording.load_factors = read_load_factors(*factors, statics);
-  if (entry.has("every")) output.recording.every = entry.at("every").integer();
-  if (output.recording.every < 1) entry.at("every").fail("expected at least 1");
-  if (entry.has("checkpoint")) {
-    output.recording.checkpoint = entry.at("checkpoint").integer();
-    if (output.recording.checkpoint < 1) entry.at("checkpoint").fail("expected at least 1 step");
-  }
-  if (entry.has("log")) output.log = entry.at("log").boolean();
-  if (const auto layout = entry.find("layout")) {
-    const std::string named = layout_name(ResultsLayout::named), stacked = layout_name(ResultsLayout::stacked);
-    output.layout = layout->word({named, stacked}, "a layout of the results file") == named ? ResultsLayout::named
-                                                                                            : ResultsLayout::stacked;
-  }
+  output.recording.every = entry.at("every").integer();
+  if (const auto checkpoint = entry.find("checkpoint")) output.recording.checkpoint = checkpoint->integer();
+  output.log = entry.at("log").boolean();
+  if (const auto layout = entry.find("layout"))
+    output.layout = layout->word() == layout_name(ResultsLayout::named) ? ResultsLayout::named : ResultsLayout::stacked;
   if (const auto only = entry.find("only")) read_only(*only, model);
   if (const auto fields = entry.find("fields")) read_fields(*fields, model);
   for (const char* field : {"stress", "strain"})

@@ -16,6 +16,7 @@ struct OutputOptions {
   bool log = false;                     ///< a table of all attempted steps next to the results
 };
 
+const KeyTable& output_keys();
 /// Reads the section and sets the outputs of the model's components.
 /// @param end  end of the last dynamic analysis [s] @throws InputError
 OutputOptions read_output(const YamlValue& entry, double end, bool statics, Model& model);

@@ -46,8 +46,9 @@ Sample line(const std::string& type, const std::string& variant, const std::stri
               circuit("  lines:\n    it: {from: p, to: t, " + type + ": {" + keys + "}}\n", fluid), std::move(bad));
 }
 
-const std::vector<BadValue> bad_orifice = {
-    {"coefficient", "1.2", "up to 1"}, {"coefficient", "-1", "at least 0"}, {"density", "0", "greater than 0"}};
+const std::vector<BadValue> bad_orifice = {{"coefficient", "1.2", "between 0 and 1"},
+                                           {"coefficient", "-1", "between 0 and 1"},
+                                           {"density", "0", "greater than 0"}};
 
 std::vector<BadValue> within(const std::string& type, const std::vector<BadValue>& list) {
   std::vector<BadValue> bad;
@@ -142,7 +143,7 @@ std::vector<Sample> lines() {
            {{"pipe.length", "0", "greater than 0"},
             {"pipe.diameter", "0", "greater than 0"},
             {"pipe.roughness", "1", "well below"},
-            {"pipe.cells", "0", "1 to 10000"},
+            {"pipe.cells", "0", "between 1 and 10000"},
             {"pipe.pressure", "", "pressure"},
             {"pipe.wall.thickness", "0", "greater than 0"},
             {"pipe.wall.young", "0", "greater than 0"}}),
@@ -180,7 +181,7 @@ std::vector<Sample> places() {
            {{"at", "nowhere", "no place"},
             {"gas_volume", "-1", "at least 0"},
             {"precharge", "-2e5", "vacuum"},
-            {"exponent", "3", "nitrogen"}}),
+            {"exponent", "3", "between 1 and 1.7"}}),
       part("machines", "machine", "",
            circuit("  machines:\n    it: {joint: axle, from: p, to: t, displacement: 0.3, setting: \"0.7 + "
                    "0.1*sin(axle.angle + axle.angle.rate)\", leakage: 0.2, drag: 0.4}\n"),
@@ -244,16 +245,16 @@ std::vector<Sample> cylinders() {
            {"density", "0", "greater than 0"},
            {"viscosity", "0", "greater than 0"},
            {"air_fraction", "1", "less than 1"},
-           {"air_exponent", "3", "isothermal"},
-           {"vapour_pressure", "1e5", "up to 3500"},
-           {"vapour_pressure", "-1", "at least 0"},
+           {"air_exponent", "3", "between 1 and 1.7"},
+           {"vapour_pressure", "1e5", "between 0 and 3500"},
+           {"vapour_pressure", "-1", "between 0 and 3500"},
            {"conserves", "energy", "what flows conserve"},
            {"piston_areas", "[0, 1]", "greater than 0"},
-           {"dead_volumes", "[-1, 0]", "below 0"},
+           {"dead_volumes", "[-1, 0]", "at least 0"},
            {"pressures", "[-2e5, 0]", "vacuum"},
            {"leakage", "-1", "at least 0"},
-           {"external_leakage", "[-1, 0]", "below 0"},
-           {"compliances", "[-1, 0]", "below 0"},
+           {"external_leakage", "[-1, 0]", "at least 0"},
+           {"compliances", "[-1, 0]", "at least 0"},
            {"friction.viscous", "-1", "at least 0"},
            {"friction.coulomb", "-1", "at least 0"},
            {"friction.static", "0.1", "no less than"},
@@ -264,9 +265,9 @@ std::vector<Sample> cylinders() {
            {"supply.pressure", "", "one of the two"},
            {"supply.tank", "no", ""},
            {"valve.area", "", "needs an `area`"},
-           {"valve.coefficient", "2", "up to 1"},
+           {"valve.coefficient", "2", "between 0 and 1"},
            {"valve.density", "0", "greater than 0"},
-           {"valve.command", "1.2", "from -1 to 1"},
+           {"valve.command", "1.2", "between -1 and 1"},
            {"valve.overlap", "2", "between -1 and 1"},
            {"valve.time_constant", "-1", "at least 0"},
            {"valve.transition_pressure", "0", "greater than 0"},
@@ -274,7 +275,7 @@ std::vector<Sample> cylinders() {
            {"relief.area", "", "needs an `area`"},
            {"accumulator.gas_volume", "-1", "at least 0"},
            {"accumulator.precharge", "-2e5", "vacuum"},
-           {"accumulator.exponent", "3", "isothermal"},
+           {"accumulator.exponent", "3", "between 1 and 1.7"},
            {"cushions.lengths", "[3, 1]", "longer than the stroke"},
            {"cushions.areas", "[1, 1]", "smaller than"},
            {"cushions.port_area", "0", "greater than 0"}}),
@@ -282,10 +283,10 @@ std::vector<Sample> cylinders() {
                "piston_areas: [1.2, 0.7], dead_volumes: [3, 4], ports: [p, t], pressures: [1.1, 0.9], compliances: "
                "[1e-5, 0], cushions: {lengths: [0.1, 0.1], areas: [0.01, 0.02], port_area: 0.1}",
                {{"piston_areas", "[0, 1]", "greater than 0"},
-                {"dead_volumes", "[-1, 0]", "below 0"},
+                {"dead_volumes", "[-1, 0]", "at least 0"},
                 {"ports", "[p, p]", "the same place"},
                 {"pressures", "[-2e5, 0]", "vacuum"},
-                {"compliances", "[-1, 0]", "below 0"},
+                {"compliances", "[-1, 0]", "at least 0"},
                 {"cushions.lengths", "[3, 1]", "longer than the stroke"},
                 {"cushions.areas", "[1, 1]", "smaller than"},
                 {"cushions.port_area", "0", "greater than 0"}}),
@@ -324,7 +325,7 @@ std::vector<Sample> hydraulic_samples() {
         servo_valve("without dynamics",
                     "area: 0.4, command: \"0.5 + 0.4*sin(axle.angle.rate)\", transition_pressure: 1",
                     {{"servo_valve.area", "", "needs an `area`"},
-                     {"servo_valve.command", "2", "from -1 to 1"},
+                     {"servo_valve.command", "2", "between -1 and 1"},
                      {"servo_valve.transition_pressure", "0", "greater than 0"}})})
     list.push_back(sample);
   for (const auto& more : {places, cylinders})

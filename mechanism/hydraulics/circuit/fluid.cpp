@@ -99,47 +99,50 @@ std::string Fluid::describe() const {
   return text;
 }
 
-const std::vector<std::string>& fluid_keys() {
-  static const std::vector<std::string> keys = {"density",      "viscosity",       "bulk_modulus", "air_fraction",
-                                                "air_exponent", "vapour_pressure", "conserves"};
-  return keys;
+std::vector<Key> fluid_keys() {
+  using namespace keys;
+  KeyForm share = number().between(0, 1);
+  share.below = true;
+  return {{"density", number("kg/m^3").positive(), otherwise("850"), "Density of the fluid."},
+          {"viscosity", number("Pa s").positive(), otherwise("0.04"), "Dynamic viscosity."},
+          {"bulk_modulus", number("Pa").positive(), otherwise("1.4e9"), "Bulk modulus of the fluid without air."},
+          {"air_fraction", share, otherwise("0"),
+           "Air that is entrained but not dissolved, as a share of the volume at 101325 Pa."},
+          {"air_exponent", number().between(1, 1.7), otherwise("1.2"),
+           "Exponent of the air's changes of state: 1 is isothermal, 1.4 adiabatic."},
+          {"vapour_pressure", number("Pa").between(0, 3500), otherwise("1000"),
+           "Absolute vapour pressure of a fluid without air; with 0 cavities have no pressure."},
+          {"conserves", word({"volume", "mass"}, "what flows conserve"), otherwise("volume"),
+           "Quantity that flows conserve: the `volume`, each place at its own pressure, or the `mass`, with flows as "
+           "volumes at 101325 Pa."}};
+}
+
+Key ambient_pressure_key() {
+  using namespace keys;
+  return {"ambient_pressure", number("Pa").non_negative(), otherwise("101325"),
+          "Absolute pressure of the surroundings; with 0 all pressures are relative to the atmosphere (gauge)."};
 }
 
 void read_fluid(const YamlValue& entry, Fluid& fluid) {
-  const auto read_positive = [&](const char* key, double& value, const PlausibleRange& range) {
-    const auto given = entry.find(key);
-    if (!given) return;
-    value = given->positive_number();
-    warn_outside(*given, value, range);
+  const auto read = [&](const char* key, const PlausibleRange& range) {
+    const YamlValue value = entry.at(key);
+    const double number = value.number();
+    warn_outside(value, number, range);
+    return number;
   };
-  read_positive("density", fluid.density, plausible_fluid_density);
-  read_positive("viscosity", fluid.viscosity, plausible_viscosity);
-  read_positive("bulk_modulus", fluid.bulk_modulus, plausible_bulk_modulus);
-  if (const auto air = entry.find("air_fraction")) {
-    fluid.air_fraction = air->non_negative_number();
-    if (fluid.air_fraction >= 1) air->fail("expected a share of the volume, less than 1");
-  }
-  if (const auto exponent = entry.find("air_exponent")) {
-    fluid.air_exponent = exponent->number();
-    if (fluid.air_exponent < 1 || fluid.air_exponent > 1.7)
-      exponent->fail("expected 1 (isothermal) to 1.67; air has 1.4 where it has no time to exchange heat");
-  }
-  if (const auto vapour = entry.find("vapour_pressure")) {
-    fluid.vapour_pressure = vapour->non_negative_number();
-    constexpr double most = 3500;  // beyond, vapour would be significant at atmospheric pressure
-    if (fluid.vapour_pressure > most)
-      vapour->fail("expected an absolute pressure up to 3500 Pa; oils have less than 100, water at 20 degrees 2340");
-  }
-  if (const auto conserves = entry.find("conserves"))
-    fluid.conserves = conserves->word({"volume", "mass"}, "what flows conserve") == "mass" ? Fluid::Conserves::mass
-                                                                                           : Fluid::Conserves::volume;
+  fluid.density = read("density", plausible_fluid_density);
+  fluid.viscosity = read("viscosity", plausible_viscosity);
+  fluid.bulk_modulus = read("bulk_modulus", plausible_bulk_modulus);
+  fluid.air_fraction = entry.at("air_fraction").number();
+  fluid.air_exponent = entry.at("air_exponent").number();
+  fluid.vapour_pressure = entry.at("vapour_pressure").number();
+  fluid.conserves = entry.at("conserves").word() == "mass" ? Fluid::Conserves::mass : Fluid::Conserves::volume;
 }
 
 void read_ambient_pressure(const YamlValue& entry, Fluid& fluid) {
-  const auto ambient = entry.find("ambient_pressure");
-  if (!ambient) return;
-  fluid.ambient = ambient->non_negative_number();
-  if (fluid.ambient > 0) warn_outside(*ambient, fluid.ambient, plausible_ambient);
+  const YamlValue ambient = entry.at("ambient_pressure");
+  fluid.ambient = ambient.number();
+  if (fluid.ambient > 0) warn_outside(ambient, fluid.ambient, plausible_ambient);
 }
 
 void warn_of_pressure(const YamlValue& place, double p, const Fluid& fluid) {

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "reduce/common/input/yaml_file.hpp"
 
@@ -78,15 +79,17 @@ class Fluid {
 
 /// Returns the keys of a fluid: density, viscosity, bulk_modulus, air_fraction, air_exponent, vapour_pressure,
 /// conserves.
-const std::vector<std::string>& fluid_keys();
-/// Reads the given keys into `fluid`; the caller must check for other keys. @throws InputError
+std::vector<Key> fluid_keys();
+/// Returns the key `ambient_pressure`.
+Key ambient_pressure_key();
+/// Reads these keys, but for the ambient pressure, of a map that is bound to a table with them. @throws InputError
 void read_fluid(const YamlValue& entry, Fluid& fluid);
 /// Warns of a pressure at a place that is almost vacuum, or almost zero, because it may be given in bar.
 /// @param p  [Pa], like the user's pressures
 void warn_of_pressure(const YamlValue& place, double p, const Fluid& fluid);
 /// Warns of a setting, a pressure difference, that may be given in bar. @param p  [Pa]
 void warn_of_setting(const YamlValue& place, double p);
-/// Reads `ambient_pressure` of a map, if it is given. @throws InputError
+/// Reads `ambient_pressure` of a map. @throws InputError
 void read_ambient_pressure(const YamlValue& entry, Fluid& fluid);
 
 }  // namespace bielle::mechanism

@@ -35,24 +35,37 @@ std::string OrificeLaw::describe() const {
                                     : fmt::format("laminar below a Reynolds number of {:.6g}", reynolds));
 }
 
-const std::vector<std::string>& orifice_law_keys() {
-  static const std::vector<std::string> keys = {"coefficient", "density", "transition_pressure", "transition_reynolds"};
-  return keys;
+std::vector<Key> orifice_law_keys() {
+  using namespace keys;
+  return {{"coefficient", number().between(0, 1), otherwise("0.7"),
+           "Discharge coefficient; sharp edges have 0.6 to 0.7, and with 0 nothing flows."},
+          {"density", number("kg/m^3").positive(), computed("the fluid's"), "Density in the law of the orifice."},
+          {"transition_pressure", number("Pa").positive(), computed("that of `transition_reynolds`"),
+           "Pressure difference below which the flow is laminar."},
+          {"transition_reynolds", number().positive(), otherwise("150"),
+           "Reynolds number of a round hole below which the flow is laminar, in place of `transition_pressure`."}};
+}
+
+std::vector<Key> area_keys(const KeyForm& area, const std::string& about) {
+  using namespace keys;
+  return {{"area", area, optional, about},
+          {"diameter", number("m").non_negative(), optional, "Diameter of a round hole, in place of `area`."}};
+}
+
+std::vector<Key> valve_area_keys() {
+  return area_keys(keys::number("m^2").non_negative(), "Area at full opening; with 0 nothing flows.");
 }
 
 OrificeLaw read_orifice_law(const YamlValue& entry, const Fluid& fluid) {
   OrificeLaw law;
-  law.density = fluid.density;
   law.viscosity = fluid.viscosity;
-  if (const auto coefficient = entry.find("coefficient")) {
-    law.discharge = coefficient->non_negative_number();
-    if (law.discharge > 1) coefficient->fail("expected a discharge coefficient up to 1; sharp edges have 0.6 to 0.7");
-  }
-  if (const auto density = entry.find("density")) law.density = density->positive_number();
-  const auto pressure = entry.find("transition_pressure"), reynolds = entry.find("transition_reynolds");
-  if (pressure && reynolds) reynolds->fail("give `transition_pressure` or `transition_reynolds`, not both");
-  if (pressure) law.transition = pressure->positive_number();
-  if (reynolds) law.reynolds = reynolds->positive_number();
+  law.discharge = entry.at("coefficient").number();
+  const auto density = entry.find("density"), pressure = entry.find("transition_pressure");
+  law.density = density ? density->number() : fluid.density;
+  if (pressure && entry.has("transition_reynolds"))
+    entry.at("transition_reynolds").fail("give `transition_pressure` or `transition_reynolds`, not both");
+  if (pressure) law.transition = pressure->number();
+  law.reynolds = entry.at("transition_reynolds").number();
   return law;
 }
 
@@ -61,7 +74,7 @@ double read_area(const YamlValue& entry) {
   if (area && diameter) diameter->fail("give `area` or `diameter`, not both");
   if (!area && !diameter) entry.fail("needs an `area` [m^2] or a `diameter` [m]");
   const YamlValue& given = area ? *area : *diameter;
-  const double number = given.non_negative_number(), size = area ? number : 0.25 * M_PI * number * number;
+  const double number = given.number(), size = area ? number : 0.25 * M_PI * number * number;
   warn_outside(given, size, plausible_area);
   return size;
 }

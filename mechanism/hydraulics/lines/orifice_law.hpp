@@ -35,10 +35,14 @@ struct OrificeLaw {
 };
 
 /// Returns `coefficient`, `density`, `transition_pressure`, `transition_reynolds`.
-const std::vector<std::string>& orifice_law_keys();
-/// @param fluid  its density and viscosity are the defaults
-/// @throws InputError the caller must check for other keys
+std::vector<Key> orifice_law_keys();
+/// @param entry  bound to a table with these keys @param fluid  its density and viscosity are the defaults
+/// @throws InputError
 OrificeLaw read_orifice_law(const YamlValue& entry, const Fluid& fluid);
+/// Returns `area` and `diameter`. @param about  sentence of the area
+std::vector<Key> area_keys(const KeyForm& area, const std::string& about);
+/// Returns the same of a valve, whose area is a number.
+std::vector<Key> valve_area_keys();
 /// Reads `area` [m^2] or `diameter` [m]: a number; 0: no flow. @throws InputError
 double read_area(const YamlValue& entry);
 

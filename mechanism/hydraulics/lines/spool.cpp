@@ -23,24 +23,19 @@ void Spool::read_dynamics(const YamlValue& entry) {
     frequency->fail("give `time_constant` (first order) or `frequency` (second order), not both");
   if (damping && !frequency) damping->fail("belongs to a `frequency` (second order)");
   if (constant) {
-    time_constant_ = constant->non_negative_number();
+    time_constant_ = constant->number();
     order_ = time_constant_ > 0 ? 1 : 0;
   }
   if (frequency) {
     order_ = 2;
-    omega_ = 2 * M_PI * frequency->positive_number();
-    damping_ = damping ? damping->non_negative_number() : 0.7;
-    if (damping) warn_outside(*damping, damping_, plausible_damping_ratio);
+    omega_ = 2 * M_PI * frequency->number();
+    damping_ = entry.at("damping").number();
+    warn_outside(entry.at("damping"), damping_, plausible_damping_ratio);
   }
 }
 
 void Spool::read_command(const YamlValue& command, Model& model, References& references) {
   command_ = read_state_formula(command, {"t"}, model, references);
-  if (!command_.is_constant() || command_.reads_state()) return;
-  const double u = command.number();
-  if (u < least_ || u > most_opening)
-    command.fail(
-        fmt::format("expected an opening from {:.6g} to {:.6g}, a share of the full one", least_, most_opening));
 }
 
 void Spool::declare(Declaration& declaration) const {
@@ -145,9 +140,20 @@ std::string Spool::describe() const {
   return text;
 }
 
-const std::vector<std::string>& spool_keys() {
-  static const std::vector<std::string> keys = {"command", "time_constant", "frequency", "damping"};
-  return keys;
+std::vector<Key> spool_keys(double least, const std::string& command) {
+  using namespace keys;
+  return {{"command", state_formula("", {"t"}).between(least, most_opening), required, command},
+          {"overlap", number().inside(-1, 1), otherwise("0"),
+           "Overlap of the edges of the spool, as a share of the full opening; negative values mean underlap."},
+          time_constant_key(),
+          {"frequency", number("Hz").positive(), optional,
+           "Natural frequency with which the opening follows the command (second order), in place of `time_constant`."},
+          {"damping", number().non_negative(), otherwise("0.7"), "Damping ratio of the second order."}};
+}
+
+Key time_constant_key() {
+  return {"time_constant", keys::number("s").non_negative(), keys::otherwise("0"),
+          "Time constant with which the opening follows (first order); with 0 it follows at once."};
 }
 
 }  // namespace bielle::mechanism

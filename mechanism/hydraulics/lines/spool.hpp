@@ -18,7 +18,8 @@ class Spool {
  public:
   /// @param least  smallest opening: -1 for a valve with two directions, 0 for one that only opens
   explicit Spool(double least) : least_(least) {}
-  /// Reads `time_constant`, or `frequency` [Hz] and `damping`; the caller must check the keys. @throws InputError
+  /// Reads `time_constant`, or `frequency` [Hz] and `damping`, of a map that is bound to a table with spool_keys.
+  /// @throws InputError
   void read_dynamics(const YamlValue& entry);
   /// Reads `command`. Call it within Model::when_read(Stage::formulas).
   void read_command(const YamlValue& command, Model& model, References& references);
@@ -49,7 +50,10 @@ class Spool {
   StateFormula command_;
 };
 
-/// Returns `command`, `time_constant`, `frequency`, `damping`.
-const std::vector<std::string>& spool_keys();
+/// Returns `command`, `overlap`, `time_constant`, `frequency`, `damping`.
+/// @param least  smallest opening @param command  sentence of the command
+std::vector<Key> spool_keys(double least, const std::string& command);
+/// Returns the key `time_constant` of a valve.
+Key time_constant_key();
 
 }  // namespace bielle::mechanism

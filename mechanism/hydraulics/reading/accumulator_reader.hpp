@@ -9,9 +9,12 @@ namespace bielle::mechanism {
 
 class Volume;
 
-/// Reads `{at, gas_volume, precharge, exponent}`. @throws InputError
+const KeyTable& accumulator_keys();
+/// Returns the same without `at`.
+const KeyTable& own_accumulator_keys();
+/// Reads an accumulator of a circuit. @throws InputError
 void read_accumulator(const std::string& name, const YamlValue& entry, const Entry& own, Model& model);
-/// Reads the same without `at`.
+/// Adds an accumulator at a volume.
 void add_accumulator(const std::string& name, const YamlValue& entry, Volume& volume, const Entry& own, Model& model);
 
 }  // namespace bielle::mechanism

@@ -37,7 +37,7 @@ class ActuatorReader {
  public:
   ActuatorReader(std::string name, const YamlValue& entry, Model& model)
       : name_(std::move(name)), entry_(entry), model_(model) {
-    check_keys();
+    check_circuit();
     read_ambient_pressure(entry, fluid_);
     read_fluid(entry, fluid_);
     geometry_ = read_geometry();
@@ -51,16 +51,11 @@ class ActuatorReader {
   }
 
  private:
-  void check_keys() {
-    std::vector<std::string> keys = {"type",         "nodes",     "at",          "piston_areas", "stages",
-                                     "dead_volumes", "stroke",    "pressures",   "leakage",      "external_leakage",
-                                     "friction",     "end_stops", "compliances", "supply",       "valve",
-                                     "accumulator",  "relief",    "ports",       "cushions",     "ambient_pressure"};
-    keys.insert(keys.end(), fluid_keys().begin(), fluid_keys().end());
-    entry_.check_keys(keys, "a hydraulic_actuator");
+  /// Refuses keys of a circuit of its own, or of chambers of its own, if they belong to a shared circuit.
+  void check_circuit() {
     if (!entry_.has("ports")) return;
-    std::vector<std::string> own = {"supply", "valve", "accumulator", "relief", "ambient_pressure"};
-    own.insert(own.end(), fluid_keys().begin(), fluid_keys().end());
+    std::vector<std::string> own = keys::names_of(fluid_keys());
+    for (const char* key : {"supply", "valve", "accumulator", "relief", "ambient_pressure"}) own.emplace_back(key);
     for (const std::string& key : own)
       if (const auto value = entry_.find(key))
         value->fail("belongs to an actuator with a circuit of its own; this one has `ports`: give it in `hydraulics`");
@@ -77,18 +72,17 @@ class ActuatorReader {
     if (numbers[0] == numbers[1]) nodes.fail("a hydraulic_actuator joins two different nodes");
     geometry.node_a = numbers[0];
     geometry.node_b = numbers[1];
-    geometry.at_a = geometry.at_b = Vector3::Zero();
-    if (const auto at = entry_.find("at")) {
-      if (!at->is_sequence() || at->size() != 2) at->fail("expected two points, one in the axes of each node");
-      geometry.at_a = at->at(std::size_t{0}).vector3();
-      geometry.at_b = at->at(std::size_t{1}).vector3();
-    }
+    const YamlValue at = entry_.at("at");
+    if (!at.is_sequence() || at.size() != 2) at.fail("expected two points, one in the axes of each node");
+    geometry.at_a = at.at(std::size_t{0}).vector3();
+    geometry.at_b = at.at(std::size_t{1}).vector3();
     const Frame &A = model_.node(numbers[0]).frame, &B = model_.node(numbers[1]).frame;
     drawn_ = (B.x + B.R * geometry.at_b - A.x - A.R * geometry.at_a).norm();
     if (!(drawn_ > 0)) nodes.fail("the attachment points coincide: the hydraulic_actuator has no direction");
     const YamlValue stroke = entry_.at("stroke");
-    const Eigen::VectorXd ends =
-        stroke.positive_numbers(2, "the shortest and the longest distance of the attachment points");
+    if (!stroke.is_sequence() || stroke.size() != 2)
+      stroke.fail("expected the shortest and the longest distance of the attachment points");
+    const Eigen::VectorXd ends = stroke.vector();
     if (!(ends[0] < ends[1])) stroke.fail("expected the shortest distance first, then the longest");
     geometry.shortest = ends[0];
     geometry.longest = ends[1];
@@ -96,9 +90,8 @@ class ActuatorReader {
     if (drawn_ < ends[0] * (1 - rounding) || drawn_ > ends[1] * (1 + rounding))
       stroke.fail(fmt::format("the attachment points are drawn {:.6g} m apart, which is outside", drawn_));
     if (const auto stops = entry_.find("end_stops")) {
-      stops->check_keys({"stiffness", "damping"}, "the end_stops");
-      geometry.stop_stiffness = stops->at("stiffness").non_negative_number();
-      if (const auto damping = stops->find("damping")) geometry.stop_damping = damping->non_negative_number();
+      geometry.stop_stiffness = stops->at("stiffness").number();
+      geometry.stop_damping = stops->at("damping").number();
       if (geometry.stop_stiffness == 0 && geometry.stop_damping > 0)
         stops->at("damping").fail("belongs to stops with a `stiffness` greater than 0: one of 0 is none");
     }
@@ -108,24 +101,18 @@ class ActuatorReader {
 
   /// Reads a friction force in newtons: a law with the normal force 1.
   static FrictionLaw read_friction(const YamlValue& entry) {
-    entry.check_keys({"viscous", "coulomb", "static", "stribeck_velocity", "velocity"}, "the friction of an actuator");
     FrictionLaw law;
-    const auto number = [&](const char* key) {
-      const auto value = entry.find(key);
-      return value ? value->non_negative_number() : 0.0;
-    };
-    law.viscous = number("viscous");
-    law.kinetic = number("coulomb");
-    law.sticking = entry.has("static") ? number("static") : law.kinetic;
+    law.viscous = entry.at("viscous").number();
+    law.kinetic = entry.at("coulomb").number();
+    law.sticking = entry.has("static") ? entry.at("static").number() : law.kinetic;
     if (law.sticking < law.kinetic) entry.at("static").fail("expected no less than `coulomb`");
     const auto speed = entry.find("stribeck_velocity");
     if (law.sticking > law.kinetic && !speed)
       entry.at("static").fail("needs a `stribeck_velocity` over which it falls");
-    law.stribeck_velocity = speed ? speed->non_negative_number() : 0;
-    if (speed && law.sticking > law.kinetic) speed->positive_number();  // speed range over which it decreases
-    constexpr double usual_velocity = 1e-3;                             // [m/s]
-    const auto velocity = entry.find("velocity");
-    law.velocity = velocity ? velocity->positive_number() : usual_velocity;
+    law.stribeck_velocity = speed ? speed->number() : 0;
+    if (law.sticking > law.kinetic && law.stribeck_velocity == 0)
+      speed->fail("expected a rate greater than 0, over which the friction falls from `static` to `coulomb`");
+    law.velocity = entry.at("velocity").number();
     return law;
   }
 
@@ -137,7 +124,7 @@ class ActuatorReader {
       entry_.fail("give `piston_areas`, or `stages` of a telescopic cylinder");
     const auto add = [&](const YamlValue& list, double length) {
       const Eigen::VectorXd two = list.vector();
-      if (two.size() < 1 || two.size() > 2 || !(two[0] > 0) || (two.size() == 2 && two[1] < 0))
+      if (two.size() < 1 || two.size() > 2)
         list.fail("expected [A1, A2] in m^2: extending (greater than 0), and drawing in (0: a single-acting cylinder)");
       warn_outside(list, two[0], plausible_piston);
       pistons.of[0].push_back({two[0], length});
@@ -149,8 +136,7 @@ class ActuatorReader {
     }
     double sum = 0;
     for (const YamlValue& stage : stages->items()) {
-      stage.check_keys({"piston_areas", "length"}, "a stage");
-      const double length = stage.at("length").positive_number();
+      const double length = stage.at("length").number();
       add(stage.at("piston_areas"), length);
       sum += length;
     }
@@ -160,20 +146,14 @@ class ActuatorReader {
     return pistons;
   }
 
-  /// Reads a list of one number for each chamber, not negative; zeros if the key is missing.
+  /// Reads a list of one number for each chamber.
   std::array<double, 2> read_two(const char* key) {
-    std::array<double, 2> numbers{0, 0};
-    const auto list = entry_.find(key);
-    if (!list) return numbers;
-    const Eigen::VectorXd given = list->vector();
+    const YamlValue list = entry_.at(key);
+    const Eigen::VectorXd given = list.vector();
     if (given.size() != 2 && given.size() != static_cast<Eigen::Index>(chambers_))
-      list->fail(
+      list.fail(
           fmt::format("expected {}, one for each chamber", chambers_ == 1 ? "a list of one number" : "two numbers"));
-    for (Eigen::Index k = 0; k < given.size(); ++k) {
-      if (given[k] < 0) list->fail("expected no number below 0");
-      numbers[static_cast<std::size_t>(k)] = given[k];
-    }
-    return numbers;
+    return {given[0], given.size() == 2 ? given[1] : 0};
   }
 
   ChamberSpace space(std::size_t k) const {
@@ -209,7 +189,7 @@ class ActuatorReader {
     Cylinder& added = *cylinder;
     model_.add(std::move(cylinder), {Section::elements, name_});
     if (const auto leakage = entry_.find("leakage")) {
-      const double conductance = leakage->non_negative_number();
+      const double conductance = leakage->number();
       if (chambers_ == 1)
         leakage->fail("leads from one chamber to the other, and there is one alone: give `external_leakage`");
       if (conductance > 0)
@@ -234,17 +214,13 @@ class ActuatorReader {
     std::array<const PressureNode*, 2> ends{chambers[0], chambers[1]};
     const auto cushions = entry_.find("cushions");
     if (!cushions) return ends;
-    std::vector<std::string> keys = {"lengths", "areas", "port_area"};
-    keys.insert(keys.end(), orifice_law_keys().begin(), orifice_law_keys().end());
-    cushions->check_keys(keys, "the cushions");
     const auto list = [&](const char* key) {
       const YamlValue given = cushions->at(key);
       if (!given.is_sequence() || given.size() != chambers_) given.fail("expected a number for each chamber");
-      for (const YamlValue& item : given.items()) item.non_negative_number();
       return given.vector();
     };
     const Eigen::VectorXd lengths = list("lengths"), areas = list("areas");
-    const double port_area = cushions->at("port_area").positive_number();
+    const double port_area = cushions->at("port_area").number();
     for (std::size_t k = 0; k < chambers_; ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       if (areas[i] >= port_area) cushions->at("areas").fail("expected areas smaller than the port_area");
@@ -347,7 +323,6 @@ class ActuatorReader {
     const PressureNode* pump = nullptr;
     Volume* pump_volume = nullptr;
     if (supply) {
-      supply->check_keys({"pressure", "flow", "volume", "tank"}, "the supply of an actuator");
       if (const auto given = supply->find("tank")) tank_pressure = given->number();
     }
     if (supply || relief)
@@ -360,9 +335,9 @@ class ActuatorReader {
         if (const auto volume = supply->find("volume")) volume->fail("belongs to a supply of `flow`");
         pump = &add_source("supply", *pressure);
       } else {
-        pump_volume = &add(
-            std::make_unique<Volume>(part("supply"), fluid_, supply->at("volume").positive_number(), tank_pressure, 0),
-            part("supply"));
+        pump_volume =
+            &add(std::make_unique<Volume>(part("supply"), fluid_, supply->at("volume").number(), tank_pressure, 0),
+                 part("supply"));
         pump = pump_volume;
         auto source = std::make_unique<FlowSource>(part("pump"), tank, *pump);
         model_.when_read(Model::Stage::formulas, [source = source.get(), formula = *flow, this_model = &model_] {
@@ -373,7 +348,8 @@ class ActuatorReader {
     }
     if (valve) {
       if (!supply) valve->fail("needs a `supply`");
-      add_valve(*valve, *pump, *tank, ends);
+      add_servo_valve(part("valve"), *valve, {pump, tank, ends[0], chambers_ == 2 ? ends[1] : nullptr}, fluid_,
+                      circuit(part("valve")), model_);
     } else if (supply) {
       supply->fail("leads nowhere: give a `valve`");
     }
@@ -388,7 +364,6 @@ class ActuatorReader {
         }
     }
     if (accumulator) {
-      accumulator->check_keys({"gas_volume", "precharge", "exponent"}, "an accumulator");
       add_accumulator(part("accumulator"), *accumulator, pump_volume ? *pump_volume : *volumes[0],
                       circuit(part("accumulator")), model_);
     }
@@ -403,13 +378,6 @@ class ActuatorReader {
     else
       source.keep(fluid_.ambient);
     return source;
-  }
-
-  void add_valve(const YamlValue& valve, const PressureNode& pump, const PressureNode& tank,
-                 const std::array<const PressureNode*, 2>& ends) {
-    valve.check_keys(servo_valve_keys(), "the valve of an actuator");
-    add_servo_valve(part("valve"), valve, {&pump, &tank, ends[0], chambers_ == 2 ? ends[1] : nullptr}, fluid_,
-                    circuit(part("valve")), model_);
   }
 
   std::string name_;

@@ -8,6 +8,7 @@
 
 namespace bielle::mechanism {
 
+const KeyTable& hydraulic_actuator_keys();
 /// Reads `{type: hydraulic_actuator, nodes, at, piston_areas | stages, dead_volumes, stroke, ports | pressures, ..}`.
 /// An actuator without a circuit creates its own chambers, and `supply` and `valve` if they are given; their results
 /// are under `/hydraulics/<name>.chamber_1`, `.valve`, ...

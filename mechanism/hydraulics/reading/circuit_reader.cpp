@@ -19,17 +19,56 @@
 namespace bielle::mechanism {
 namespace {
 
+const KeyTable& circuit_fluid_keys() {
+  static const KeyTable table{"a fluid", "The fluid of the circuit.", fluid_keys()};
+  return table;
+}
+
+const KeyTable& volume_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a volume",
+      "A place that stores fluid.",
+      {{"volume", number("m^3").non_negative(), otherwise("0"), "Volume of fluid besides that of chambers."},
+       {"pressure", number("Pa"), computed("in equilibrium with the load, or the ambient pressure"),
+        "Pressure at the start."},
+       {"compliance", number("m^3/Pa").non_negative(), otherwise("0"), "Growth of the volume per pressure."}}};
+  return table;
+}
+
+const KeyTable& supply_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a supply",
+      "A place of given pressure, or a pump of given flow.",
+      {{"pressure", state_formula("Pa", {"t"}), optional, "Pressure of the place for any flow."},
+       {"flow", state_formula("m^3/s", {"t"}), optional, "Flow of a pump into `to`."},
+       {"to", name_of("hydraulics"), computed("a place of the supply's own name if it has a `pressure`"),
+        "Place that has the pressure, or into which the pump delivers."},
+       {"from", name_of("hydraulics"), computed("from outside"), "Place from which the pump draws."}}};
+  return table;
+}
+
+const KeyTable& machine_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a machine",
+      "A pump or motor on a coordinate of a joint, its shaft.",
+      {{"joint", {name_of("joint"), state_formula("any", {})}, required, "Joint, or `joint.coordinate`, of the shaft."},
+       {"from", name_of("hydraulics"), required, "Place from which positive turning moves the fluid."},
+       {"to", name_of("hydraulics"), required, "Place to which positive turning moves the fluid."},
+       {"displacement", number("m^3/rad or m^2").non_negative(), required, "Volume per angle or displacement."},
+       {"setting", state_formula("", {"t"}), otherwise("1"), "Factor of the displacement."},
+       {"leakage", number("m^3/(s Pa)").non_negative(), otherwise("0"), "Leakage flow per pressure difference."},
+       {"drag", number("N m s/rad or N s/m").non_negative(), otherwise("0"), "Moment or force per rate."}}};
+  return table;
+}
+
 class CircuitReader {
  public:
-  CircuitReader(const YamlValue& section, Model& model) : section_(section), model_(model) {
-    section.check_keys(
-        {"ambient_pressure", "fluid", "volumes", "junctions", "supplies", "lines", "accumulators", "machines"},
-        "the hydraulics");
-    read_ambient_pressure(section, fluid_);
-    if (const auto fluid = section.find("fluid")) {
-      fluid->check_keys(fluid_keys(), "a fluid");
-      read_fluid(*fluid, fluid_);
-    }
+  CircuitReader(const YamlValue& section, Model& model) : section_(section.keyed(hydraulics_keys())), model_(model) {
+    read_ambient_pressure(section_, fluid_);
+    if (const auto fluid = section_.find("fluid")) read_fluid(*fluid, fluid_);
   }
 
   void read() {
@@ -97,12 +136,10 @@ class CircuitReader {
   }
 
   void read_volume(const std::string& name, const YamlValue& entry) {
-    entry.check_keys({"volume", "pressure", "compliance"}, "a volume");
-    const auto pressure = entry.find("pressure"), compliance = entry.find("compliance"), volume = entry.find("volume");
-    const double V = volume ? volume->non_negative_number() : 0;
+    const auto pressure = entry.find("pressure");
+    const double V = entry.at("volume").number(), c = entry.at("compliance").number();
     const double p = pressure ? pressure->number() : fluid_.ambient;
     if (pressure) check_pressure(*pressure, p);
-    const double c = compliance ? compliance->non_negative_number() : 0;
     if (const auto given = given_.find(name); given != given_.end()) {
       entry.warn(fmt::format("the supply '{}' keeps the pressure of this place: its volume and start do not matter",
                              given->second));
@@ -142,7 +179,6 @@ class CircuitReader {
   }
 
   void read_supply(const std::string& name, const YamlValue& entry) {
-    entry.check_keys({"to", "from", "pressure", "flow"}, "a supply");
     const auto pressure = entry.find("pressure"), flow = entry.find("flow"), from = entry.find("from");
     if (pressure.has_value() == flow.has_value()) entry.fail("give `pressure` [Pa] or `flow` [m^3/s]: one of the two");
     if (flow) {
@@ -175,25 +211,23 @@ class CircuitReader {
   }
 
   void read_machine(const std::string& name, const YamlValue& entry) {
-    entry.check_keys({"joint", "from", "to", "displacement", "setting", "leakage", "drag"}, "a machine");
-    Machine::Data data{entry.at("displacement").non_negative_number()};
-    if (const auto leakage = entry.find("leakage")) data.leakage = leakage->non_negative_number();
-    if (const auto drag = entry.find("drag")) data.drag = drag->non_negative_number();
+    Machine::Data data{entry.at("displacement").number()};
+    data.leakage = entry.at("leakage").number();
+    data.drag = entry.at("drag").number();
     const YamlValue to = entry.at("to");
     const PressureNode &a = place_named_by(entry.at("from"), model_), &b = place_named_by(to, model_);
     if (&a == &b) to.fail("a machine moves fluid from one place to another");
     model_.when_read(Model::Stage::connections, [name, entry, data, &a, &b, model = &model_] {
       const NamedCoordinate shaft = coordinate_named_by(entry.at("joint"), *model);
       auto machine = std::make_unique<Machine>(name, *shaft.joint, shaft.index, a, b, data);
-      if (const auto setting = entry.find("setting"))
-        model->when_read(Model::Stage::formulas, [machine = machine.get(), setting = *setting, model] {
-          machine->read_setting(setting, *model);
-        });
+      model->when_read(Model::Stage::formulas, [machine = machine.get(), setting = entry.at("setting"), model] {
+        machine->read_setting(setting, *model);
+      });
       model->add(std::move(machine), {Section::hydraulics, name});
     });
   }
 
-  const YamlValue& section_;
+  YamlValue section_;
   Model& model_;
   Fluid fluid_;
   std::map<std::string, std::string> taken_;     ///< path of each name
@@ -215,6 +249,23 @@ std::vector<std::string> circuit_types() {
   std::vector<std::string> types = line_types();
   for (const char* type : {"volume", "supply", "accumulator", "machine"}) types.emplace_back(type);
   return types;
+}
+
+const KeyTable& hydraulics_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the hydraulics",
+      "Circuits that hydraulic actuators share; all entries have different names.",
+      {ambient_pressure_key(),
+       {"fluid", nested(circuit_fluid_keys), optional, "The fluid; hydraulic oil without the key."},
+       {"volumes", entries("hydraulics", {nested(volume_keys)}), optional, "Places that store fluid."},
+       {"junctions", list_of(name_of("hydraulics")), optional, "Places at which lines meet and nothing is stored."},
+       {"supplies", entries("hydraulics", {nested(supply_keys)}), optional,
+        "Places of given pressure, such as tanks, and pumps of given flow."},
+       {"lines", entries("hydraulics", {nested(line_keys)}), optional, "Connections of places."},
+       {"accumulators", entries("hydraulics", {nested(accumulator_keys)}), optional, "Stores of gas at volumes."},
+       {"machines", entries("hydraulics", {nested(machine_keys)}), optional, "Pumps and motors on joints."}}};
+  return table;
 }
 
 void read_hydraulics(const YamlValue& section, Model& model) { CircuitReader(section, model).read(); }

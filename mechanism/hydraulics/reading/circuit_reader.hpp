@@ -10,6 +10,7 @@
 
 namespace bielle::mechanism {
 
+const KeyTable& hydraulics_keys();
 /// Reads places (volumes, junctions, supplies) and the components that connect them (lines, accumulators, machines).
 /// Call it before elements are read: actuators name places.
 /// @throws InputError

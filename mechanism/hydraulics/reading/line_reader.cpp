@@ -11,6 +11,7 @@
 #include "mechanism/hydraulics/lines/pipe_segment.hpp"
 #include "mechanism/hydraulics/lines/pressure_valve.hpp"
 #include "mechanism/hydraulics/lines/spool_valve.hpp"
+#include "mechanism/hydraulics/reading/line_keys.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -25,13 +26,7 @@ struct LineEntry {
   Entry own() const { return {Section::hydraulics, name}; }
 };
 
-std::vector<std::string> joined(std::vector<std::string> keys, const std::vector<std::string>& more) {
-  keys.insert(keys.end(), more.begin(), more.end());
-  return keys;
-}
-
 void read_orifice(const LineEntry& line) {
-  line.data.check_keys(joined({"area", "diameter"}, orifice_law_keys()), "an orifice");
   const OrificeLaw law = read_orifice_law(line.data, line.fluid);
   const auto area = line.data.find("area");
   if (!area) {
@@ -47,16 +42,15 @@ void read_orifice(const LineEntry& line) {
 }
 
 void read_laminar(const LineEntry& line) {
-  line.data.check_keys({"conductance", "length", "diameter"}, "a laminar line");
   const auto given = line.data.find("conductance");
   double conductance = 0;
   if (given) {
     for (const char* key : {"length", "diameter"})
       if (const auto other = line.data.find(key)) other->fail("give `conductance`, or `length` and `diameter`");
-    conductance = given->non_negative_number();
+    conductance = given->number();
   } else {  // law of Hagen and Poiseuille
-    const double d = line.data.at("diameter").non_negative_number();
-    conductance = M_PI * d * d * d * d / (128 * line.fluid.viscosity * line.data.at("length").positive_number());
+    const double d = line.data.at("diameter").number();
+    conductance = M_PI * d * d * d * d / (128 * line.fluid.viscosity * line.data.at("length").number());
   }
   line.model.add(std::make_unique<Leakage>(line.name, line.from, &line.to, conductance), line.own());
 }
@@ -65,26 +59,22 @@ constexpr double usual_range = 0.1;  // opening range relative to the setting
 
 double read_range(const YamlValue& entry, double setting) {
   const auto range = entry.find("range");
-  if (range) return range->positive_number();
+  if (range) return range->number();
   if (setting > 0) return usual_range * setting;
   return 0.5e5;
 }
 
-double read_time_constant(const YamlValue& entry) {
-  const auto constant = entry.find("time_constant");
-  return constant ? constant->non_negative_number() : 0;
+PoppetValve::Setting read_setting(const YamlValue& entry) {
+  PoppetValve::Setting setting;
+  setting.pressure = entry.at("pressure").number();
+  setting.range = read_range(entry, setting.pressure);
+  setting.area = read_area(entry);
+  setting.time_constant = entry.at("time_constant").number();
+  return setting;
 }
 
-const std::vector<std::string> poppet_keys = {"area", "diameter", "range", "time_constant"};
-
 void read_check(const LineEntry& line) {
-  line.data.check_keys(joined(joined({"pressure"}, poppet_keys), orifice_law_keys()), "a check valve");
-  PoppetValve::Setting setting;
-  const auto pressure = line.data.find("pressure");
-  setting.pressure = pressure ? pressure->non_negative_number() : 0;
-  setting.range = read_range(line.data, setting.pressure);
-  setting.area = read_area(line.data);
-  setting.time_constant = read_time_constant(line.data);
+  const PoppetValve::Setting setting = read_setting(line.data);
   line.model.add(std::make_unique<PoppetValve>("check", line.name, line.from, line.to, nullptr,
                                                read_orifice_law(line.data, line.fluid), setting),
                  line.own());
@@ -95,19 +85,11 @@ void read_relief(const LineEntry& line) {
 }
 
 void read_counterbalance(const LineEntry& line) {
-  line.data.check_keys(
-      joined(joined({"pressure", "pilot", "pilot_ratio", "check_pressure"}, poppet_keys), orifice_law_keys()),
-      "a counterbalance valve");
-  PoppetValve::Setting setting;
-  setting.pressure = line.data.at("pressure").non_negative_number();
+  PoppetValve::Setting setting = read_setting(line.data);
   warn_of_setting(line.data.at("pressure"), setting.pressure);
-  setting.range = read_range(line.data, setting.pressure);
-  setting.area = read_area(line.data);
   setting.back = 0;
-  setting.time_constant = read_time_constant(line.data);
-  setting.pilot_ratio = line.data.at("pilot_ratio").non_negative_number();
-  const auto check = line.data.find("check_pressure");
-  setting.check_pressure = check ? check->non_negative_number() : 0;
+  setting.pilot_ratio = line.data.at("pilot_ratio").number();
+  setting.check_pressure = line.data.at("check_pressure").number();
   line.model.add(std::make_unique<PoppetValve>("counterbalance", line.name, line.from, line.to,
                                                &place_named_by(line.data.at("pilot"), line.model),
                                                read_orifice_law(line.data, line.fluid), setting),
@@ -115,21 +97,12 @@ void read_counterbalance(const LineEntry& line) {
 }
 
 void read_flow_valve(const LineEntry& line) {
-  line.data.check_keys({"flow", "pressure"}, "a flow valve");
-  const double least = line.data.at("pressure").positive_number();
+  const double least = line.data.at("pressure").number();
   warn_of_setting(line.data.at("pressure"), least);
   auto valve = std::make_unique<FlowValve>(line.name, line.from, line.to, least);
   line.model.when_read(Model::Stage::formulas, [valve = valve.get(), formula = line.data.at("flow"),
                                                 &model = line.model] { valve->read(formula, model); });
   line.model.add(std::move(valve), line.own());
-}
-
-double read_overlap(const YamlValue& entry) {
-  const auto overlap = entry.find("overlap");
-  if (!overlap) return 0;
-  const double share = overlap->number();
-  if (!(share > -1 && share < 1)) overlap->fail("expected a share of the full opening between -1 and 1");
-  return share;
 }
 
 /// Reads the command after the model has been read, and adds the valve.
@@ -144,9 +117,8 @@ SpoolValve& add_spool_valve(std::unique_ptr<SpoolValve> valve, const YamlValue& 
 }
 
 void read_valve(const LineEntry& line) {
-  line.data.check_keys(joined(joined({"area", "diameter", "overlap"}, orifice_law_keys()), spool_keys()), "a valve");
   add_spool_valve(std::make_unique<SpoolValve>(line.name, line.from, line.to, read_orifice_law(line.data, line.fluid),
-                                               read_area(line.data), read_overlap(line.data)),
+                                               read_area(line.data), line.data.at("overlap").number()),
                   line.data, line.own(), line.model);
 }
 
@@ -155,13 +127,10 @@ void read_valve(const LineEntry& line) {
 // itself.
 void read_pipe(const LineEntry& line) {
   const YamlValue& data = line.data;
-  data.check_keys({"length", "diameter", "roughness", "cells", "pressure", "wall"}, "a pipe");
-  const double length = data.at("length").positive_number(), diameter = data.at("diameter").positive_number();
-  const auto roughness = data.find("roughness"), cells = data.find("cells"), wall = data.find("wall");
-  const double k = roughness ? roughness->non_negative_number() : 0;
-  if (k >= 0.1 * diameter) roughness->fail("expected a roughness well below the diameter");
-  const int n = cells ? cells->integer() : 10;
-  if (n < 1 || n > 10000) cells->fail("expected 1 to 10000 volumes along the pipe");
+  const double length = data.at("length").number(), diameter = data.at("diameter").number();
+  const double k = data.at("roughness").number();
+  if (k >= 0.1 * diameter) data.at("roughness").fail("expected a roughness well below the diameter");
+  const int n = data.at("cells").integer();
   const double pressure = data.at("pressure").number(), vacuum = line.fluid.vacuum();
   if (!(pressure > vacuum))
     data.at("pressure").fail(fmt::format("expected a pressure above {:.6g} Pa, which is vacuum", vacuum));
@@ -172,10 +141,8 @@ void read_pipe(const LineEntry& line) {
   const double cell = length / (n + 0.5 * holds[0] + 0.5 * holds[1]);
   const double space = 0.25 * M_PI * diameter * diameter * cell;
   double compliance = 0;
-  if (wall) {  // a thin tube that is free to extend: dV/V = dp d/(E s)
-    wall->check_keys({"thickness", "young"}, "the wall of a pipe");
-    compliance = space * diameter / (wall->at("young").positive_number() * wall->at("thickness").positive_number());
-  }
+  if (const auto wall = data.find("wall"))  // a thin tube that is free to extend: dV/V = dp d/(E s)
+    compliance = space * diameter / (wall->at("young").number() * wall->at("thickness").number());
   for (std::size_t end : {0, 1})
     if (holds[end]) volume_of(*ends[end], line.model)->add_volume(0.5 * space, 0.5 * compliance);
   const PressureNode* before = ends[0];
@@ -198,19 +165,22 @@ void read_pipe(const LineEntry& line) {
 
 struct LineType {
   const char* key;
-  void (*read)(const LineEntry& line);
-};
-constexpr LineType line_table[] = {
-    {"orifice", read_orifice}, {"laminar", read_laminar},       {"check", read_check},
-    {"relief", read_relief},   {"valve", read_valve},           {"counterbalance", read_counterbalance},
-    {"pipe", read_pipe},       {"flow_valve", read_flow_valve},
+  void (*read)(const LineEntry& line);  ///< null: the type has four ports
+  const KeyTable& (*keys)();
 };
 constexpr const char* four_ports = "servo_valve";
+constexpr LineType line_table[] = {
+    {"orifice", read_orifice, orifice_keys}, {"laminar", read_laminar, laminar_keys},
+    {"check", read_check, check_valve_keys}, {"relief", read_relief, relief_keys},
+    {"valve", read_valve, valve_keys},       {"counterbalance", read_counterbalance, counterbalance_keys},
+    {"pipe", read_pipe, pipe_keys},          {"flow_valve", read_flow_valve, flow_valve_keys},
+    {four_ports, nullptr, servo_valve_keys},
+};
 
 void read_four_ports(const std::string& name, const YamlValue& entry, const Fluid& fluid, Model& model) {
-  entry.check_keys({"ports", four_ports}, "a line with a servo-valve");
+  for (const char* end : {"from", "to"})
+    if (const auto value = entry.find(end)) value->fail("belongs to a line with two ends; a servo_valve has `ports`");
   const YamlValue ports = entry.at("ports");
-  ports.check_keys({"P", "T", "A", "B"}, "the ports of a servo-valve");
   std::array<const PressureNode*, 4> places{};
   std::size_t count = 0;
   for (const char* port : {"P", "T", "A", "B"}) {
@@ -220,9 +190,7 @@ void read_four_ports(const std::string& name, const YamlValue& entry, const Flui
       if (places[other] == places[count]) value.fail("another port is joined to this place as well");
     ++count;
   }
-  const YamlValue data = entry.at(four_ports);
-  data.check_keys(servo_valve_keys(), "a servo-valve");
-  add_servo_valve(name, data, places, fluid, {Section::hydraulics, name}, model);
+  add_servo_valve(name, entry.at(four_ports), places, fluid, {Section::hydraulics, name}, model);
 }
 
 }  // namespace
@@ -234,14 +202,20 @@ Volume* volume_of(const PressureNode& place, const Model& model) {
 }
 
 std::vector<std::string> line_types() {
-  std::vector<std::string> keys;
-  for (const LineType& type : line_table) keys.emplace_back(type.key);
-  keys.emplace_back(four_ports);
-  return keys;
+  std::vector<std::string> types;
+  for (const LineType& type : line_table) types.emplace_back(type.key);
+  return types;
 }
 
-std::vector<std::string> servo_valve_keys() {
-  return joined(joined({"area", "areas", "diameter", "overlap"}, orifice_law_keys()), spool_keys());
+const KeyTable& line_keys() {
+  static const KeyTable table{"a line", "A connection of places; one of its keys tells its type.", [] {
+                                std::vector<Key> all = line_end_keys();
+                                for (const LineType& type : line_table)
+                                  all.emplace_back(type.key, keys::nested(type.keys), keys::optional,
+                                                   type.keys().about);
+                                return all;
+                              }()};
+  return table;
 }
 
 SpoolValve& add_servo_valve(const std::string& name, const YamlValue& entry,
@@ -253,44 +227,34 @@ SpoolValve& add_servo_valve(const std::string& name, const YamlValue& entry,
       if (const auto other = entry.find(key)) other->fail("give `areas` of the four edges, or one for all");
     if (!each->is_sequence() || each->size() != areas.size())
       each->fail("expected the areas of P-A, B-T, P-B and A-T at full opening");
-    for (std::size_t k = 0; k < areas.size(); ++k) areas[k] = each->at(k).non_negative_number();
+    for (std::size_t k = 0; k < areas.size(); ++k) areas[k] = each->at(k).number();
   } else {
     areas.fill(read_area(entry));
   }
   return add_spool_valve(
-      std::make_unique<SpoolValve>(name, places, read_orifice_law(entry, fluid), areas, read_overlap(entry)), entry,
-      own, model);
+      std::make_unique<SpoolValve>(name, places, read_orifice_law(entry, fluid), areas, entry.at("overlap").number()),
+      entry, own, model);
 }
 
 void add_relief(const std::string& name, const YamlValue& entry, const PressureNode& from, const PressureNode& to,
                 const Fluid& fluid, const Entry& own, Model& model) {
-  entry.check_keys(joined(joined({"pressure", "vented"}, poppet_keys), orifice_law_keys()), "a relief valve");
-  PoppetValve::Setting setting;
-  setting.pressure = entry.at("pressure").non_negative_number();
+  PoppetValve::Setting setting = read_setting(entry);
   warn_of_setting(entry.at("pressure"), setting.pressure);
-  setting.range = read_range(entry, setting.pressure);
-  setting.area = read_area(entry);
-  setting.time_constant = read_time_constant(entry);
-  const auto vented = entry.find("vented");
-  if (vented && vented->boolean()) setting.back = 0;
+  if (entry.at("vented").boolean()) setting.back = 0;
   model.add(std::make_unique<PoppetValve>("relief", name, from, to, nullptr, read_orifice_law(entry, fluid), setting),
             own);
 }
 
 void read_line(const std::string& name, const YamlValue& entry, const Fluid& fluid, Model& model) {
-  if (entry.has(four_ports)) return read_four_ports(name, entry, fluid, model);
-  std::vector<std::string> keys = {"from", "to", "ports"};
   const LineType* type = nullptr;
   for (const LineType& each : line_table) {
-    keys.emplace_back(each.key);
     if (!entry.has(each.key)) continue;
     if (type)
       entry.at(each.key).fail(fmt::format("this line is a `{}` already; join two lines by a junction", type->key));
     type = &each;
   }
-  keys.emplace_back(four_ports);
-  entry.check_keys(keys, "a line");
   if (!type) entry.fail(fmt::format("a line is one of: {}", fmt::join(line_types(), ", ")));
+  if (!type->read) return read_four_ports(name, entry, fluid, model);
   if (const auto ports = entry.find("ports")) ports->fail("belongs to a servo_valve; a line has `from` and `to`");
   const YamlValue to = entry.at("to");
   const PressureNode &a = place_named_by(entry.at("from"), model), &b = place_named_by(to, model);

@@ -14,6 +14,7 @@ namespace bielle::mechanism {
 /// Returns the types of lines, each the key that creates it: orifice, laminar, check, relief, ...
 std::vector<std::string> line_types();
 
+const KeyTable& line_keys();
 /// Reads one line. Its places are looked up after all entries have been read. @throws InputError
 void read_line(const std::string& name, const YamlValue& entry, const Fluid& fluid, Model& model);
 
@@ -24,15 +25,12 @@ class Volume;
 /// Returns the place as a volume to which a chamber or accumulator can be connected; nullptr if it is none.
 Volume* volume_of(const PressureNode& place, const Model& model);
 
-/// Adds the four-port valve of `servo_valve` or of an actuator: coefficient, area or areas, overlap, command, its
-/// dynamics.
+/// Adds the four-port valve of `servo_valve` or of an actuator.
 /// @param places  places P, T, A, B
 SpoolValve& add_servo_valve(const std::string& name, const YamlValue& entry,
                             const std::array<const PressureNode*, 4>& places, const Fluid& fluid, const Entry& own,
                             Model& model);
-/// Returns its keys.
-std::vector<std::string> servo_valve_keys();
-/// Adds a relief valve: `pressure`, `range`, `area`, ...
+/// Adds a relief valve.
 void add_relief(const std::string& name, const YamlValue& entry, const PressureNode& from, const PressureNode& to,
                 const Fluid& fluid, const Entry& own, Model& model);
 

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/analyses/analysis_table.hpp"
+#include "mechanism/analyses/campbell_analysis.hpp"
 #include "mechanism/analyses/dynamic_analysis.hpp"
 #include "mechanism/analyses/eigen_analysis.hpp"
 #include "mechanism/analyses/frequency_response_analysis.hpp"
@@ -69,7 +70,7 @@ TEST_CASE("the analysis `eigen` reads how many modes, where, and about which rot
   CHECK_FALSE(dynamic_cast<const EigenAnalysis&>(*read("{type: eigen, shapes: false}")).shapes());
 
   CHECK_THAT(refusal("{type: eigen, modes: 3}"), Contains("'modes' is not a key of the analysis 'eigen'"));
-  CHECK_THAT(refusal("{type: eigen, count: 0}"), Contains("expected at least one mode"));
+  CHECK_THAT(refusal("{type: eigen, count: 0}"), Contains("at least 1"));
   CHECK_THAT(refusal("{type: eigen, count: 2.5}"), Contains("count"));
   CHECK_THAT(refusal("{type: eigen, near: 0}"), Contains("near"));
   CHECK_THAT(refusal("{type: eigen, below: -1}"), Contains("below"));
@@ -114,11 +115,11 @@ TEST_CASE("the analysis `frequency_response` says what it does not understand") 
   CHECK_THAT(with("[{node: ground, direction: x, at: 3}]", moves, some), Contains("'at'"));
   CHECK_THAT(with(force, moves, "{from: 5, to: 1}"), Contains("expected more than `from`"));
   CHECK_THAT(with(force, moves, "{from: 0, to: 1}"), Contains("from"));
-  CHECK_THAT(with(force, moves, "{from: -1, to: 1, spacing: even}"), Contains("0 or more"));
+  CHECK_THAT(with(force, moves, "{from: -1, to: 1, spacing: even}"), Contains("at least 0"));
   CHECK_THAT(with(force, moves, "{from: 1, to: 2, count: 1}"), Contains("at least 2"));
   CHECK_THAT(with(force, moves, "{from: 1, to: 2, spacing: uneven}"), Contains("spacing"));
   CHECK_THAT(with(force, moves, "[]"), Contains("at least one frequency"));
-  CHECK_THAT(with(force, moves, "[-1]"), Contains("0 or more"));
+  CHECK_THAT(with(force, moves, "[-1]"), Contains("at least 0"));
 }
 
 TEST_CASE("the analysis `state_space` reads inputs and outputs as `frequency_response` does") {
@@ -133,4 +134,96 @@ TEST_CASE("the analysis `state_space` reads inputs and outputs as `frequency_res
              Contains("there is no input 'psh'"));
   CHECK_THAT(refusal("{type: state_space, inputs: " + force + ", outputs: " + force + ", frequencies: [1]}"),
              Contains("'frequencies' is not a key of the analysis 'state_space'"));
+}
+
+TEST_CASE("analyses take values with units, and refuse others") {
+  Model model;
+  Node node;
+  node.name = "tip";
+  model.add_node(node);
+  model.parameters["speed"] = 100;
+  const auto read_of = [&](const std::string& text) {
+    YamlValue entry = YamlValue::parse(text, "model.yaml");
+    entry.set_parameters(model.parameters);
+    return read_analysis(entry, model);
+  };
+  const auto refused = [&](const std::string& text, const std::string& unit, const std::string& given) {
+    CHECK_THAT(test::message_of<InputError>([&] { read_of(text); }),
+               Contains("expected a value in " + unit + ", found one in '" + given + "'"));
+  };
+  const auto path = read_of("{type: static, arc_length: {until: {node: tip, displacement: 12 mm}}}");
+  CHECK(dynamic_cast<const StaticAnalysis&>(*path).options().path->end.displacement == Approx(0.012));
+  refused("{type: static, arc_length: {until: {node: tip, displacement: 12 deg}}}", "m", "deg");
+
+  const auto motion = read_of("{type: dynamic, duration: 2 min, step: 5 ms, tolerance: 1e-6, largest_step: 1 s}");
+  const DynamicsOptions& options = dynamic_cast<const DynamicAnalysis&>(*motion).options();
+  CHECK(options.duration == 120);
+  CHECK(options.stepping.size == Approx(0.005));
+  CHECK(options.stepping.largest == 1);
+  refused("{type: dynamic, duration: 2 Hz, step: 1}", "s", "Hz");
+  CHECK(read_of("{type: kinematic, duration: 500 ms, step: 1 ms}")->duration() == Approx(0.5));
+  refused("{type: inverse_dynamics, duration: 2, step: 3 m}", "s", "m");
+
+  const auto modes =
+      read_of("{type: eigen, near: 2 kHz, rotation: {rate: 60 rev/min, axis: [0, 0, 1], position: [10 cm, 0, 0]}}");
+  const ModesOptions& sought = dynamic_cast<const EigenAnalysis&>(*modes).options();
+  CHECK(*sought.search.near == Approx(2000));
+  CHECK(sought.rotation->omega.z() == Approx(2 * M_PI));
+  CHECK(sought.rotation->through.x() == Approx(0.1));
+  refused("{type: eigen, below: 3 rad/s}", "Hz", "rad/s");
+  refused("{type: eigen, rotation: {rate: 3 Hz, axis: [0, 0, 1]}}", "rad/s", "Hz");
+
+  const std::string ends = "inputs: [{node: tip, direction: x}], outputs: [{node: tip, direction: z}]";
+  const auto responses = read_of("{type: frequency_response, " + ends + ", frequencies: [1 kHz, 2 kHz]}");
+  CHECK(dynamic_cast<const FrequencyResponseAnalysis&>(*responses).options().frequencies[1] == Approx(2000));
+  refused("{type: frequency_response, " + ends + ", frequencies: {from: 1, to: 2 s}}", "Hz", "s");
+  refused("{type: state_space, " + ends + ", rotation: {rate: 1, axis: [0, 0, 1], position: [1 s, 0, 0]}}", "m", "s");
+
+  const auto speeds = [&](const std::string& text) {
+    return dynamic_cast<const CampbellAnalysis&>(*read_of("{type: campbell, " + text + "}")).options();
+  };
+  CHECK(speeds("rotation: {axis: [0, 0, 1]}, speeds: {to: 60 rev/min, count: 3}").values[1] == Approx(M_PI));
+  refused("{type: campbell, rotation: {axis: [0, 0, 1]}, speeds: {to: 3 Hz}}", "rad/s", "Hz");
+  CHECK(speeds("parameter: speed, speeds: [1, 60 rev/min]").values[1] == Approx(2 * M_PI));
+  const std::string rate = "parameter: speed, speeds: {to: 9}, rotation: {axis: [0, 0, 1], rate: ";
+  CHECK(speeds(rate + "2*speed}").rate == "2*speed");
+  CHECK(std::stod(speeds(rate + "60 rev/min}").rate) == Approx(2 * M_PI));
+  refused("{type: campbell, " + rate + "3 m}}", "rad/s", "m");
+}
+
+TEST_CASE("defaults of the tables are those of the analyses' options") {
+  const auto motion = read("{type: dynamic, duration: 1, step: 0.1, newton: {line_search: true}}");
+  const NewtonOptions& newton = dynamic_cast<const DynamicAnalysis&>(*motion).options().newton;
+  CHECK(newton.tolerance == NewtonOptions().tolerance);
+  CHECK(newton.iterations == NewtonOptions().iterations);
+  CHECK(newton.line_search == NewtonOptions().line_search);
+  CHECK(newton.tangent == NewtonOptions().tangent);
+  const auto path = read("{type: static, arc_length: {until: {load_factor: 2}}}");
+  CHECK(dynamic_cast<const StaticAnalysis&>(*path).options().path->most_points == ContinuationOptions().most_points);
+  const auto modes = read("{type: eigen}");
+  CHECK(dynamic_cast<const EigenAnalysis&>(*modes).options().search.count == ModeOptions().count);
+  const auto sweep = read("{type: campbell, rotation: {axis: [0, 0, 1]}, speeds: {to: 9}}");
+  const CampbellOptions& swept = dynamic_cast<const CampbellAnalysis&>(*sweep).options();
+  CHECK(swept.modes == CampbellOptions().modes);
+  CHECK(swept.orders == CampbellOptions().orders);
+  CHECK(swept.values.size() == 41);
+}
+
+TEST_CASE("values of analyses out of range are refused") {
+  CHECK_THAT(refusal("{type: static, steps: 0}"), Contains("steps") && Contains("at least 1"));
+  CHECK_THAT(refusal("{type: static, steps: some}"), Contains("steps"));
+  CHECK_THAT(refusal("{type: static, branch: 0.6}"), Contains("branch") && Contains("at most 0.5"));
+  CHECK_THAT(refusal("{type: static, newton: {tangent: reused}}"), Contains("'tangent' is not a key of `newton`"));
+  CHECK_THAT(refusal("{type: static, newton: {tolerance: 0.1}}"), Contains("tolerance") && Contains("at most 0.001"));
+  CHECK_THAT(refusal("{type: static, newton: {iterations: 1}}"), Contains("iterations") && Contains("at least 2"));
+  CHECK_THAT(refusal("{type: dynamic, duration: 1, step: 0.1, newton: {tangent: reusd}}"),
+             Contains("'reusd' is not a way with the tangent; did you mean 'reused'?"));
+  CHECK_THAT(refusal("{type: dynamic, duration: 1, step: 0.1, rho: 1.1}"),
+             Contains("rho") && Contains("between 0 and 1"));
+  CHECK_THAT(refusal("{type: dynamic, duration: 1, step: 0.1, scheme: hht, alpha: 0.5}"),
+             Contains("alpha") && Contains("between 0 and 0.333"));
+  CHECK_THAT(refusal("{type: dynamic, duration: 1, step: 0.1, alpha: 0.1}"), Contains("is no parameter of the scheme"));
+  CHECK_THAT(refusal("{type: campbell, rotation: {axis: [0, 0, 1]}, speeds: {to: 9}, modes: 0}"), Contains("modes"));
+  CHECK_THAT(refusal("{type: campbell, rotation: {axis: [0, 0, 1]}, speeds: {to: 9}, orders: [0]}"),
+             Contains("orders[1]") && Contains("greater than 0"));
 }

@@ -53,7 +53,7 @@ TEST_CASE("steps and times that mean nothing are refused where they stand") {
     return refusal("  a: {}", "analysis: [{type: dynamic, duration: 2, " + keys + "}]\n" + output);
   };
   CHECK_THAT(dynamic("step: 3"), Contains("analysis[1].step") && Contains("longer than the duration"));
-  CHECK_THAT(dynamic("step: 1, tolerance: 2"), Contains("tolerance") && Contains("less than 1"));
+  CHECK_THAT(dynamic("step: 1, tolerance: 2"), Contains("tolerance") && Contains("between 0 and 1"));
   CHECK_THAT(dynamic("step: 1, tolerance: 0"), Contains("tolerance"));
   CHECK_THAT(dynamic("step: 1, largest_step: 1"), Contains("largest_step") && Contains("`tolerance`"));
   CHECK_THAT(dynamic("step: 1, tolerance: 1e-4, largest_step: 0.1"), Contains("step") && Contains("largest step"));
@@ -61,6 +61,12 @@ TEST_CASE("steps and times that mean nothing are refused where they stand") {
   CHECK_THAT(dynamic("tolerance: 1e-4", "output: {times: [2.5]}"), Contains("times[1]") && Contains("2 s"));
   CHECK_THAT(dynamic("tolerance: 1e-4", "output: {times: [1], every: 2}"), Contains("every") && Contains("not both"));
   CHECK(dynamic("tolerance: 1e-4", "output: {times: [0, 2]}") == "(nothing thrown)");
+  CHECK(dynamic("tolerance: 1e-4", "output: {times: [500 ms, 1.5, 2 s]}") == "(nothing thrown)");
+  CHECK_THAT(dynamic("tolerance: 1e-4", "output: {times: [1 m]}"),
+             Contains("times[1]: expected a value in s, found one in 'm'"));
+  CHECK_THAT(dynamic("tolerance: 1e-4", "output: {every: 0}"), Contains("every") && Contains("at least 1"));
+  CHECK_THAT(dynamic("tolerance: 1e-4", "output: {checkpoint: 0}"), Contains("checkpoint") && Contains("at least 1"));
+  CHECK_THAT(dynamic("tolerance: 1e-4", "output: {only: {node: [a]}}"), Contains("did you mean 'nodes'"));
   CHECK_THAT(dynamic("tolerance: 1e-4", "output: {load_factors: [1]}"),
              Contains("load_factors") && Contains("no static analysis"));
 }

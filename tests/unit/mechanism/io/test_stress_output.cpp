@@ -229,5 +229,7 @@ TEST_CASE("wrong requests of stress are refused with file, line and what there i
   CHECK_THAT(rods.message("stress_at: {rod: {root: [50, 0, 0]}}"),
              Contains("the nearest node where stress is kept is"));
   CHECK_THAT(rods.message("stress_at: {rod: {a/b: 1}}"), Contains("expected a name without '/'"));
+  CHECK_THAT(rods.message("stress_at: {rod: {root: [1 kg, 0, 0]}}"),
+             Contains("stress_at.rod.root[1]: expected a value in m, found one in 'kg'"));
   CHECK_THAT(rods.message("strain_att: {rod: {root: 1}}"), Contains("did you mean 'strain_at'"));
 }
