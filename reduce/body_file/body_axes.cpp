@@ -6,8 +6,16 @@
 
 namespace bielle::reduce {
 
+const KeyTable& axes_keys() {
+  using namespace keys;
+  static const KeyTable table{"axes",
+                              "Directions of two axes in the body; the third is normal to both.",
+                              {{"x", direction(), required, "Direction of the x axis."},
+                               {"y", direction(), required, "Direction of the y axis, which is made normal to x."}}};
+  return table;
+}
+
 Eigen::Matrix3d read_axes(const YamlValue& value) {
-  value.check_keys({"x", "y"}, "axes");
   const Eigen::Vector3d x = value.at("x").direction();
   const Eigen::Vector3d z = x.cross(value.at("y").direction());
   // Below this angle to z, the direction of y is too inaccurate to be used.

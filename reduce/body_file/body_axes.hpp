@@ -5,9 +5,13 @@
 
 namespace bielle {
 class YamlValue;
-}
+struct KeyTable;
+}  // namespace bielle
 
 namespace bielle::reduce {
+
+/// Returns the keys of `axes`.
+const KeyTable& axes_keys();
 
 /// `axes: {x: [..], y: [..]}`: a right-handed triad whose x axis has the direction x and whose xy plane contains y,
 /// which is made normal to x.

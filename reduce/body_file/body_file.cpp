@@ -3,15 +3,13 @@
 #include <map>
 #include <optional>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "reduce/body_file/body_axes.hpp"
 #include "reduce/body_file/body_interfaces.hpp"
+#include "reduce/body_file/body_loads.hpp"
 #include "reduce/body_file/body_materials.hpp"
 #include "reduce/body_file/body_pieces.hpp"
 #include "reduce/body_file/body_points.hpp"
-#include "reduce/body_file/body_surfaces.hpp"
 #include "reduce/common/input/plausible.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
@@ -19,51 +17,60 @@ namespace bielle::reduce {
 
 namespace {
 
-InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& request) {
-  value.check_keys({"surface", "tie", "position", "axes", "rotation_vector", "directions"}, "an interface");
-  check_name(name, value);
-  InterfaceRequest interface;
-  interface.name = name;
-  interface.subject = value.path();
-  interface.group = read_surface(value, "surface", request);
-  if (const auto tie = value.find("tie")) interface.tie = read_tie(*tie);
-  if (interface.tie == Tie::free) {
-    interface.kept = {true, true, true, false, false, false};
-    for (const char* key : {"position", "axes", "rotation_vector"})
-      if (const auto given = value.find(key))
-        given->fail("a free interface is each of its nodes where it is, along the axes of the body: remove this key");
-  }
-  if (const auto position = value.find("position")) interface.position = position->vector3();
-  const auto axes = value.find("axes"), rotation = value.find("rotation_vector");
-  if (axes && rotation) value.fail("expected either axes or rotation_vector, not both");
-  if (axes) interface.rotation = read_axes(*axes);
-  if (rotation) {
-    const Eigen::Vector3d psi = rotation->vector3();
-    if (psi.norm() > 0) interface.rotation = Eigen::AngleAxisd(psi.norm(), psi.normalized()).toRotationMatrix();
-  }
-  if (const auto directions = value.find("directions")) interface.kept = read_directions(*directions, interface.tie);
-  return interface;
+const KeyTable& mesh_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the mesh",
+      "Elements into which a geometry is meshed; a file that contains a mesh needs no `mesh`.",
+      {{"size", number("m").positive(), optional,
+        "Length of edges at which the mesh aims. A `.geo` may do without, other geometries may not."},
+       {"order", integer().between(1, 2), otherwise("2"),
+        "Order of the tetrahedra: 1 for 4 nodes, 2 for 10. Order 1 is far too stiff in bending."},
+       {"sizes", entries("physical group, interface, load or point", {number("m").positive()}), optional,
+        "Other sizes on physical groups, or on the surfaces of interfaces, loads and points; they fade into `size` "
+        "away from them."}}};
+  return table;
 }
 
-LoadRequest read_load(const std::string& name, const YamlValue& value, MeshRequest& request) {
-  value.check_keys({"surface", "pressure", "traction", "force", "residual"}, "a load");
-  check_name(name, value);
-  LoadRequest load;
-  load.name = name;
-  load.subject = value.path();
-  load.group = read_surface(value, "surface", request);
-  if (const auto residual = value.find("residual")) load.residual = residual->boolean();
-  if (value.has("pressure") + value.has("traction") + value.has("force") != 1)
-    value.fail("expected exactly one of pressure [Pa], traction [x, y, z in Pa], force [x, y, z in N]");
-  if (const auto pressure = value.find("pressure")) {
-    load.pressure = pressure->number();
-    if (*load.pressure == 0) pressure->fail("a pattern of zero pressure loads nothing");
-    return load;
-  }
-  const YamlValue vector = value.at(value.has("traction") ? "traction" : "force");
-  (value.has("traction") ? load.traction : load.force) = vector.vector3();
-  if (vector.vector3().isZero(0)) vector.fail("a pattern of zero force loads nothing");
-  return load;
+const KeyTable& modes_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the modes",
+      "Fixed-boundary modes to keep: a number, all below a frequency, or the lowest of these.",
+      {{"count", integer().non_negative(), optional, "Number of modes, the lowest."},
+       {"below", number("Hz").positive(), optional,
+        "Frequency below which modes are kept; without `count`, up to 1000 of them."},
+       {"method", word({"auto", "arpack", "block_lanczos"}, "a method for modes"), otherwise("auto"),
+        "Method that computes the modes."},
+       {"proof", boolean(), otherwise("false"), "The modes are counted, which proves that none was missed."}}};
+  return table;
+}
+
+const KeyTable& damping_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the damping",
+      "Damping of the reduced body, by ratios or by Rayleigh's two numbers.",
+      {{"ratio",
+        {number().non_negative(), list_of(number().non_negative()).items_at_least(1)},
+        optional,
+        "Damping ratio of the eigenmodes of the reduced body; in a list, the last ratio holds for all further modes. A "
+        "body in pieces has one ratio, that of the first free mode of all pieces together."},
+       {"rayleigh", tuple({{number("1/s").non_negative()}, {number("s").non_negative()}}), optional,
+        "Rayleigh damping: `[alpha, beta]`, factors of the mass and of the stiffness."}}};
+  return table;
+}
+
+const KeyTable& recovery_keys() {
+  using namespace keys;
+  const KeyForm extent = word({"none", "surface", "all"}, "an extent of recovery");
+  static const KeyTable table{
+      "the recovery",
+      "Fields of the body that the mechanism can recover. Strain follows from stress and material.",
+      {{"displacement", extent, otherwise("all"), "Nodes whose displacements can be recovered."},
+       {"stress", extent, otherwise("surface"),
+        "Nodes whose stress and strain can be recovered; `all` needs all displacements."}}};
+  return table;
 }
 
 void read_mesh(const YamlValue& root, MeshRequest& request) {
@@ -71,21 +78,16 @@ void read_mesh(const YamlValue& root, MeshRequest& request) {
   request.path = geometry.file_path();
   request.subject = geometry.path();
   if (const auto unit = root.find("length_unit")) {
-    request.length_unit = unit->text();
+    request.length_unit = unit->word();
     request.length_unit_subject = unit->path();
   }
   const auto mesh = root.find("mesh");
   if (!mesh) return;
-  mesh->check_keys({"size", "order", "sizes"}, "the mesh");
   request.mesh_subject = mesh->path();
-  if (const auto size = mesh->find("size")) request.size = size->positive_number();
-  if (const auto order = mesh->find("order")) {
-    request.order = order->integer();
-    if (*request.order != 1 && *request.order != 2)
-      order->fail(fmt::format("expected 1 or 2, found {}", *request.order));
-  }
+  if (const auto size = mesh->find("size")) request.size = size->number();
+  if (const auto order = mesh->find("order")) request.order = order->integer();
   if (const auto sizes = mesh->find("sizes"))
-    for (const auto& [name, size] : sizes->entries()) request.sizes[name] = {size.positive_number(), size.path()};
+    for (const auto& [name, size] : sizes->entries()) request.sizes[name] = {size.number(), size.path()};
 }
 
 // `mesh.sizes` may name interfaces, loads and points: their groups take their place.
@@ -130,70 +132,66 @@ void read_regions(const YamlValue& root, BodyFile& body) {
 }
 
 void read_modes(const YamlValue& value, ReductionOptions& options) {
-  value.check_keys({"count", "below", "method", "proof"}, "the modes");
-  if (const auto count = value.find("count")) {
-    options.mode_count = count->integer();
-    if (*options.mode_count < 0)
-      count->fail(fmt::format("expected a number of at least 0, found {}", *options.mode_count));
-  }
-  if (const auto below = value.find("below")) options.modes_below = below->positive_number();
-  if (const auto method = value.find("method")) {
-    const std::string word = method->word({"auto", "arpack", "block_lanczos"}, "a method for modes");
-    options.mode_method = word == "arpack"          ? EigenMethod::arpack
-                          : word == "block_lanczos" ? EigenMethod::block_lanczos
+  if (const auto count = value.find("count")) options.mode_count = count->integer();
+  if (const auto below = value.find("below")) options.modes_below = below->number();
+  const std::string method = value.at("method").word();
+  options.mode_method = method == "arpack"          ? EigenMethod::arpack
+                        : method == "block_lanczos" ? EigenMethod::block_lanczos
                                                     : EigenMethod::automatic;
-  }
-  if (const auto proof = value.find("proof")) options.modes_proven = proof->boolean();
+  options.modes_proven = value.at("proof").boolean();
   if (!options.mode_count && !options.modes_below) value.fail("expected how many modes: count, or below [Hz], or both");
 }
 
 void read_damping(const YamlValue& value, ReductionOptions& options) {
-  value.check_keys({"ratio", "rayleigh"}, "the damping");
   if (value.has("ratio") + value.has("rayleigh") != 1) value.fail("expected either ratio or rayleigh");
   if (const auto ratio = value.find("ratio")) {
     if (ratio->is_sequence())
-      for (const YamlValue& item : ratio->items()) options.damping_ratios.push_back(item.non_negative_number());
+      for (const YamlValue& item : ratio->items()) options.damping_ratios.push_back(item.number());
     else
-      options.damping_ratios.push_back(ratio->non_negative_number());
+      options.damping_ratios.push_back(ratio->number());
     if (options.damping_ratios.empty()) ratio->fail("expected a number or a list of numbers");
     for (const double each : options.damping_ratios) warn_outside(*ratio, each, plausible_damping_ratio);
     return;
   }
   const YamlValue rayleigh = value.at("rayleigh");
   if (rayleigh.size() != 2) rayleigh.fail("expected [alpha, beta]: alpha [1/s] of the mass, beta [s] of the stiffness");
-  options.rayleigh = {rayleigh.at(0).non_negative_number(), rayleigh.at(1).non_negative_number()};
+  options.rayleigh = {rayleigh.at(0).number(), rayleigh.at(1).number()};
 }
 
 RecoveryExtent read_extent(const YamlValue& value) {
-  const std::string word = value.word({"none", "surface", "all"}, "an extent of recovery");
+  const std::string word = value.word();
   return word == "none" ? RecoveryExtent::none : word == "surface" ? RecoveryExtent::surface : RecoveryExtent::all;
 }
 
-void read_recovery(const YamlValue& value, ReductionOptions& options) {
-  if (const auto strain = value.find("strain"))
+/// Explains a key of the recovery that users look for in vain.
+void refuse_strain(const YamlValue& file) {
+  const auto recovery = file.find("recovery");
+  if (!recovery || !recovery->is_map()) return;
+  if (const auto strain = recovery->find("strain"))
     strain->fail("strain follows from stress and material: `stress: surface` or `stress: all` gives both");
-  value.check_keys({"displacement", "stress"}, "the recovery");
-  if (const auto displacement = value.find("displacement")) options.displacement_recovery = read_extent(*displacement);
-  if (const auto stress = value.find("stress")) options.stress_recovery = read_extent(*stress);
+}
+
+void read_recovery(const YamlValue& value, ReductionOptions& options) {
+  options.displacement_recovery = read_extent(value.at("displacement"));
+  options.stress_recovery = read_extent(value.at("stress"));
   if (options.stress_recovery == RecoveryExtent::all && options.displacement_recovery == RecoveryExtent::surface)
     value.fail("'stress: all' needs 'displacement: all': the superelement then keeps the whole mesh");
 }
 
-void read_parameters(YamlValue& root) {
+void read_parameters(YamlValue root) {
   if (const auto given = root.find("parameters"))
     for (const auto& [name, value] : given->entries())
       root.set_parameter(name, value.number());  // may use those above it
 }
 
-BodyFile read(YamlValue root) {
-  root.check_keys({"body", "parameters", "geometry", "length_unit", "mesh", "materials", "regions", "interfaces",
-                   "modes", "inertia_relief", "damping", "loads", "points", "recovery", "pieces"},
-                  "a body file");
+BodyFile read(const YamlValue& file) {
+  refuse_strain(file);
+  const YamlValue root = file.keyed(body_file_keys());
   read_parameters(root);
   BodyFile body;
   body.options.name = root.at("body").text();
   body.options.input_text = root.source_text();
-  body.lines = KeyLines(root);
+  body.lines = KeyLines(file);
   read_mesh(root, body.mesh);
   read_regions(root, body);
   const YamlValue interfaces = root.at("interfaces");
@@ -204,7 +202,7 @@ BodyFile read(YamlValue root) {
         "expected at least one: a mechanism moves a body by its interfaces, and one with 'tie: average' on "
         "any surface leaves the body free");
   read_modes(root.at("modes"), body.options);
-  if (const auto relief = root.find("inertia_relief")) body.options.inertia_relief = relief->boolean();
+  body.options.inertia_relief = root.at("inertia_relief").boolean();
   if (const auto damping = root.find("damping")) read_damping(*damping, body.options);
   if (const auto loads = root.find("loads"))
     for (const auto& [name, value] : loads->entries()) body.options.loads.push_back(read_load(name, value, body.mesh));
@@ -217,6 +215,36 @@ BodyFile read(YamlValue root) {
 }
 
 }  // namespace
+
+const KeyTable& body_file_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a body file",
+      "A body and its reduction to a superelement. All values are in SI units, also if the geometry is in others.",
+      {{"body", text(), required, "Name of the body."},
+       {"parameters", entries("parameter", {number("any")}), optional,
+        "Numbers that expressions may use; each may use those above it."},
+       {"geometry", file("geometry or mesh"), required, "File of the geometry or the mesh."},
+       {"length_unit", word({"m", "mm", "cm", "um", "km", "in", "ft"}, "a unit of length"),
+        computed("the unit that the geometry declares, otherwise m"),
+        "Unit of a geometry that declares none. It scales the geometry alone, no other value of this file."},
+       {"mesh", nested(mesh_keys), optional, "The mesh of a geometry."},
+       {"materials", entries("material", material_forms()), required, "Materials by their names."},
+       {"regions", entries("physical volume", {name_of("material")}), required,
+        "Materials of the physical volumes; `all` is the whole body."},
+       {"interfaces", entries("interface", {nested(interface_keys)}), required,
+        "Interfaces by their names, at least one."},
+       {"modes", nested(modes_keys), required, "Fixed-boundary modes to keep."},
+       {"inertia_relief", boolean(), otherwise("false"),
+        "Residual vectors for the accelerations of the body itself are added."},
+       {"damping", nested(damping_keys), optional, "Damping of the body, which is undamped without it."},
+       {"loads", entries("load", {nested(load_keys)}), optional, "Patterns of load by their names."},
+       {"points", entries("point", {nested(point_keys)}), optional, "Points inside the body by their names."},
+       {"recovery", nested(recovery_keys), optional, "Fields that the mechanism can recover."},
+       {"pieces", nested(pieces_keys), optional,
+        "Cuts that divide the body into several superelements; it is one without them."}}};
+  return table;
+}
 
 BodyFile read_body_file(const std::string& path) { return read(YamlValue::load(path)); }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reduce/body_file/key_lines.hpp"
+#include "reduce/common/input/key_table.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 #include "reduce/reduction/options.hpp"
 #include "reduce/reduction/piece_options.hpp"
@@ -21,6 +22,9 @@ struct BodyFile {
       warnings;    ///< sentences about values that are possible but probably not intended, each with its place
   KeyLines lines;  ///< for messages of import_mesh and of the reduction, whose requests name keys alone
 };
+
+/// Returns the keys of a body file, with everything below them.
+const KeyTable& body_file_keys();
 
 /// Reads and checks a body file: keys, types, ranges, names that the file itself must explain. Conditions that depend
 /// on the geometry (its groups, whether interfaces overlap) are checked by import_mesh and by the reduction; the

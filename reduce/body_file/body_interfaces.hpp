@@ -1,9 +1,11 @@
-// Keys that interfaces of the body file, interfaces made by cuts and points have in common.
+// The `interfaces` of a body file, and the keys that they share with cuts and points.
 #pragma once
 
 #include <array>
 #include <string>
 
+#include "reduce/common/input/key_table.hpp"
+#include "reduce/mesh/mesh_request.hpp"
 #include "reduce/reduction/options.hpp"
 
 namespace bielle {
@@ -15,10 +17,22 @@ namespace bielle::reduce {
 /// Checks a name that becomes a path in the superelement file. @throws InputError
 void check_name(const std::string& name, const YamlValue& value);
 
+/// Returns the form of a tie.
+KeyForm tie_form();
+
+/// Returns the form of a list of directions.
+KeyForm directions_form();
+
 /// `rigid`, `average` or `free`. @throws InputError for other words
 Tie read_tie(const YamlValue& value);
 
 /// A list of x, y, z, rx, ry, rz. @param tie  nodes of free ones have no rotations
 std::array<bool, 6> read_directions(const YamlValue& value, Tie tie = Tie::rigid);
+
+/// Returns the keys of an interface.
+const KeyTable& interface_keys();
+
+/// @param mesh  gets the surface. @throws InputError `file:line: key: what was expected`
+InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh);
 
 }  // namespace bielle::reduce

@@ -14,56 +14,95 @@ namespace bielle::reduce {
 
 namespace {
 
-const std::vector<std::string> isotropic_keys = {"young", "poisson"};
-const std::vector<std::string> orthotropic_keys = {"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"};
-const std::vector<std::string> anisotropic_keys = {"stiffness"};
+Key density_key() { return {"density", keys::number("kg/m^3").positive(), keys::required, "Mass per volume."}; }
 
-bool has_any(const YamlValue& value, const std::vector<std::string>& keys) {
-  return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) { return value.has(key); });
+Key axes_key() {
+  return {"axes", keys::nested(axes_keys), keys::computed("the axes of the body"),
+          "Directions of the material's axes 1 (x) and 2 (y) in the body."};
 }
 
-std::vector<std::string> with(std::vector<std::string> keys, const std::vector<std::string>& more) {
-  keys.insert(keys.end(), more.begin(), more.end());
-  return keys;
+const KeyTable& isotropic_keys() {
+  using namespace keys;
+  static const KeyTable table{"an isotropic material",
+                              "A material that is equally stiff in all directions.",
+                              {{"young", number("Pa").positive(), required, "Young's modulus."},
+                               {"poisson", number().inside(-1, 0.5), required, "Poisson's ratio."},
+                               density_key()}};
+  return table;
 }
 
-double poisson_ratio(const YamlValue& value) {
-  const double poisson = value.number();
-  if (!(poisson > -1 && poisson < 0.5))
-    value.fail("expected a ratio between -1 and 0.5 (both excluded), found " + value.text());
-  return poisson;
+std::vector<Key> orthotropic_constants() {
+  using namespace keys;
+  const auto modulus = [](const char* name, const char* about) {
+    return Key{name, number("Pa").positive(), required, about};
+  };
+  return {modulus("E1", "Young's modulus along axis 1."),
+          modulus("E2", "Young's modulus along axis 2."),
+          modulus("E3", "Young's modulus along axis 3."),
+          {"nu12", number(), required, "Contraction along 2 by stress along 1: nu12 / E1 = nu21 / E2."},
+          {"nu13", number(), required, "Contraction along 3 by stress along 1."},
+          {"nu23", number(), required, "Contraction along 3 by stress along 2."},
+          modulus("G12", "Shear modulus in the plane of axes 1 and 2."),
+          modulus("G13", "Shear modulus in the plane of axes 1 and 3."),
+          modulus("G23", "Shear modulus in the plane of axes 2 and 3.")};
 }
 
-double density(const YamlValue& value) { return value.at("density").positive_number(); }
-
-Material isotropic(const YamlValue& value) {
-  value.check_keys(with(isotropic_keys, {"density"}), "an isotropic material");
-  return Material::isotropic(value.at("young").positive_number(), poisson_ratio(value.at("poisson")), density(value));
+const KeyTable& orthotropic_keys() {
+  using namespace keys;
+  static const KeyTable table{"an orthotropic material",
+                              "A material with three planes of symmetry, such as a fibre composite.",
+                              joined({orthotropic_constants(), {density_key(), axes_key()}})};
+  return table;
 }
 
-Material orthotropic(const YamlValue& value) {
-  value.check_keys(with(orthotropic_keys, {"density", "axes"}), "an orthotropic material");
-  const auto modulus = [&](const char* key) { return value.at(key).positive_number(); };
-  const auto ratio = [&](const char* key) { return value.at(key).number(); };
-  return Material::orthotropic({modulus("E1"), modulus("E2"), modulus("E3")},
-                               {ratio("nu23"), ratio("nu13"), ratio("nu12")},
-                               {modulus("G23"), modulus("G13"), modulus("G12")}, density(value));
+const KeyTable& anisotropic_keys() {
+  using namespace keys;
+  static const KeyTable table{"an anisotropic material",
+                              "A material of any elasticity, such as a crystal.",
+                              {{"stiffness", matrix(6, 6, "Pa"), required,
+                                "Stiffness, symmetric, in the order xx yy zz yz xz xy with engineering shear strains."},
+                               density_key(),
+                               axes_key()}};
+  return table;
 }
 
-Material anisotropic(const YamlValue& value) {
-  value.check_keys(with(anisotropic_keys, {"density", "axes"}), "an anisotropic material");
-  return Material::anisotropic(value.at("stiffness").matrix(6, 6), density(value));
+bool has_any(const YamlValue& value, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return value.has(name); });
+}
+
+bool is_orthotropic(const YamlValue& value) { return has_any(value, keys::names_of(orthotropic_constants())); }
+
+/// Returns the material bound to the keys of its kind. @throws InputError when it has keys of two kinds
+YamlValue of_its_kind(const YamlValue& value) {
+  const bool isotropic = has_any(value, {"young", "poisson"}), full = value.has("stiffness");
+  const bool engineering = is_orthotropic(value);
+  if (isotropic + engineering + full > 1)
+    value.fail("expected the keys of one kind of material: young and poisson; or E1 .. nu12 .. G12 ..; or stiffness");
+  return value.keyed(full ? anisotropic_keys() : engineering ? orthotropic_keys() : isotropic_keys());
+}
+
+Material made_of(const YamlValue& material) {
+  const auto constant = [&](const char* key) { return material.at(key).number(); };
+  if (material.has("stiffness"))
+    return Material::anisotropic(material.at("stiffness").matrix(6, 6), constant("density"));
+  if (!is_orthotropic(material))
+    return Material::isotropic(constant("young"), constant("poisson"), constant("density"));
+  return Material::orthotropic({constant("E1"), constant("E2"), constant("E3")},
+                               {constant("nu23"), constant("nu13"), constant("nu12")},
+                               {constant("G23"), constant("G13"), constant("G12")}, constant("density"));
 }
 
 }  // namespace
 
-Material read_material(const YamlValue& value) {
-  const bool engineering = has_any(value, orthotropic_keys), full = has_any(value, anisotropic_keys);
-  if (has_any(value, isotropic_keys) + engineering + full > 1)
-    value.fail("expected the keys of one kind of material: young and poisson; or E1 .. nu12 .. G12 ..; or stiffness");
+KeyForms material_forms() {
+  return {keys::nested(isotropic_keys), keys::nested(orthotropic_keys), keys::nested(anisotropic_keys)};
+}
+
+Material read_material(const YamlValue& given) {
+  const YamlValue value = of_its_kind(given);
   Material material;
   try {
-    material = full ? anisotropic(value) : engineering ? orthotropic(value) : isotropic(value);
+    material = made_of(value);
   } catch (const InputError& error) {
     // Messages about single keys contain the place already; messages about the material as a whole do not.
     const std::string message = error.what();
@@ -75,7 +114,8 @@ Material read_material(const YamlValue& value) {
   return material;
 }
 
-void warn_of_material(const YamlValue& value) {
+void warn_of_material(const YamlValue& given) {
+  const YamlValue value = of_its_kind(given);
   for (const char* key : {"young", "E1", "E2", "E3", "G12", "G13", "G23"})
     if (const auto modulus = value.find(key)) warn_outside(*modulus, modulus->number(), plausible_modulus);
   if (const auto stiffness = value.find("stiffness"))

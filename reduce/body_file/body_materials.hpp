@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reduce/common/input/key_form.hpp"
 #include "reduce/fe/material.hpp"
 
 namespace bielle {
@@ -11,6 +12,9 @@ class YamlValue;
 }
 
 namespace bielle::reduce {
+
+/// Returns the forms of a material, the keys of its three kinds. Its reader chooses between them.
+KeyForms material_forms();
 
 /// Reads one material, of one of three kinds, told apart by its keys:
 /// isotropic `young`, `poisson`; orthotropic `E1 E2 E3 nu12 nu13 nu23 G12 G13 G23`; anisotropic `stiffness`, 6x6 in the

@@ -14,7 +14,56 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr int most_pieces = 1000;
+const std::vector<std::string> axes = {"x", "y", "z"};
+
+/// Returns the key for the name of a cut.
+Key cut_name() { return {"name", keys::text(), keys::computed("`cut_1`, `cut_2`, ..."), "Name of the cut."}; }
+
+const KeyTable& planes_along_axis_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "planes normal to an axis",
+      "One plane or several, normal to an axis of the body.",
+      {{"axis", word(axes, "an axis of the body"), required, "Axis of the body to which the planes are normal."},
+       {"at",
+        {number("m"), list_of(number("m")).items_at_least(1)},
+        required,
+        "Place of the plane on the axis, or a list of places."},
+       cut_name()}};
+  return table;
+}
+
+const KeyTable& plane_keys() {
+  using namespace keys;
+  static const KeyTable table{"a plane",
+                              "A plane that cuts the whole body, by a point and its normal.",
+                              {{"point", vector3("m"), required, "A point of the plane."},
+                               {"normal", direction(), required, "Direction normal to the plane."},
+                               cut_name()},
+                              {{"axis", "", planes_along_axis_keys}}};
+  return table;
+}
+
+const KeyTable& line_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a line",
+      "A straight line, which planes normal to it divide into equal parts.",
+      {{"from", vector3("m"), required, "Start of the line."}, {"to", vector3("m"), required, "End of the line."}}};
+  return table;
+}
+
+const KeyTable& arc_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "an arc",
+      "A circular arc, which planes through its axis divide into equal parts.",
+      {{"from", vector3("m"), required, "Start of the arc."},
+       {"centre", vector3("m"), required, "A point of the axis about which the arc turns."},
+       {"axis", direction(), required, "Direction of that axis."},
+       {"angle", number("rad"), required, "Angle of the arc about the axis, up to a full turn and not 0."}}};
+  return table;
+}
 
 /// Gives the plane the name that the user gives, or `cut_<number>`.
 void add_plane(const YamlValue& value, const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
@@ -32,9 +81,7 @@ void add_plane(const YamlValue& value, const Eigen::Vector3d& point, const Eigen
 
 /// `{axis: x, at: 0.2}`, or at several places: planes normal to an axis of the body.
 void add_planes_along_axis(const YamlValue& value, std::vector<CutPlane>& cuts) {
-  value.check_keys({"axis", "at", "name"}, "planes normal to an axis");
-  static const std::vector<std::string> axes = {"x", "y", "z"};
-  const std::string axis = value.at("axis").word(axes, "an axis of the body");
+  const std::string axis = value.at("axis").word();
   const Eigen::Vector3d normal = Eigen::Vector3d::Unit(std::find(axes.begin(), axes.end(), axis) - axes.begin());
   const YamlValue at = value.at("at");
   if (!at.is_sequence()) return add_plane(value, at.number() * normal, normal, cuts);
@@ -45,13 +92,11 @@ void add_planes_along_axis(const YamlValue& value, std::vector<CutPlane>& cuts) 
 
 void add_planes(const YamlValue& value, std::vector<CutPlane>& cuts) {
   if (value.is_map() && value.has("axis")) return add_planes_along_axis(value, cuts);
-  value.check_keys({"point", "normal", "name", "axis", "at"}, "a plane");
   add_plane(value, value.at("point").vector3(), value.at("normal").direction(), cuts);
 }
 
 /// Adds planes that divide a straight line into equal parts.
 void divide_line(const YamlValue& line, int count, std::vector<CutPlane>& cuts) {
-  line.check_keys({"from", "to"}, "a line");
   const Eigen::Vector3d from = line.at("from").vector3(), way = line.at("to").vector3() - from;
   if (way.norm() == 0) line.fail("expected two different points");
   for (int k = 1; k < count; ++k)
@@ -60,7 +105,6 @@ void divide_line(const YamlValue& line, int count, std::vector<CutPlane>& cuts) 
 
 /// Adds planes through the axis of a circular arc that divide it into equal parts.
 void divide_arc(const YamlValue& arc, int count, std::vector<CutPlane>& cuts) {
-  arc.check_keys({"from", "centre", "axis", "angle"}, "an arc");
   const Eigen::Vector3d from = arc.at("from").vector3(), centre = arc.at("centre").vector3();
   const Eigen::Vector3d axis = arc.at("axis").direction();
   const Eigen::Vector3d radius = from - centre - axis.dot(from - centre) * axis;
@@ -76,18 +120,27 @@ void divide_arc(const YamlValue& arc, int count, std::vector<CutPlane>& cuts) {
   }
 }
 
-int read_count(const YamlValue& value) {
-  const int count = value.integer();
-  if (count < 2 || count > most_pieces)
-    value.fail(
-        fmt::format("expected 2 to {} pieces, found {}; without `pieces` the body stays whole", most_pieces, count));
-  return count;
-}
-
 }  // namespace
 
+const KeyTable& pieces_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "the pieces",
+      "Cuts that divide a body that bends much into several superelements.",
+      {{"planes",
+        {nested(plane_keys), list_of(nested(plane_keys)).items_at_least(1)},
+        optional,
+        "A plane or a list of planes that cut the body."},
+       {"count", integer().between(2, 1000), optional, "Number of equal parts of the `line` or `arc`."},
+       {"line", nested(line_keys), optional, "A straight line that is divided into `count` parts."},
+       {"arc", nested(arc_keys), optional, "A circular arc that is divided into `count` parts."},
+       {"tie", tie_form(), otherwise("rigid"), "Ties of the cuts, as for interfaces."},
+       {"compare", boolean(), otherwise("true"),
+        "The uncut body is reduced as well, to measure the effect of the cuts."}}};
+  return table;
+}
+
 PiecesRequest read_pieces(const YamlValue& value, std::vector<CutPlane>& cuts) {
-  value.check_keys({"planes", "count", "line", "arc", "tie", "compare"}, "the pieces");
   if (value.has("planes") + value.has("line") + value.has("arc") != 1)
     value.fail("expected exactly one of planes, line (with count), arc (with count)");
   if (value.has("planes")) {
@@ -99,15 +152,15 @@ PiecesRequest read_pieces(const YamlValue& value, std::vector<CutPlane>& cuts) {
       add_planes(planes, cuts);
     if (cuts.empty()) planes.fail("expected at least one plane: {point: [x, y, z], normal: [x, y, z]}");
   } else {
-    const int count = read_count(value.at("count"));
+    const int count = value.at("count").integer();
     if (value.has("line"))
       divide_line(value.at("line"), count, cuts);
     else
       divide_arc(value.at("arc"), count, cuts);
   }
   PiecesRequest request;
-  if (const auto tie = value.find("tie")) request.tie = read_tie(*tie);
-  if (const auto compare = value.find("compare")) request.compare = compare->boolean();
+  request.tie = read_tie(value.at("tie"));
+  request.compare = value.at("compare").boolean();
   return request;
 }
 

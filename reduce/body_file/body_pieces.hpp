@@ -12,9 +12,13 @@
 
 namespace bielle {
 class YamlValue;
-}
+struct KeyTable;
+}  // namespace bielle
 
 namespace bielle::reduce {
+
+/// Returns the keys of `pieces`.
+const KeyTable& pieces_keys();
 
 /// @param cuts  gets the planes
 /// @throws InputError `file:line: key: what was expected`

@@ -16,7 +16,6 @@ std::array<bool, 6> read_residual(const YamlValue& value) {
 }
 
 PointRequest read_point(const std::string& name, const YamlValue& value, MeshRequest& mesh) {
-  value.check_keys({"group", "at", "position", "residual"}, "a point");
   check_name(name, value);
   PointRequest point;
   point.name = name;
@@ -30,11 +29,30 @@ PointRequest read_point(const std::string& name, const YamlValue& value, MeshReq
     if (const auto position = value.find("position")) position->fail("`at` is its position: remove this key");
     point.position = value.at("at").vector3();
   }
-  if (const auto residual = value.find("residual")) point.residual = read_residual(*residual);
+  point.residual = read_residual(value.at("residual"));
   return point;
 }
 
 }  // namespace
+
+const KeyTable& point_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a point",
+      "A named point inside the body, which a mechanism uses without the displacements of the mesh.",
+      {{"group", surface_forms(), optional,
+        "A surface, which may touch interfaces; the point moves as its area-weighted mean, but does not constrain it."},
+       {"at", vector3("m"), optional,
+        "A place in the mesh, in place of `group`; the point follows the field that is linear in space and nearest to "
+        "the displacements of the 15 nodes around it."},
+       {"position", vector3("m"), computed("the centroid of the surface"),
+        "Position of the point of a `group`, connected by a rigid arm."},
+       {"residual",
+        {boolean(), directions_form()},
+        otherwise("false"),
+        "Forces and moments on the point, in the axes of the body, that get residual vectors; `true` for all six."}}};
+  return table;
+}
 
 std::vector<PointRequest> read_points(const YamlValue& value, MeshRequest& mesh) {
   std::vector<PointRequest> points;

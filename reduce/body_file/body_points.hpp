@@ -14,9 +14,13 @@
 
 namespace bielle {
 class YamlValue;
-}
+struct KeyTable;
+}  // namespace bielle
 
 namespace bielle::reduce {
+
+/// Returns the keys of a point.
+const KeyTable& point_keys();
 
 /// @param mesh  gets the surfaces
 /// @throws InputError `file:line: key: what was expected`

@@ -2,23 +2,51 @@
 
 #include <optional>
 
-#include "reduce/body_file/body_interfaces.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::reduce {
 
 namespace {
 
+const KeyTable& cylinder_keys() {
+  using namespace keys;
+  static const KeyTable table{"a cylinder",
+                              "A circular cylinder without ends.",
+                              {{"point", vector3("m"), required, "A point of its axis."},
+                               {"axis", direction(), required, "Direction of its axis."},
+                               {"radius", number("m").positive(), required, "Its radius."}}};
+  return table;
+}
+
+const KeyTable& plane_keys() {
+  using namespace keys;
+  static const KeyTable table{"a plane",
+                              "A plane without bounds.",
+                              {{"point", vector3("m"), required, "A point of the plane."},
+                               {"normal", direction(), required, "Direction normal to the plane."}}};
+  return table;
+}
+
+const KeyTable& shape_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a surface given by its shape",
+      "A shape on which a surface lies, within 1e-4 of the diagonal of the body's box; with several shapes it lies on "
+      "all of them.",
+      {{"cylinder", nested(cylinder_keys), optional, "A circular cylinder on which the surface lies."},
+       {"plane", nested(plane_keys), optional, "A plane on which the surface lies."},
+       {"box", list_of(2, vector3("m")), optional,
+        "Two opposite corners of a box along the axes of the body, in which the surface lies."}}};
+  return table;
+}
+
 std::optional<CylinderSelector> read_cylinder(const std::optional<YamlValue>& value) {
   if (!value) return {};
-  value->check_keys({"point", "axis", "radius"}, "a cylinder");
-  return CylinderSelector{value->at("point").vector3(), value->at("axis").direction(),
-                          value->at("radius").positive_number()};
+  return CylinderSelector{value->at("point").vector3(), value->at("axis").direction(), value->at("radius").number()};
 }
 
 std::optional<PlaneSelector> read_plane(const std::optional<YamlValue>& value) {
   if (!value) return {};
-  value->check_keys({"point", "normal"}, "a plane");
   return PlaneSelector{value->at("point").vector3(), value->at("normal").direction()};
 }
 
@@ -31,7 +59,6 @@ std::optional<BoxSelector> read_box(const std::optional<YamlValue>& value) {
 
 SurfaceSelector read_selector(const YamlValue& value) {
   if (value.is_scalar()) return value.text();
-  value.check_keys({"cylinder", "plane", "box"}, "a surface given by its shape");
   if (value.entries().empty())
     value.fail("expected a shape: cylinder, plane or box, or several that it lies on at once");
   return ShapeSelector(read_cylinder(value.find("cylinder")), read_plane(value.find("plane")),
@@ -39,6 +66,12 @@ SurfaceSelector read_selector(const YamlValue& value) {
 }
 
 }  // namespace
+
+KeyForms surface_forms() {
+  using namespace keys;
+  const KeyForms one = {name_of("physical surface"), nested(shape_keys)};
+  return {one[0], one[1], list_of(one).items_at_least(1)};
+}
 
 std::string read_surface(const YamlValue& owner, const std::string& key, MeshRequest& request) {
   const YamlValue value = owner.at(key);

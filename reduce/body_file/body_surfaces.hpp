@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "reduce/common/input/key_table.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 
 namespace bielle {
@@ -10,6 +11,9 @@ class YamlValue;
 }
 
 namespace bielle::reduce {
+
+/// Returns the forms of a surface: a name, a shape, or a list of both.
+KeyForms surface_forms();
 
 /// Reads the surface of an interface, load or point and registers it.
 /// @param key  key of the surface in its owner

@@ -38,6 +38,9 @@ std::string hint_at_comma(const std::string& key) {
   return number ? "; a comma separates keys: decimals are written with a point (1.5)" : "";
 }
 
+/// Expectation of a reader that takes keys out of a value that is no map.
+constexpr const char* keys_with_values = "keys with values (`key: value`)";
+
 /// Upper bound of nodes that aliases repeat; larger files are not input files but attempts to exhaust the memory.
 constexpr std::size_t most_repeated = 100'000;
 
@@ -105,7 +108,7 @@ const Key& YamlValue::key_of_table(const std::string& key) const {
 YamlValue YamlValue::with_forms(const KeyForms& forms) const {
   YamlValue value = *this;
   value.forms_ = &forms;
-  if (!is_map()) return value;
+  if (!is_map() && !is_null()) return value;
   const KeyForm* only = nullptr;
   for (const KeyForm& form : forms) {
     if (form.kind == KeyForm::Kind::entries) return value;
@@ -117,7 +120,7 @@ YamlValue YamlValue::with_forms(const KeyForms& forms) const {
 }
 
 bool YamlValue::has(const std::string& key) const {
-  check_map("keys with values (`key: value`)");
+  check_map(keys_with_values);
   return std::any_of(node_->pairs.begin(), node_->pairs.end(),
                      [&](const YamlNode::Pair& pair) { return pair.key->scalar == key; });
 }
@@ -131,14 +134,14 @@ YamlValue YamlValue::at(const std::string& key) const {
 }
 
 std::optional<YamlValue> YamlValue::find(const std::string& key) const {
-  check_map("keys with values (`key: value`)");
+  check_map(keys_with_values);
   for (const auto& [found, value] : node_->pairs)
     if (found->scalar == key) return child(*found, value);
   return std::nullopt;
 }
 
 std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
-  check_map("keys with values (`key: value`)");
+  check_map(keys_with_values);
   std::vector<std::pair<std::string, YamlValue>> result;
   result.reserve(node_->pairs.size());
   for (const auto& [key, value] : node_->pairs) result.emplace_back(key->scalar, child(*key, value));
@@ -154,11 +157,14 @@ YamlValue YamlValue::child(const YamlNode& key, std::shared_ptr<const YamlNode> 
 }
 
 void YamlValue::check_map(const std::string& expected) const {
-  if (!is_map() && !is_null()) fail("expected " + expected);
+  if (is_map() || is_null()) return;
+  const KeyForm* form = form_of([](const KeyForm& each) { return each.kind == KeyForm::Kind::table; });
+  if (form && expected == keys_with_values) fail(fmt::format("expected {} as {}", form->table().of, expected));
+  fail("expected " + expected);
 }
 
 void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::string& of) const {
-  check_map(of + " as keys with values (`key: value`)");
+  check_map(of + " as " + keys_with_values);
   if (is_null()) return;
   for (const YamlNode::Pair& entry : node_->pairs) {
     const std::string& key = entry.key->scalar;
@@ -171,14 +177,20 @@ void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::s
 }
 
 YamlValue YamlValue::keyed(const KeyTable& table) const {
-  check_map(table.of + " as keys with values (`key: value`)");
+  check_map(table.of + " as " + keys_with_values);
   YamlValue bound = *this;
   bound.table_ = &table.of_map(*node_);
   const bool known = std::all_of(node_->pairs.begin(), node_->pairs.end(), [&](const YamlNode::Pair& pair) {
     return bound.table_->find(pair.key->scalar) != nullptr;
   });
-  const bool is_one_of_several = !bound.table_->variants.empty();  // its reader says that it is none of them
-  if (!known && !is_one_of_several) check_keys(bound.table_->names(), bound.table_->of);
+  if (known) return bound;
+  std::vector<std::string> expected = bound.table_->names();
+  if (bound.table_ == &table)
+    for (const KeyTable::Variant& variant : table.variants) {
+      if (!variant.value.empty()) return bound;  // its reader says that the value is none of them
+      expected.push_back(variant.key);           // one may be misspelt
+    }
+  check_keys(expected, bound.table_->of);
   return bound;
 }
 

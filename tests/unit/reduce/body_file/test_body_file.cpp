@@ -1,9 +1,12 @@
 // Body files: every key, and the messages about wrong ones.
+#include <set>
+
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "reduce/body_file/body_file.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/input/key_words.hpp"
 #include "tests/support/messages.hpp"
 
 using namespace bielle;
@@ -280,7 +283,7 @@ TEST_CASE("mesh sizes by group, interface or load") {
   CHECK(file.mesh.sizes.at("crown").size == 2e-3);
   CHECK(file.mesh.sizes.at("web").size == 4e-3);
   CHECK(file.mesh.sizes.at("web").subject == "mesh.sizes.web");
-  check("order: 2", "order: 3", "4: mesh.order: expected 1 or 2, found 3");
+  check("order: 2", "order: 3", "4: mesh.order: expected a number between 1 and 2, found 3");
   check("size: 3e-3", "size: 0", "4: mesh.size: expected a number greater than 0");
   check("order: 2", "ordre: 2", "4: mesh: 'ordre' is not a key of the mesh; did you mean 'order'?");
   check("order: 2", "sizes: {big_end: 1e-3, bore_big: 2e-3}",
@@ -307,10 +310,74 @@ TEST_CASE("unknown keys, missing ones and numbers that are none") {
         "/nowhere/rod.yaml: there is no such file");
 }
 
+TEST_CASE("values have units: lengths, angles, pressures, frequencies and damping") {
+  CHECK(read("size: 3e-3", "size: 3 mm").mesh.size == Approx(3e-3));
+  CHECK(read("order: 2", "order: 2, sizes: {big_end: 20 um}").mesh.sizes.at("bore_big").size == Approx(2e-5));
+  CHECK(read("pressure: 1e5", "pressure: 80 bar").options.loads[0].pressure == Approx(8e6));
+  CHECK(read("pressure: 1e5", "traction: [0, 0, 2 MPa]").options.loads[0].traction->z() == Approx(2e6));
+  CHECK(read("pressure: 1e5", "force: [0, 3 kN, 0]").options.loads[0].force->y() == Approx(3000));
+  CHECK(read("count: 20", "below: 3 kHz").options.modes_below == Approx(3000));
+  CHECK(read("ratio: 0.01", "rayleigh: [2 1/s, 3 ms]").options.rayleigh->at(1) == Approx(3e-3));
+  const BodyFile turned = read("tie: rigid", "position: [12 mm, 0, 0], rotation_vector: [0, 0, 90 deg]");
+  CHECK(turned.options.interfaces[0].position->x() == Approx(0.012));
+  CHECK(turned.options.interfaces[0].rotation(1, 0) == Approx(1));
+  const auto cylinder = [](const std::string& radius) {
+    return "surface: {cylinder: {point: [1 mm, 0, 0], axis: [0, 0, 1], radius: " + radius + "}},";
+  };
+  const BodyFile bore = read("surface: bore_big,", cylinder("24 mm"));
+  const auto shape = std::get<ShapeSelector>(bore.mesh.surfaces[0].selectors.front()).cylinder.value();
+  CHECK(shape.radius == Approx(0.024));
+  CHECK(shape.point.x() == Approx(1e-3));
+  CHECK(read("loads:\n", "points: {pin: {at: [0, 0, 5 mm]}}\nloads:\n").options.points[0].position->z() ==
+        Approx(5e-3));
+
+  const auto wrong = [](const std::string& unit, const std::string& found) {
+    return "expected a value in " + unit + ", found one in '" + found + "', which measures something else";
+  };
+  check("size: 3e-3", "size: 3 kg", "4: mesh.size: " + wrong("m", "kg"));
+  check("size: 3e-3", "size: -3 mm", "4: mesh.size: expected a number greater than 0, found -0.003");
+  check("pressure: 1e5", "pressure: 80 mm", "14: loads.gas.pressure: " + wrong("Pa", "mm"));
+  check("count: 20", "below: 3000 rpm", "11: modes.below: " + wrong("Hz", "rpm"));
+  check("ratio: 0.01", "rayleigh: [2, 3 Hz]", "12: damping.rayleigh[2]: " + wrong("s", "Hz"));
+  check("ratio: 0.01", "ratio: 1 %", "12: damping.ratio: expected a number without a unit, found the unit '%'");
+  check("tie: rigid", "position: [12 deg, 0, 0]", "9: interfaces.big_end.position[1]: " + wrong("m", "deg"));
+  check("surface: bore_big,", cylinder("24 s"), "9: interfaces.big_end.surface.cylinder.radius: " + wrong("m", "s"));
+  check("loads:\n", "points: {pin: {at: [0, 0, 5 N]}}\nloads:\n", "13: points.pin.at[3]: " + wrong("m", "N"));
+}
+
+TEST_CASE("a unit of the geometry scales the geometry alone, and is a word") {
+  CHECK(read("length_unit: mm", "length_unit: in").mesh.size == 3e-3);
+  check("length_unit: mm", "length_unit: mn", "3: length_unit: 'mn' is not a unit of length; did you mean");
+}
+
+TEST_CASE("keys without values are empty maps, other values than maps are refused") {
+  CHECK(read("{displacement: all, stress: surface}", "").options.stress_recovery == RecoveryExtent::surface);
+  check("{ratio: 0.01}", "", "12: damping: expected either ratio or rayleigh");
+  check("{size: 3e-3, order: 2}", "3e-3", "4: mesh: expected the mesh as keys with values");
+  check("{surface: bore_big, tie: rigid}", "bore_big", "9: interfaces.big_end: expected an interface as keys");
+}
+
+TEST_CASE("each key of a body file stands in one table with a sentence") {
+  std::set<std::string> names;
+  for (const KeyTable* table : tables_below(body_file_keys())) {
+    CAPTURE(table->of);
+    CHECK(names.insert(table->of).second);
+    CHECK_THAT(table->about, Catch::EndsWith("."));
+    for (const Key& key : table->keys) {
+      CAPTURE(key.name);
+      CHECK_THAT(key.about, Catch::EndsWith("."));
+    }
+  }
+  for (const char* name : {"an interface", "a load", "the mesh", "an orthotropic material", "an arc", "a cylinder"})
+    CHECK(names.contains(name));
+}
+
 TEST_CASE("numbers may use parameters of the file, which may use those above them") {
   const BodyFile file = read("body: rod\n", "body: rod\nparameters: {mm: 1e-3, fine: 2*mm}\n");
   CHECK(file.mesh.size == 3e-3);
   std::string text = body("size: 3e-3", "size: \"fine\"");
   text = "parameters: {mm: 1e-3, fine: \"2*mm\"}\n" + text;
+  CHECK(parse_body_file(text, "rod.yaml").mesh.size == Approx(2e-3));
+  text = "parameters: {fine: 2 mm}\n" + body("size: 3e-3", "size: fine");
   CHECK(parse_body_file(text, "rod.yaml").mesh.size == Approx(2e-3));
 }

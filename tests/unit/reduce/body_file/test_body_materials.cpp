@@ -111,9 +111,9 @@ TEST_CASE("impossible materials are refused with key and range") {
   CHECK_THAT(message("{young: 0, poisson: 0.3, density: 7850}"),
              Catch::StartsWith("rod.yaml:1: young: expected a number greater than 0"));
   CHECK_THAT(message("{young: 210e9, poisson: 0.5, density: 7850}"),
-             Catch::StartsWith("rod.yaml:1: poisson: expected a ratio between -1 and 0.5 (both excluded), found 0.5"));
+             Catch::StartsWith("rod.yaml:1: poisson: expected a number between -1 and 0.5, both excluded, found 0.5"));
   CHECK_THAT(message("{young: 210e9, poisson: -1, density: 7850}"),
-             Catch::StartsWith("rod.yaml:1: poisson: expected a ratio"));
+             Catch::StartsWith("rod.yaml:1: poisson: expected a number between -1 and 0.5"));
   CHECK_THAT(message("{young: 210e9, poisson: 0.3, density: 0}"),
              Catch::StartsWith("rod.yaml:1: density: expected a number greater than 0"));
   CHECK_THAT(message("{young: 210e9, poisson: 0.3}"), Contains("the key 'density' is missing"));
@@ -128,6 +128,27 @@ TEST_CASE("impossible materials are refused with key and range") {
   CHECK_THAT(
       message("{E1: 1e9, E2: 1e9, E3: 1e9, nu12: 1.1, nu13: 0, nu23: 0, G12: 1e9, G13: 1e9, G23: 1e9, density: 1}"),
       Catch::StartsWith("rod.yaml:1: ") && Contains("not positive definite"));
+}
+
+TEST_CASE("materials have units") {
+  const Material steel = material("{young: 210 GPa, poisson: 0.3, density: 7.85 g/cm^3}");
+  CHECK(steel.elasticity(3, 3) == Approx(210e9 / 2.6));
+  CHECK(steel.density == Approx(7850));
+  CHECK(1 / material("{E1: 140 GPa, E2: 10e9, E3: 9e9, nu12: 0, nu13: 0, nu23: 0, G12: 5 GPa, G13: 5e9, G23: 5e9, "
+                     "density: 1600}")
+                .elasticity.inverse()(0, 0) ==
+        Approx(140e9));
+  CHECK(message("{young: 210 mm, poisson: 0.3, density: 7850}") ==
+        "rod.yaml:1: young: expected a value in Pa, found one in 'mm', which measures something else");
+  CHECK(message("{young: 210e9, poisson: 30 %, density: 7850}") ==
+        "rod.yaml:1: poisson: expected a number without a unit, found the unit '%'");
+  CHECK(message("{young: 210e9, poisson: 0.3, density: 78 kN}") ==
+        "rod.yaml:1: density: expected a value in kg/m^3, found one in 'kN', which measures something else");
+}
+
+TEST_CASE("a material that lacks constants of its kind is told the first of them") {
+  CHECK(message("{density: 1}") == "rod.yaml:1: the key 'young' is missing");
+  CHECK(message("{E2: 1e9, density: 1}") == "rod.yaml:1: the key 'E1' is missing");
 }
 
 TEST_CASE("values that no solid has give a warning, with key and range") {

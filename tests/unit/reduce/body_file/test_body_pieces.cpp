@@ -73,6 +73,28 @@ TEST_CASE("equal parts of a line and of an arc") {
   CHECK((arc[0].normal - Eigen::Vector3d(std::cos(third), -std::sin(third), 0)).norm() < 1e-14);
 }
 
+TEST_CASE("places of cuts have units") {
+  const std::vector<CutPlane> cuts =
+      read("{planes: [{point: [1 mm, 0, 0], normal: [1, 0, 0]}, {axis: x, at: [3 cm, 4 in]}]}").mesh.cuts;
+  REQUIRE(cuts.size() == 3);
+  CHECK(cuts[0].point.x() == Approx(1e-3));
+  CHECK(cuts[1].point.x() == Approx(0.03));
+  CHECK(cuts[2].point.x() == Approx(0.1016));
+  const auto arc = [](const std::string& angle) {
+    return "{count: 4, arc: {from: [1, 0, 0], centre: [0, 0, 0], axis: [0, 0, 1], angle: " + angle + "}}";
+  };
+  CHECK((read(arc("360 deg")).mesh.cuts[0].point - Eigen::Vector3d(0, 1, 0)).norm() < 1e-14);
+  CHECK_THAT(message(arc("3 mm")), Contains("pieces.arc.angle: expected a value in rad, found one in 'mm'"));
+  CHECK_THAT(message("{planes: {axis: x, at: 3 deg}}"),
+             Contains("pieces.planes.at: expected a value in m, found one in 'deg'"));
+}
+
+TEST_CASE("a plane has the keys of its kind") {
+  CHECK_THAT(message("{planes: {axs: x, at: 1}}"), Contains("'axs' is not a key of a plane; did you mean 'axis'?"));
+  CHECK_THAT(message("{planes: {axis: x, at: 1, normal: [1, 0, 0]}}"),
+             Contains("'normal' is not a key of planes normal to an axis"));
+}
+
 TEST_CASE("what cannot be a cut is refused with its place") {
   CHECK_THAT(message("{planes: []}"), Contains("rod.yaml:9: pieces.planes: expected at least one plane"));
   CHECK_THAT(message("{plane: [{axis: x, at: 1}]}"), Contains("did you mean 'planes'?"));
@@ -84,7 +106,7 @@ TEST_CASE("what cannot be a cut is refused with its place") {
   CHECK_THAT(message("{planes: {axis: x, at: 1}, count: 2}"), Contains("pieces.count"));
   CHECK_THAT(message("{count: 3}"), Contains("expected exactly one of planes, line (with count), arc (with count)"));
   CHECK_THAT(message("{count: 1, line: {from: [0, 0, 0], to: [1, 0, 0]}}"),
-             Contains("expected 2 to 1000 pieces, found 1"));
+             Contains("pieces.count: expected a number between 2 and 1000, found 1"));
   CHECK_THAT(message("{count: 3, line: {from: [0, 0, 0], to: [0, 0, 0]}}"), Contains("two different points"));
   CHECK_THAT(message("{count: 3, arc: {from: [0, 0, 1], centre: [0, 0, 0], axis: [0, 0, 1], angle: 1}}"),
              Contains("lies on the axis"));
