@@ -56,19 +56,6 @@ struct Options {
   CommonOptions common;
 };
 
-/// Prints the keys of the thing that is named, or of everything.
-void print_keys(const std::string& name) {
-  std::vector<std::string> names;
-  bool found = false;
-  for (const KeyTable* table : tables_below(mechanism_file_keys())) {
-    names.push_back(thing_named(table->of));
-    if (name != "all" && names.back() != name) continue;
-    fmt::print("{}{}", found ? "\n" : "", keys_as_text(*table));
-    found = true;
-  }
-  if (!found) throw InputError(fmt::format("--keys {}: nothing has this name{}", name, did_you_mean(name, names)));
-}
-
 /// Runs the model, or one of its cases.
 void run(const Options& options, const std::string& chosen_case) {
   const MechanismFile file = read_mechanism_file(options.model, read_overrides(options.settings), chosen_case);
@@ -121,7 +108,7 @@ int body(int argc, char** argv) {
   add_common_options(app, options.common);
   if (!parse_command_line(app, argc, argv)) return 0;
   if (!options.keys_of.empty()) {
-    print_keys(options.keys_of);
+    fmt::print("{}", keys_of_named(mechanism_file_keys(), options.keys_of));
     return 0;
   }
   if (options.schema) {

@@ -15,6 +15,8 @@
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/input/key_schema.hpp"
+#include "reduce/common/input/key_words.hpp"
 #include "reduce/common/process/library_settings.hpp"
 #include "reduce/common/process/run_program.hpp"
 #include "reduce/common/progress.hpp"
@@ -191,7 +193,7 @@ void list(const std::string& path, std::optional<std::string> length_unit, bool 
 
 int body(int argc, char** argv) {
   CLI::App app{"Reduces a solid body to the motions of its interfaces and its lowest modes.", "bielle-reduce"};
-  std::string input, output, geometry, superelement;
+  std::string input, output, geometry, superelement, keys_of;
   std::optional<std::string> length_unit;
   bool system_calls = false;
   int ranks_at = -1;
@@ -206,11 +208,19 @@ int body(int argc, char** argv) {
                                     "with --list: unit of a geometry that carries none: m mm cm um km in ft");
   const auto* inspect_option =
       app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
+  const auto* keys_option =
+      app.add_option("--keys", keys_of, "explain the keys of a part of the body file (`mesh`), or `all`");
+  const auto* schema_option = app.add_flag("--schema", "print the JSON schema of body files, for editors");
   app.add_flag("--allow-system-calls", system_calls,
                "let a .geo run shell commands (SystemCall): for files that you trust");
   app.add_option("--ranks-at", ranks_at)->group("");  // from bielle-reduce-mpi, not from users
   add_common_options(app, common);
   if (!parse_command_line(app, argc, argv)) {
+    return 0;
+  }
+  if (keys_option->count() > 0 || schema_option->count() > 0) {
+    fmt::print("{}", keys_option->count() > 0 ? keys_of_named(body_file_keys(), keys_of)
+                                              : write_key_schema(body_file_keys(), "body file of bielle-reduce"));
     return 0;
   }
   if (input_option->count() + list_option->count() + inspect_option->count() != 1) {

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "reduce/common/input/plausible.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_frame.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "reduce/common/error.hpp"
+
 namespace bielle {
 namespace {
 
@@ -128,6 +130,19 @@ std::vector<const KeyTable*> tables_below(const KeyTable& root) {
   };
   visit(root);
   return all;
+}
+
+std::string keys_of_named(const KeyTable& root, const std::string& name) {
+  std::vector<std::string> names;
+  std::string text;
+  for (const KeyTable* table : tables_below(root)) {
+    names.push_back(thing_named(table->of));
+    if (name != "all" && names.back() != name) continue;
+    text += (text.empty() ? "" : "\n") + keys_as_text(*table);
+  }
+  if (text.empty())
+    throw InputError(fmt::format("--keys {}: nothing has this name{}", name, did_you_mean(name, names)));
+  return text;
 }
 
 std::string keys_as_text(const KeyTable& table, std::size_t columns) {

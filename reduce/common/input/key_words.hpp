@@ -21,6 +21,10 @@ std::string thing_named(const std::string& of);
 /// variants alone is not listed, its variants are.
 std::vector<const KeyTable*> tables_below(const KeyTable& root);
 
+/// Writes the keys of the thing that is named ("hinge"), or of everything ("all"), for a terminal.
+/// @throws InputError if nothing below the root has the name
+std::string keys_of_named(const KeyTable& root, const std::string& name);
+
 /// Writes the keys of a table for a terminal.
 /// @param columns  width of the lines
 std::string keys_as_text(const KeyTable& table, std::size_t columns = 100);

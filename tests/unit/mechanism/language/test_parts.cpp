@@ -35,8 +35,7 @@ definitions:
 TEST_CASE("names of a part are those of the part, with its own name before them") {
   const std::string text = expanded(arm + "parts: {left: {part: arm}}\n");
   CHECK_THAT(text, Contains("left.root: {}") && Contains("left.tip: {position: [1, 0, 0]}"));
-  CHECK_THAT(text,
-             Contains("left.body: {type: rigid_body, node: left.root, mass: 2") && Contains("also: [left.tip]"));
+  CHECK_THAT(text, Contains("left.body: {type: rigid_body, node: left.root, mass: 2") && Contains("also: [left.tip]"));
   CHECK_THAT(text, Contains("nodes: [left.tip, ground]"));
   CHECK_THAT(text, Contains("e*2 + left.sag*g + left.tip.position.z"));
   CHECK_THAT(text, Contains("left.motor: {joint: left.knee"));
