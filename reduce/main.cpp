@@ -210,7 +210,8 @@ int body(int argc, char** argv) {
       app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
   const auto* keys_option =
       app.add_option("--keys", keys_of, "explain the keys of a part of the body file (`mesh`), or `all`");
-  const auto* schema_option = app.add_flag("--schema", "print the JSON schema of body files, for editors");
+  bool schema = false;
+  app.add_flag("--schema", schema, "print the JSON schema of body files, for editors");
   app.add_flag("--allow-system-calls", system_calls,
                "let a .geo run shell commands (SystemCall): for files that you trust");
   app.add_option("--ranks-at", ranks_at)->group("");  // from bielle-reduce-mpi, not from users
@@ -218,7 +219,7 @@ int body(int argc, char** argv) {
   if (!parse_command_line(app, argc, argv)) {
     return 0;
   }
-  if (keys_option->count() > 0 || schema_option->count() > 0) {
+  if (keys_option->count() > 0 || schema) {
     fmt::print("{}", keys_option->count() > 0 ? keys_of_named(body_file_keys(), keys_of)
                                               : write_key_schema(body_file_keys(), "body file of bielle-reduce"));
     return 0;
