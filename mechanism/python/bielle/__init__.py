@@ -14,6 +14,11 @@ A model is the same as in a file of bielle-mechanism: a YAML file, a text, or a 
     run = bielle.run("engine.yaml")                    # all analyses of the file; results in memory, no files
     run.time, run["nodes/pin/position"]                # arrays of NumPy, row by row
 
+    arm = bielle.Model("arm", gravity=[0, 0, -9.81])    # or put together by calls, with the keys as arguments
+    arm.node("elbow", position=[1, 0, 0])
+    arm.rigid_body("elbow", node="elbow", mass=2, inertia=[1, 1, 1])
+    arm.hinge("shoulder", nodes=["ground", "elbow"], position=[0, 0, 0], axis=[0, 1, 0])
+
 `load` and `read` make a `Model`, `Model.session` a `Session`, `Session.dynamics` a `Motion`; `run` gives a `Run` of
 `Results`. Units are SI and radians. A request that cannot be satisfied raises `InputError` or
 `ComputationError`, with the messages of the programs. mechanism/README.md describes the model, mechanism/io/README.md the names of results.

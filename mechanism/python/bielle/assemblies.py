@@ -47,27 +47,27 @@ class Assembly(Entries):
 
     def node(self, name: str, position: Sequence[Any] | None = None, **keys: Any) -> None:
         """Adds a point with axes, which move. position: [m], the origin unless given."""
-        self.add("nodes", name, {"position": position, **_keys(keys)})
+        self.add("nodes", name, {"position": position, **keys})
 
     def drive(self, name: str, **keys: Any) -> None:
         """Adds a drive: a motion, a force or a control of a joint."""
-        self.add("drives", name, _keys(keys))
+        self.add("drives", name, keys)
 
     def load(self, name: str, **keys: Any) -> None:
         """Adds a force and a moment on a node."""
-        self.add("loads", name, _keys(keys))
+        self.add("loads", name, keys)
 
     def state(self, name: str, **keys: Any) -> None:
         """Adds a differential equation or a control block."""
-        self.add("states", name, _keys(keys))
+        self.add("states", name, keys)
 
     def measure(self, name: str, formula: str | None = None, **keys: Any) -> None:
         """Names a quantity of the state: a formula, or the keys of the measure of a node."""
-        self.add("measures", name, _keys(keys) if keys else formula)
+        self.add("measures", name, keys if keys else formula)
 
     def event(self, name: str, **keys: Any) -> None:
         """Adds an event: a quantity crosses a value."""
-        self.add("events", name, _keys(keys))
+        self.add("events", name, keys)
 
     def part(self, name: str) -> Assembly:
         """Defines a part, which `place` puts into the mechanism, and returns it empty."""
@@ -82,7 +82,7 @@ class Assembly(Entries):
         mirror: "x", "y" or "z", the normal of the plane in which it is mirrored first
         parameters: values of its parameters; merge: its nodes that are nodes of this model
         """
-        self.add("parts", name, {"part": part, **_keys(keys)})
+        self.add("parts", name, {"part": part, **keys})
 
     def to_dict(self) -> dict[str, Any]:
         """The sections with their entries, as `bielle.read` takes them."""
@@ -107,4 +107,6 @@ def _keys(keys: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _without_none(entry: Any) -> Any:
-    return {key: value for key, value in entry.items() if value is not None} if isinstance(entry, Mapping) else entry
+    if not isinstance(entry, Mapping):
+        return entry
+    return {key: value for key, value in _keys(entry).items() if value is not None}

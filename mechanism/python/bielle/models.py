@@ -60,7 +60,8 @@ class Model(Assembly):
     which are read when the model is first used. A change after that makes a new model for later sessions.
     """
 
-    def __init__(self, title: str | None = None, gravity: Sequence[float] | None = None, *, folder: str | os.PathLike | None = None):
+    def __init__(self, title: str | None = None, gravity: Sequence[float] | None = None, *,
+                 folder: str | os.PathLike | None = None):
         """title: of the mechanism. gravity: [m/s^2]. folder: of relative file names; the working folder, unless given."""
         super().__init__()
         if not (title is None or isinstance(title, str)):

@@ -91,7 +91,7 @@ class Numbers(unittest.TestCase):
             session.state = bielle.read(WHEEL).session().state
 
     def test_objects_that_are_others(self):
-        for make, says in ((lambda: bielle.Model(None), "made by bielle.load"), (lambda: bielle.Session(None), "model.session"),
+        for make, says in ((lambda: bielle.Model(3), "bielle.load reads"), (lambda: bielle.Session(None), "model.session"),
                            (lambda: bielle.Session("model.yaml"), "model.session"), (lambda: bielle.Motion(None, None), "Session.dynamics")):
             with self.assertRaisesRegex(bielle.InputError, says):
                 make()

@@ -9,7 +9,7 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 REPOSITORY = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
-TOOLS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-loads", "study", "install", "demo", "test",
+TOOLS = ["keys", "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-loads", "study", "install", "demo", "test",
          "convert_mesh.py"]
 OTHERS = {"--preset", "--build", "--install", "--prefix",  # options of CMake
           "--hostfile"}  # options of mpirun
@@ -19,7 +19,7 @@ def readmes():
     for folder, folders, files in os.walk(REPOSITORY):
         folders[:] = [name for name in folders if name not in ("build", ".git") and not name.startswith(".")]
         for name in files:
-            if name in ("README.md", "CONTRIBUTING.md", "glossary.md"):
+            if name in ("README.md", "CONTRIBUTING.md", "glossary.md", "keys.md"):
                 yield os.path.join(folder, name)
 
 

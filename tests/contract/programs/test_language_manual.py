@@ -1,0 +1,79 @@
+"""Every file of the page about parts is run; expanded models give the same results as the files that they come from."""
+
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PAGE = os.path.join(HERE, "..", "..", "..", "mechanism", "language", "README.md")
+PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+
+
+def files_of_page():
+    with open(PAGE, encoding="utf-8") as file:
+        blocks = re.findall(r"```yaml\n(.*?)```", file.read(), re.DOTALL)
+    return {re.match(r"# (\S+\.yaml)\n", block).group(1): block for block in blocks}
+
+
+class LanguageManual(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.files = files_of_page()
+        for name, text in self.files.items():
+            with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+
+    def run_program(self, *arguments):
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
+        return done.stdout
+
+    def test_every_model_runs_as_its_expanded_form_does(self):
+        models = [name for name, text in self.files.items() if re.search(r"^analysis:", text, re.MULTILINE)]
+        self.assertGreater(len(models), 5)
+        for name in models:
+            with self.subTest(name):
+                expanded = self.run_program(name, "--expand")
+                for word in ("include:", "repeat:", "parts:", "definitions:", "if:"):
+                    self.assertNotIn(word, expanded)
+                with open(os.path.join(self.folder, "expanded.yaml"), "w", encoding="utf-8") as file:
+                    file.write(expanded)
+                self.run_program(name, "-o", "written.h5", "--quiet")
+                self.run_program("expanded.yaml", "-o", "expanded.h5", "--quiet")
+                self.compare("written.h5", "expanded.h5")
+
+    def compare(self, first, second):
+        with h5py.File(os.path.join(self.folder, first)) as one, h5py.File(os.path.join(self.folder, second)) as other:
+            names = []
+            one.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
+            self.assertTrue(any("nodes" in name for name in names))
+            for name in names:
+                if one[name].dtype.kind == "f":
+                    self.assertIn(name, other)
+                    np.testing.assert_array_equal(one[name][()], other[name][()], err_msg=name)
+
+    def test_cases_have_results_of_their_own(self):
+        self.run_program("drop.yaml", "--all-cases", "--quiet")
+        self.run_program("drop.yaml", "--case", "fall", "-o", "alone.h5", "--quiet")
+        self.compare("drop_fall.h5", "alone.h5")
+        self.assertTrue(os.path.exists(os.path.join(self.folder, "drop_rest.h5")))
+
+    def test_mirrored_wings_move_alike(self):
+        self.run_program("wings.yaml", "-o", "wings.h5", "--quiet")
+        with h5py.File(os.path.join(self.folder, "wings.h5")) as results:
+            found = []
+            results.visititems(lambda name, item: found.append(name) if name.endswith("difference") else None)
+            values = results[found[0]]
+            values = values[()] if isinstance(values, h5py.Dataset) else values["value"][()]
+            self.assertLess(np.abs(values).max(), 1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()
