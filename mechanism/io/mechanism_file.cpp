@@ -10,6 +10,7 @@
 #include "mechanism/io/implausible_lengths.hpp"
 #include "mechanism/io/mechanism_keys.hpp"
 #include "mechanism/io/node_reader.hpp"
+#include "mechanism/language/cases.hpp"
 #include "mechanism/language/expand_model.hpp"
 #include "mechanism/measures/input_measure.hpp"
 #include "mechanism/measures/measure_event.hpp"

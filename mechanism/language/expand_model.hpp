@@ -33,7 +33,4 @@ struct ExpandedModel {
 ExpandedModel expand_model(const Tree& root, const std::string& file, const KeyTable& keys,
                            const ModelOptions& options);
 
-/// Returns the names of the cases of a file, in its order.
-std::vector<std::string> case_names(const Tree& root, const std::string& file);
-
 }  // namespace bielle::mechanism

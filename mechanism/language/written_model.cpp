@@ -1,0 +1,125 @@
+#include "mechanism/language/written_model.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/reading/read_frame.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Order of sections that only parts have.
+const std::vector<std::string> usual_order = {"nodes",  "points",   "elements", "joints", "drives",    "loads",
+                                              "states", "measures", "inputs",   "events", "hydraulics"};
+
+}  // namespace
+
+WrittenModel::WrittenModel(std::string main_file, const Parameters& parameters)
+    : main_file_(std::move(main_file)), parameters_(parameters) {}
+
+void WrittenModel::add(const std::string& section_name, const std::string& name, Tree value) {
+  Section& section = sections_[section_name];
+  if (!section.places.emplace(name, section.pairs.size()).second)
+    fail_at(*value, main_file_, section_name + "." + name, "there are two entries with this name");
+  section.pairs.push_back({make_scalar(name, *value), std::move(value)});
+}
+
+void WrittenModel::add_hydraulic(const std::string& list_name, const std::string& name, Tree value) {
+  Section& list = hydraulic_lists_[list_name];
+  if (!list.places.emplace(name, list.pairs.size()).second)
+    fail_at(*value, main_file_, fmt::format("hydraulics.{}.{}", list_name, name),
+            "there are two entries with this name");
+  list.pairs.push_back({make_scalar(name, *value), std::move(value)});
+}
+
+void WrittenModel::set_hydraulic(const YamlNode::Pair& pair, Tree value) {
+  Section& section = sections_["hydraulics"];
+  if (!section.places.emplace(pair.key->scalar, section.pairs.size()).second)
+    fail_at(*pair.key, main_file_, "hydraulics." + pair.key->scalar,
+            "is given by another part, or by the model, already");
+  section.pairs.push_back({pair.key, std::move(value)});
+}
+
+std::string WrittenModel::add_point(const YamlNode& point, const std::string& path) {
+  const Tree body = find_value(point, "body");
+  if (!body || body->kind != YamlNode::Kind::scalar)
+    fail_at(point, main_file_, path, "expected the name of a node, or a point of a body: {body: name, at: [x, y, z]}");
+  const std::string name = path.substr(path.find('.') + 1) + ".point";
+  points_.push_back({body->scalar, name, make_map(point.pairs, point), path});
+  return name;
+}
+
+std::vector<std::string> WrittenModel::names_in(const std::string& section) const {
+  std::vector<std::string> names;
+  if (const auto found = sections_.find(section); found != sections_.end())
+    for (const auto& [name, place] : found->second.places) names.push_back(name);
+  return names;
+}
+
+Frame WrittenModel::frame_of_node(const std::string& name, const YamlNode& place, const std::string& path) const {
+  if (name == "ground") return {};
+  const auto nodes = sections_.find("nodes");
+  const auto found =
+      nodes == sections_.end() ? decltype(nodes->second.places.find(name)){} : nodes->second.places.find(name);
+  if (nodes == sections_.end() || found == nodes->second.places.end())
+    fail_at(
+        place, main_file_, path,
+        fmt::format("there is no node '{}' whose place is known here{}", name, did_you_mean(name, names_in("nodes"))));
+  return frame_of_entry(nodes->second.pairs[found->second].value, path);
+}
+
+Frame WrittenModel::frame_of_entry(const Tree& entry, const std::string& path) const {
+  if (entry->kind != YamlNode::Kind::map) return {};
+  YamlValue value = YamlValue::of_tree(without(*entry, {"velocity", "angular_velocity", "fixed", "motion", "at"}), "",
+                                       entry->file ? *entry->file : main_file_);
+  value.set_parameters(parameters_);
+  static const KeyTable table{"a node", "", frame_keys(), {}};
+  const Frame own = read_frame(value.keyed(table));
+  const Tree at = find_value(*entry, "at");
+  return at ? frame_of_node(at->scalar, *at, path) * own : own;
+}
+
+void WrittenModel::carry_points() {
+  for (const Point& point : points_) {
+    Section& elements = sections_["elements"];
+    const auto found = elements.places.find(point.body);
+    if (found == elements.places.end())
+      fail_at(*point.entry, main_file_, point.path,
+              fmt::format("there is no element '{}'{}", point.body, did_you_mean(point.body, names_in("elements"))));
+    Tree& body = elements.pairs[found->second].value;
+    const Tree type = find_value(*body, "type"), node = find_value(*body, "node");
+    if (!type || type->scalar != "rigid_body" || !node)
+      fail_at(*point.entry, main_file_, point.path,
+              fmt::format("'{}' is no rigid_body; points of superelements stand in the section `points`", point.body));
+    Tree entry = with(*without(*point.entry, {"body", "at"}), "at", node);
+    if (const Tree at = find_value(*point.entry, "at")) entry = with(*entry, "position", at);
+    add("nodes", point.node, entry);
+    const Tree also = find_value(*body, "also");
+    std::vector<Tree> carried = also ? also->items : std::vector<Tree>{};
+    carried.push_back(make_scalar(point.node, *point.entry));
+    body = with(*body, "also", make_list(std::move(carried), *point.entry));
+  }
+}
+
+Tree WrittenModel::finish(const YamlNode& root) {
+  carry_points();
+  for (auto& [name, list] : hydraulic_lists_)
+    sections_["hydraulics"].pairs.push_back({make_scalar(name, root), make_map(std::move(list.pairs), root)});
+  Pairs pairs;
+  for (const YamlNode::Pair& pair : root.pairs) {
+    const std::string& name = pair.key->scalar;
+    if (name == "parts" || name == "definitions") continue;
+    const auto found = sections_.find(name);
+    if (found == sections_.end()) {
+      if (!is_among(name, usual_order)) pairs.push_back(pair);
+      continue;
+    }
+    pairs.push_back({pair.key, make_map(std::move(found->second.pairs), *pair.value)});
+    sections_.erase(found);
+  }
+  for (const std::string& name : usual_order)
+    if (const auto found = sections_.find(name); found != sections_.end() && !found->second.pairs.empty())
+      pairs.push_back({make_scalar(name, root), make_map(std::move(found->second.pairs), root)});
+  return make_map(std::move(pairs), root);
+}
+
+}  // namespace bielle::mechanism

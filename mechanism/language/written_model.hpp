@@ -1,0 +1,57 @@
+// A model that is being written out: its sections, with the entries that are known so far.
+#pragma once
+
+#include <map>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "mechanism/language/tree.hpp"
+#include "mechanism/math/se3.hpp"
+#include "reduce/common/formula/expression.hpp"
+
+namespace bielle::mechanism {
+
+class WrittenModel {
+ public:
+  /// @param parameters  of the model, which outlive this
+  WrittenModel(std::string main_file, const Parameters& parameters);
+
+  /// Adds an entry. @throws InputError if the section has one of this name
+  void add(const std::string& section, const std::string& name, Tree value);
+  /// Adds an entry to a list within the section `hydraulics`.
+  void add_hydraulic(const std::string& list, const std::string& name, Tree value);
+  /// Sets a key of the section `hydraulics` that has no entries, such as its fluid. @throws InputError if it is set
+  void set_hydraulic(const YamlNode::Pair& pair, Tree value);
+  /// Adds a node at a point of a body and returns its name. @param point  a map of body_point_keys
+  std::string add_point(const YamlNode& point, const std::string& path);
+
+  /// Returns the frame of a node. @param place  the node's name in the file
+  Frame frame_of_node(const std::string& name, const YamlNode& place, const std::string& path) const;
+  /// Reads the position and orientation of a node. @param entry  in the model
+  Frame frame_of_entry(const Tree& entry, const std::string& path) const;
+
+  /// Returns the file: sections of `root` in their order, those that only parts have behind them.
+  Tree finish(const YamlNode& root);
+
+ private:
+  struct Section {
+    Pairs pairs;
+    std::map<std::string, std::size_t> places;
+  };
+  struct Point {
+    std::string body, node;
+    Tree entry;
+    std::string path;
+  };
+  void carry_points();
+  std::vector<std::string> names_in(const std::string& section) const;
+
+  std::string main_file_;
+  const Parameters& parameters_;
+  std::map<std::string, Section> sections_;
+  std::map<std::string, Section> hydraulic_lists_;
+  std::vector<Point> points_;
+};
+
+}  // namespace bielle::mechanism
