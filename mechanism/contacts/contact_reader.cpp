@@ -75,11 +75,11 @@ const KeyTable& shape_keys() {
     return KeyTable{
         "a shape of a contact", "A shape on a node, which pushes others away.",
         joined({{{"node", name_of("node"), required, "Node that carries the shape."},
-                 {"at", vector3("m"), otherwise("[0, 0, 0]"),
+                 {"at", vector3("m").as_point(), otherwise("[0, 0, 0]"),
                   "Middle of the shape, point of a plane or origin of a surface's file, in the axes of the node."}},
                 orientation_keys(),
                 {{"sphere", size, optional, "Sphere, by its radius."},
-                 {"plane", direction(), optional, "Plane, by its normal towards the outside."},
+                 {"plane", direction().as_vector(), optional, "Plane, by its normal towards the outside."},
                  {"capsule", list_of(2, size), optional, "Capsule along z: radius, and length between its round ends."},
                  {"cylinder", list_of(2, size), optional, "Cylinder along z: radius and length."},
                  {"box", list_of(3, size), optional, "Box: lengths along x, y, z."},

@@ -197,7 +197,7 @@ const KeyTable& node_keys() {
       "a node", "A point with axes, which move.",
       joined({{{"position", vector3("m").as_point().in_inertial_axes(), otherwise("[0, 0, 0]"),
                 "Position of the origin: inertial, or in the axes of the node `at`."}},
-              orientation_keys(),
+              inertial_orientation_keys(),
               {{"at", name_of("node"), computed("the inertial axes"),
                 "Node in whose axes the position and the orientation are given."},
                {"velocity", vector3("m/s").as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),

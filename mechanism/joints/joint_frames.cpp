@@ -84,22 +84,27 @@ std::vector<Key> joint_place_keys() {
   using namespace keys;
   return {type_key(),
           {"nodes", list_of(2, name_of("node")), required, "First and second node."},
-          {"position", vector3("m"), computed("the position of the second node"),
+          {"position", vector3("m").as_point().in_inertial_axes(), computed("the position of the second node"),
            "Place of the joint as drawn, fixed on both nodes."},
-          {"at", list_of(2, vector3("m")), optional,
+          {"at", list_of(2, vector3("m").as_point()), optional,
            "Points in the axes of the first and of the second node, in place of `position`; the start brings the two "
            "together."}};
 }
 
-std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key) {
+std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key, AxisUse use) {
   using namespace keys;
-  const KeyForms direction_or_pair = {direction(), list_of(2, direction())};
+  const KeyForm z = use == AxisUse::turning ? direction().as_axial() : direction().as_vector();
+  const KeyForm x = direction().as_vector();
   const Presence presence = need == AxisNeed::required ? required : computed("the inertial z axis");
   return joined(
       {joint_place_keys(),
-       {{axis_key, direction_or_pair, presence,
+       {{axis_key,
+         {z.in_inertial_axes(), list_of(2, z)},
+         presence,
          "Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node."},
-        {"second_axis", direction_or_pair, computed("the inertial axis most normal to z, as drawn"),
+        {"second_axis",
+         {x.in_inertial_axes(), list_of(2, x)},
+         computed("the inertial axis most normal to z, as drawn"),
          "Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each "
          "node."}}});
 }

@@ -34,6 +34,9 @@ struct JointFrames {
 /// Whether a type needs an axis.
 enum class AxisNeed { required, optional };
 
+/// Motion along or about the axis whose sign stays in a mirror.
+enum class AxisUse { turning, sliding };
+
 /// key instead of `axis`, if the type has another name for it (`normal` of a plane) @throws InputError
 /// @param axis_key  in place of `axis`, where the type calls it otherwise (`normal` of a plane)
 /// @throws InputError
@@ -45,7 +48,7 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
 Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& normal);
 
 /// Returns `type` and the keys that `read_joint_frames` reads. @param axis_key  as read_joint_frames
-std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key = "axis");
+std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key = "axis", AxisUse use = AxisUse::turning);
 /// Returns those of them that give the place: `type`, `nodes`, `position`, `at`.
 std::vector<Key> joint_place_keys();
 

@@ -54,13 +54,35 @@ bool is_orientation(const std::string& key) {
 
 /// Whether an orientation in a map of a table is relative to the inertial axes.
 bool has_inertial_orientation(const KeyTable& table) {
-  const Key* position = table.find("position");
-  return table.find("matrix") && position && !position->forms.empty() && position->forms.front().inertial;
+  const Key* matrix = table.find("matrix");
+  return matrix && matrix->forms.front().inertial;
 }
 
 /// Whether the position and orientation in a map are relative to a node, which is placed itself.
 bool is_relative_frame(const KeyTable& table, const YamlNode& map) {
   return has_inertial_orientation(table) && find_pair(map, "at");
+}
+
+/// Whether the components of a force or moment in a map are along axes of a node after all.
+bool is_along_own_axes(const YamlNode& map) {
+  const Tree follower = find_value(map, "follower"), axes = find_value(map, "axes"), type = find_value(map, "type");
+  if (follower && follower->scalar == "true") return true;
+  return type && type->scalar == "node_force" && !(axes && axes->scalar == "inertial");
+}
+
+/// Returns the forms of a key in a map in which other keys change their geometry.
+KeyForms forms_in(const Key& key, const KeyTable& table, const YamlNode& map) {
+  KeyForms forms = key.forms;
+  const bool own = (key.name == "position" && is_relative_frame(table, map)) ||
+                   ((key.name == "force" || key.name == "moment") && is_along_own_axes(map));
+  const Tree quantity = key.name == "direction" ? find_value(map, "quantity") : nullptr;
+  const bool turning = quantity && (quantity->scalar == "rotation" || quantity->scalar == "angular_velocity" ||
+                                    quantity->scalar == "moment");
+  for (KeyForm& form : forms) {
+    if (own) form.inertial = false;
+    if (turning && form.geometry == KeyForm::Geometry::vector) form.geometry = KeyForm::Geometry::axial;
+  }
+  return forms;
 }
 
 }  // namespace
@@ -96,10 +118,9 @@ Tree EntryWriter::write_map(const YamlNode& map, const KeyTable& table, const st
       pairs.push_back(pair);
       continue;
     }
-    KeyForms forms = key->forms;
-    if (is_relative_frame(table, map))
-      for (KeyForm& form : forms) form.inertial = form.inertial && key->name != "position";
-    pairs.push_back({pair.key, write(pair.value, forms, path + "." + key->name)});
+    Tree value = write(pair.value, forms_in(*key, table, map), path + "." + key->name);
+    if (key->name == "inertia" && scope_.placement.mirrored >= 0) value = mirrored_inertia(value);
+    pairs.push_back({pair.key, std::move(value)});
   }
   Tree written = make_map(std::move(pairs), map);
   return scope_.placement.is_identity() ? written : place_frame(*written, table);
@@ -118,6 +139,7 @@ Tree EntryWriter::write_entries(const YamlNode& map, const KeyForm& form, const 
 
 Tree EntryWriter::write_scalar(const Tree& node, const KeyForms& forms, const std::string& path) const {
   const std::string text = scope_.text(*node, path);
+  if (const Tree direction = place_word(*node, text, forms)) return direction;
   const auto result = [&](const std::string& other) {
     return other == node->scalar ? node : make_scalar(other, *node);
   };
@@ -133,6 +155,38 @@ Tree EntryWriter::write_scalar(const Tree& node, const KeyForms& forms, const st
   if (number->geometry == KeyForm::Geometry::pseudoscalar && scope_.placement.mirrored >= 0)
     return make_scalar(fmt::format("-({})", formula), *node);
   return result(formula);
+}
+
+/// Returns a direction that is named by a word, `x`, in the axes of its place; null if it stays the same, or is none.
+Tree EntryWriter::place_word(const YamlNode& node, const std::string& text, const KeyForms& forms) const {
+  if (text != "x" && text != "y" && text != "z") return nullptr;
+  for (const KeyForm& form : forms) {
+    if (form.kind != Kind::list || form.geometry == KeyForm::Geometry::none || !form.inertial) continue;
+    const Matrix3 A = scope_.placement.matrix(form.geometry, true);
+    if (A.isIdentity(0)) return nullptr;
+    const Vector3 direction = A.col(text[0] - 'x');
+    return make_numbers({direction[0], direction[1], direction[2]}, node);
+  }
+  return nullptr;
+}
+
+/// Changes the signs of the products of inertia that contain the mirrored axis.
+Tree EntryWriter::mirrored_inertia(const Tree& value) const {
+  const int mirrored = scope_.placement.mirrored;
+  const auto negative = [](const Tree& number) { return make_scalar(fmt::format("-({})", number->scalar), *number); };
+  std::vector<Tree> items = value->items;
+  if (items.size() == 6) {
+    constexpr int axes[][2] = {{0, 1}, {0, 2}, {1, 2}};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (axes[k][0] == mirrored || axes[k][1] == mirrored) items[3 + k] = negative(items[3 + k]);
+  }
+  for (std::size_t row = 0; items.size() == 3 && row < 3; ++row) {
+    std::vector<Tree> numbers = items[row]->items;
+    for (std::size_t k = 0; numbers.size() == 3 && k < 3; ++k)
+      if ((static_cast<int>(row) == mirrored) != (static_cast<int>(k) == mirrored)) numbers[k] = negative(numbers[k]);
+    if (!numbers.empty()) items[row] = make_list(std::move(numbers), *items[row]);
+  }
+  return make_list(std::move(items), *value);
 }
 
 Tree EntryWriter::write_list(const YamlNode& list, const KeyForms& forms, const std::string& path) const {

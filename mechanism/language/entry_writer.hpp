@@ -26,6 +26,8 @@ class EntryWriter {
   Tree write_scalar(const Tree& node, const KeyForms& forms, const std::string& path) const;
   Tree write_entries(const YamlNode& map, const KeyForm& form, const std::string& path) const;
   Tree write_list(const YamlNode& list, const KeyForms& forms, const std::string& path) const;
+  Tree place_word(const YamlNode& node, const std::string& text, const KeyForms& forms) const;
+  Tree mirrored_inertia(const Tree& value) const;
   Tree place_vector(const Tree& list, const KeyForm& form, const std::string& path) const;
   Tree place_frame(const YamlNode& map, const KeyTable& table) const;
 

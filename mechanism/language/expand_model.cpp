@@ -9,6 +9,7 @@
 #include "mechanism/language/include.hpp"
 #include "mechanism/language/language_keys.hpp"
 #include "mechanism/language/parameters.hpp"
+#include "mechanism/language/placed_entry.hpp"
 #include "mechanism/language/scope.hpp"
 #include "mechanism/reading/read_frame.hpp"
 
@@ -22,10 +23,6 @@ const std::vector<std::string> sections = {"nodes",  "points",   "elements", "jo
 const std::vector<std::string> measure_sections = {"states", "measures", "inputs", "events"};
 /// Sections of a file that a part does not bring along: they belong to the model in which it is placed.
 const std::vector<std::string> sections_of_model = {"mechanism", "gravity", "analysis", "output", "cases"};
-
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 /// Returns the forms of the entries of a section.
 const KeyForms& entry_forms(const KeyTable& root, const std::string& section) {
@@ -68,27 +65,44 @@ class Expander {
     const EntryWriter::MakePoint make_point = [&](const YamlNode& point, const std::string& path) {
       return add_point(point, path);
     };
-    for (const YamlNode::Pair& pair : body.pairs) {
+    // Nodes come first: entries, and other parts, are placed relative to them.
+    Pairs ordered = body.pairs;
+    std::stable_partition(ordered.begin(), ordered.end(),
+                          [](const YamlNode::Pair& pair) { return pair.key->scalar == "nodes"; });
+    for (const YamlNode::Pair& pair : ordered) {
       const std::string& section = pair.key->scalar;
       if (section == "hydraulics") {
         write_hydraulics(*pair.value, scope, make_point);
-      } else if (contains(sections, section)) {
+      } else if (is_among(section, sections)) {
         for_each_entry(*pair.value, scope, section,
                        [&](const std::string& name, const Tree& value, const Scope& entry_scope) {
                          const std::string path = section + "." + scope.prefix + name;
-                         const EntryWriter writer(entry_scope, make_point);
-                         add(section, scope, name, *pair.key, writer.write(value, entry_forms(keys_, section), path));
+                         add(section, scope, name, write_entry(section, value, entry_scope, make_point, path));
                        });
       } else if (section == "parts") {
         for_each_entry(*pair.value, scope, section,
                        [&](const std::string& name, const Tree& value, const Scope& entry_scope) {
                          place_part(name, value, entry_scope, library);
                        });
-      } else if (!of_part.empty() && !contains(sections_of_model, section) && section != "parameters" &&
+      } else if (!of_part.empty() && !is_among(section, sections_of_model) && section != "parameters" &&
                  section != "definitions") {
         fail_at(*pair.key, file_, of_part, fmt::format("'{}' is no section of a part", section));
       }
     }
+  }
+
+  Tree write_entry(const std::string& section, const Tree& value, const Scope& scope,
+                   const EntryWriter::MakePoint& make_point, const std::string& path) {
+    const KeyForms& forms = entry_forms(keys_, section);
+    const Tree written = EntryWriter(scope, make_point).write(value, forms, path);
+    if (scope.placement.is_identity() || value->kind != YamlNode::Kind::map) return written;
+    check_placed(*value, section, scope, path);
+    const auto entry =
+        std::find_if(forms.begin(), forms.end(), [](const KeyForm& form) { return form.table != nullptr; });
+    if (entry == forms.end()) return written;
+    return with_explicit_axes(
+        written, entry->table().of_map(*value), scope,
+        [&](const YamlNode& name, const std::string& where) { return frame_of_node(name.scalar, name, where); }, path);
   }
 
   /// Calls `use(name, value, scope)` for each entry that is there, once for each repetition.
@@ -270,7 +284,7 @@ class Expander {
       std::vector<std::string> names(nodes.names.begin(), nodes.names.end());
       std::sort(names.begin(), names.end());
       fail_at(place, file_, path,
-              fmt::format("there is no node '{}' before this part{}", name, did_you_mean(name, names)));
+              fmt::format("there is no node '{}' whose place is known here{}", name, did_you_mean(name, names)));
     }
     const Tree& node = nodes.pairs[found->second].value;
     YamlValue value = YamlValue::of_tree(without(*node, {"velocity", "angular_velocity", "fixed", "motion", "at"}), "",
@@ -310,13 +324,13 @@ class Expander {
       const std::string& section = pair.key->scalar;
       const auto collect = [&](const YamlNode& entries, const std::string& path) {
         for_each_entry(entries, scope, path, [&](const std::string& name, const Tree&, const Scope&) {
-          names_.push_back({name, contains(measure_sections, section)});
+          names_.push_back({name, is_among(section, measure_sections)});
         });
       };
       if (section == "hydraulics") {
         for (const YamlNode::Pair& group : pair.value->pairs)
           if (group.value->kind == YamlNode::Kind::map) collect(*group.value, section);
-      } else if (contains(sections, section) || section == "parts") {
+      } else if (is_among(section, sections) || section == "parts") {
         collect(*pair.value, section);
       }
     }
@@ -362,8 +376,7 @@ class Expander {
 
   // -- entries of the model
 
-  void add(const std::string& section_name, const Scope& scope, const std::string& name, const YamlNode& place,
-           Tree value) {
+  void add(const std::string& section_name, const Scope& scope, const std::string& name, Tree value) {
     if (section_name == "nodes" && scope.merged.count(name)) return;
     Section& section = sections_[section_name];
     const std::string full = scope.prefix + name;
@@ -371,7 +384,6 @@ class Expander {
       fail_at(*value, file_, section_name + "." + full, "there are two entries with this name");
     if (section_name == "nodes") node_positions_[full] = section.pairs.size();
     if (section_name == "elements") element_positions_[full] = section.pairs.size();
-    (void)place;
     section.pairs.push_back({make_scalar(full, *value), std::move(value)});
   }
 
@@ -404,7 +416,7 @@ class Expander {
       entry = with(*entry, "at", node);
       if (const Tree at = find_value(*point.entry, "at")) entry = with(*entry, "position", at);
       Scope model;
-      add("nodes", model, point.name, *point.entry, entry);
+      add("nodes", model, point.name, entry);
       const Tree also = find_value(*body, "also");
       std::vector<Tree> carried = also ? also->items : std::vector<Tree>{};
       carried.push_back(make_scalar(point.name, *point.entry));
@@ -472,7 +484,7 @@ bool entry_uses_language(const YamlNode& node) {
 bool uses_language(const YamlNode& root) {
   for (const YamlNode::Pair& pair : root.pairs) {
     if (pair.key->scalar == "parts" || pair.key->scalar == "definitions") return true;
-    if (!contains(sections, pair.key->scalar)) continue;
+    if (!is_among(pair.key->scalar, sections)) continue;
     for (const YamlNode::Pair& entry : pair.value->pairs) {
       if (entry_uses_language(*entry.value)) return true;
       if (pair.key->scalar == "hydraulics")
@@ -488,7 +500,7 @@ Tree with_case(const Tree& root, const std::string& file, const std::string& cho
   const Tree cases = find_value(*root, "cases");
   if (chosen.empty()) return cases ? without(*root, {"cases"}) : root;
   const std::vector<std::string> names = case_names(root, file);
-  if (!contains(names, chosen))
+  if (!is_among(chosen, names))
     throw InputError(fmt::format("--case {}: {} has no such case{}", chosen, file,
                                  names.empty() ? "" : did_you_mean(chosen, names)));
   const Tree entry = find_value(*cases, chosen);
@@ -502,7 +514,7 @@ Tree with_case(const Tree& root, const std::string& file, const std::string& cho
     if (all)
       for (const YamlNode::Pair& pair : all->pairs) known.push_back(pair.key->scalar);
     for (const YamlNode::Pair& pair : parameters->pairs) {
-      if (!contains(known, pair.key->scalar))
+      if (!is_among(pair.key->scalar, known))
         fail_at(*pair.key, file, "cases." + chosen + ".parameters",
                 fmt::format("'{}' is not a parameter of the file{}", pair.key->scalar,
                             did_you_mean(pair.key->scalar, known)));

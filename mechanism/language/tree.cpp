@@ -17,6 +17,10 @@ std::shared_ptr<YamlNode> make(YamlNode::Kind kind, const YamlNode& place) {
 
 }  // namespace
 
+bool is_among(const std::string& word, const std::vector<std::string>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 const YamlNode::Pair* find_pair(const YamlNode& map, const std::string& key) {
   const auto found = std::find_if(map.pairs.begin(), map.pairs.end(),
                                   [&](const YamlNode::Pair& pair) { return pair.key->scalar == key; });

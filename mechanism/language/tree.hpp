@@ -14,6 +14,8 @@ namespace bielle::mechanism {
 using Tree = std::shared_ptr<const YamlNode>;
 using Pairs = std::vector<YamlNode::Pair>;
 
+bool is_among(const std::string& word, const std::vector<std::string>& words);
+
 /// Returns the value of a key, or null.
 Tree find_value(const YamlNode& map, const std::string& key);
 const YamlNode::Pair* find_pair(const YamlNode& map, const std::string& key);

@@ -177,11 +177,11 @@ const KeyTable& measure_of_node_keys() {
        {"relative_to", name_of("node"), otherwise("ground"), "Node in whose axes the quantity is seen."},
        {"quantity", word(quantity_words, "a quantity"), otherwise("position"), "Quantity of the node."},
        {"direction",
-        {word({"x", "y", "z"}, "a direction (x, y, z or a vector)"), direction()},
+        {word({"x", "y", "z"}, "a direction (x, y, z or a vector)"), direction().as_vector().in_inertial_axes()},
         required,
         "Direction along which the quantity is measured, in the axes of `relative_to`."},
        {"at",
-        {vector3("m"), list_of(2, vector3("m"))},
+        {vector3("m").as_point(), list_of(2, vector3("m").as_point())},
         otherwise("[0, 0, 0]"),
         "Point of the node in its axes, or two points, one of `relative_to` and one of the node."}}};
   return table;

@@ -76,6 +76,16 @@ const std::vector<Key>& orientation_keys() {
   return all;
 }
 
+const std::vector<Key>& inertial_orientation_keys() {
+  static const std::vector<Key> all = [] {
+    std::vector<Key> keys = orientation_keys();
+    for (Key& key : keys)
+      for (KeyForm& form : key.forms) form = form.in_inertial_axes();
+    return keys;
+  }();
+  return all;
+}
+
 Matrix3 read_orientation(const YamlValue& entry) {
   std::string given;
   for (const Key& key : orientation_keys()) {
@@ -104,7 +114,15 @@ Matrix3 read_orientation(const YamlValue& entry) {
 
 std::vector<Key> frame_keys() {
   using namespace keys;
-  return joined({{{"position", vector3("m"), otherwise("[0, 0, 0]"), "Position of the origin."}}, orientation_keys()});
+  return joined(
+      {{{"position", vector3("m").as_point().in_inertial_axes(), otherwise("[0, 0, 0]"), "Position of the origin."}},
+       inertial_orientation_keys()});
+}
+
+std::vector<Key> own_frame_keys() {
+  using namespace keys;
+  return joined(
+      {{{"position", vector3("m").as_point(), otherwise("[0, 0, 0]"), "Position of the origin."}}, orientation_keys()});
 }
 
 Frame read_frame(const YamlValue& entry) { return {entry.at("position").vector3(), read_orientation(entry)}; }

@@ -267,8 +267,10 @@ const KeyTable& line_load_keys() {
       "a distributed load",
       "A force and a moment per length of a beam, as formulas of s, from 0 at its start to 1 at its end, and the time "
       "t.",
-      {{"force", list_of(3, formula("N/m", {"s", "t"})), optional, "Components of the force per length."},
-       {"moment", list_of(3, formula("N m/m", {"s", "t"})), optional, "Components of the moment per length."},
+      {{"force", list_of(3, formula("N/m", {"s", "t"})).as_vector().in_inertial_axes(), optional,
+        "Components of the force per length."},
+       {"moment", list_of(3, formula("N m/m", {"s", "t"})).as_axial().in_inertial_axes(), optional,
+        "Components of the moment per length."},
        {"at", list_of(2, number("m")), otherwise("[0, 0]"),
         "Point of the section at which the force acts, from the node line along y and z."},
        {"follower", boolean(), otherwise("false"),

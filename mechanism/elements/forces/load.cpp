@@ -97,11 +97,12 @@ const KeyTable& load_keys() {
       "a load",
       "A force and a moment on a node.",
       {{"node", name_of("node"), required, "The loaded node."},
-       {"force", list_of(3, state_formula("N", {"t"})), optional,
+       {"force", list_of(3, state_formula("N", {"t"})).as_vector().in_inertial_axes(), optional,
         "Components of the force as formulas of the time t and measures."},
-       {"moment", list_of(3, state_formula("N m", {"t"})), optional,
+       {"moment", list_of(3, state_formula("N m", {"t"})).as_axial().in_inertial_axes(), optional,
         "Components of the moment as formulas of the time t and measures."},
-       {"at", vector3("m"), otherwise("[0, 0, 0]"), "Point of application of the force in the axes of the node."},
+       {"at", vector3("m").as_point(), otherwise("[0, 0, 0]"),
+        "Point of application of the force in the axes of the node."},
        {"follower", boolean(), otherwise("false"),
         "Whether the components are along the axes of the node and turn with it; otherwise they are inertial."}}};
   return table;

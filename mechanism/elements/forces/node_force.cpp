@@ -122,11 +122,11 @@ const KeyTable& node_force_keys() {
       {type_key(),
        {"nodes", list_of(2, name_of("node")), required,
         "The two nodes: force and moment act on the second, and back on the first at the same place."},
-       {"force", list_of(3, state_formula("N", {"t"})), optional,
+       {"force", list_of(3, state_formula("N", {"t"})).as_vector().in_inertial_axes(), optional,
         "Components of the force as formulas of the time t and measures."},
-       {"moment", list_of(3, state_formula("N m", {"t"})), optional,
+       {"moment", list_of(3, state_formula("N m", {"t"})).as_axial().in_inertial_axes(), optional,
         "Components of the moment as formulas of the time t and measures."},
-       {"at", vector3("m"), otherwise("[0, 0, 0]"), "Point of application in the axes of the second node."},
+       {"at", vector3("m").as_point(), otherwise("[0, 0, 0]"), "Point of application in the axes of the second node."},
        {"axes", word({"first", "second", "inertial"}, "whose axes the components are along"), otherwise("first"),
         "Axes of the components: those of the first node, of the second node, or inertial ones."}}};
   return table;

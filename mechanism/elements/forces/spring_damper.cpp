@@ -216,7 +216,7 @@ const KeyTable& spring_damper_keys() {
       "A spring, a damper or a force along the line between points of two nodes.",
       {type_key(),
        {"nodes", list_of(2, name_of("node")), required, "The two nodes."},
-       {"at", list_of(2, vector3("m")), otherwise("[[0, 0, 0], [0, 0, 0]]"),
+       {"at", list_of(2, vector3("m").as_point()), otherwise("[[0, 0, 0], [0, 0, 0]]"),
         "Points of attachment, each in the axes of its node."},
        {"stiffness", number("N/m").non_negative(), optional, "Force per elongation."},
        {"damping", number("N s/m").non_negative(), optional, "Force per rate of the length."},

@@ -149,7 +149,7 @@ const KeyTable& stiffness_field_keys() {
                {"stiffness", forms_of_matrix(12, "N/m or N or N/rad or N m/rad"), required,
                 "Symmetric matrix in the order x y z rx ry rz of the first node, then of the second."},
                {"damping", damping, optional, "Matrix in the same order, or a time that multiplies the stiffness."}},
-              orientation_keys()})};
+              inertial_orientation_keys()})};
   return table;
 }
 

@@ -126,7 +126,7 @@ const KeyTable& rigid_body_keys() {
       {type_key(),
        {"node", name_of("node"), required, "The node that moves with the body."},
        {"mass", number("kg").positive(), optional, "Mass, which is needed without `solid`."},
-       {"centre", vector3("m"), computed("the node, or the centre of the solid"),
+       {"centre", vector3("m").as_point(), computed("the node, or the centre of the solid"),
         "Centre of mass in the axes of the node."},
        {"inertia",
         {list_of(3, number(unit)), list_of(6, number(unit)), matrix(3, 3, unit)},
@@ -176,7 +176,7 @@ const KeyTable& point_mass_keys() {
       {type_key(),
        {"node", name_of("node"), required, "The node that moves with the mass."},
        {"mass", number("kg").non_negative(), required, "Mass."},
-       {"centre", vector3("m"), otherwise("[0, 0, 0]"), "Place of the mass in the axes of the node."}}};
+       {"centre", vector3("m").as_point(), otherwise("[0, 0, 0]"), "Place of the mass in the axes of the node."}}};
   return table;
 }
 

@@ -135,7 +135,7 @@ const KeyTable& solid_keys() {
                {"ring", list_of(2, length), optional, "Radius of the centre line around z, and radius of the section."},
                {"density", number("kg/m^3").positive(), optional, "Density; a solid has either this or a `mass`."},
                {"mass", number("kg").positive(), optional, "Mass, in place of the density."}},
-              frame_keys(),
+              own_frame_keys(),
               {{"cut", boolean(), otherwise("false"), "Whether the solid is removed from the others."}}})};
   return table;
 }

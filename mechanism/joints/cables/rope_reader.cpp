@@ -130,8 +130,9 @@ std::vector<Key> rope_keys() {
           {"radii", list_of(number("m")), required,
            "Radii of the pulleys, one for each node: negative if the rope turns them backwards about `axis`, 0 for a "
            "point."},
-          {"axis", direction(), optional, "Direction of the axes of all pulleys as drawn; points need none."},
-          {"at", list_of(KeyForms{vector3("m"), null()}), computed("the nodes"),
+          {"axis", direction().as_axial().in_inertial_axes(), optional,
+           "Direction of the axes of all pulleys as drawn; points need none."},
+          {"at", list_of(KeyForms{vector3("m").as_point(), null()}), computed("the nodes"),
            "Centres of the pulleys, each in the axes of its node; `~` is the node itself."},
           {"EA", number("N").positive(), required, "Stiffness per strain: Young's modulus times area."},
           {"pretension", number("N").non_negative(), otherwise("0"), "Tension as drawn."},

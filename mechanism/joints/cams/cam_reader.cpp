@@ -111,9 +111,10 @@ const KeyTable& cam_keys() {
         "Angles [rad] and radii [m] of the contour, which a periodic cubic spline joins, in place of `lift`."},
        {"follower", word({"roller", "flat"}, "a follower"), optional, "Follower, which a `profile` needs."},
        {"radius", number("m").non_negative(), otherwise("0"), "Radius of a roller; 0 is a knife edge."},
-       {"at", vector3("m"), otherwise("[0, 0, 0]"),
+       {"at", vector3("m").as_point(), otherwise("[0, 0, 0]"),
         "Middle of the roller, or point of the flat face, in the axes of the follower's node."},
-       {"normal", direction(), optional, "Normal of a flat face, away from the cam, as drawn; it needs one."},
+       {"normal", direction().as_vector().in_inertial_axes(), optional,
+        "Normal of a flat face, away from the cam, as drawn; it needs one."},
        {"friction", joint_friction_forms(), optional, "Friction of the contact, or of a roller on its pin."}}};
   return table;
 }

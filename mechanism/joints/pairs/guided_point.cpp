@@ -22,7 +22,7 @@ void read_guided_point(const std::string& type, const std::string& axis_key, con
 const KeyTable& point_on_line_keys() {
   static const KeyTable table{
       "a point_on_line joint", "A joint that holds a point on a line and leaves turning free.",
-      keys::joined({joint_frame_keys(AxisNeed::required, "line"), joint_action_keys(Moves::slides)})};
+      keys::joined({joint_frame_keys(AxisNeed::required, "line", AxisUse::sliding), joint_action_keys(Moves::slides)})};
   return table;
 }
 

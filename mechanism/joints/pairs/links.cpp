@@ -132,7 +132,7 @@ std::vector<Key> link_frame_keys() {
   using namespace keys;
   return {type_key(),
           {"nodes", list_of(2, name_of("node")), required, "First and second node."},
-          {"at", list_of(2, vector3("m")), otherwise("[[0, 0, 0], [0, 0, 0]]"),
+          {"at", list_of(2, vector3("m").as_point()), otherwise("[[0, 0, 0], [0, 0, 0]]"),
            "End points of the link, each in the axes of its node."}};
 }
 
@@ -195,7 +195,8 @@ const KeyTable& revolute_spherical_keys() {
   static const KeyTable table{
       "a revolute_spherical link", "A rod without mass that hinges on the first node, with a ball joint on the second.",
       joined({link_frame_keys(),
-              {{"axis", direction(), required, "Axis of the hinge on the first node, as drawn."},
+              {{"axis", direction().as_axial().in_inertial_axes(), required,
+                "Axis of the hinge on the first node, as drawn."},
                {"length", number("m").positive(), computed("the distance as drawn"), "Distance of the two points."}},
               joint_action_keys(Moves::turns)})};
   return table;

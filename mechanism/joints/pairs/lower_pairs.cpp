@@ -170,7 +170,8 @@ Vector3 LowerPair::misalignment(const LocalState& state) const {
 namespace {
 
 std::vector<Key> keys_of_pair(AxisNeed need, Moves moves) {
-  return keys::joined({joint_frame_keys(need), joint_action_keys(moves)});
+  const AxisUse use = moves == Moves::slides ? AxisUse::sliding : AxisUse::turning;
+  return keys::joined({joint_frame_keys(need, "axis", use), joint_action_keys(moves)});
 }
 
 void read_lower_pair(const std::string& type, const std::string& name, const YamlValue& entry, Model& model,

@@ -86,7 +86,7 @@ const KeyTable& slider_keys() {
       joined({{type_key(),
                {"node", name_of("node"), required, "Node that slides."},
                {"beam", name_of("element"), required, "Beam along which it slides."},
-               {"at", vector3("m"), otherwise("[0, 0, 0]"), "Point that slides, in the axes of the node."},
+               {"at", vector3("m").as_point(), otherwise("[0, 0, 0]"), "Point that slides, in the axes of the node."},
                {"start", number().between(0, 1), computed("the place next to the point as drawn"),
                 "Place at the start, as a share of the beam's length."},
                {"ends", word({"error", "stop"}, "what happens at the ends"), otherwise("error"),

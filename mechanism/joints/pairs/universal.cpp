@@ -73,7 +73,8 @@ std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {
 const KeyTable& universal_keys() {
   using namespace keys;
   static const KeyTable table = [] {
-    const KeyForms direction_or_pair = {direction(), list_of(2, direction())};
+    const KeyForm axis = direction().as_axial();
+    const KeyForms direction_or_pair = {axis.in_inertial_axes(), list_of(2, axis)};
     return KeyTable{"a universal joint", "A cross between two shafts, which turns about its two arms.",
                     joined({joint_place_keys(),
                             {{"axis", direction_or_pair, required,
@@ -125,7 +126,7 @@ const KeyTable& constant_velocity_keys() {
   static const KeyTable table{
       "a constant-velocity joint", "A joint between two shafts that turn at equal rates at any bend below 180 degrees.",
       joined({joint_frame_keys(AxisNeed::optional),
-              {{"axes", list_of(2, direction()), optional,
+              {{"axes", list_of(2, direction().as_axial().in_inertial_axes()), optional,
                 "Directions of the first and of the second shaft as drawn, in place of `axis`, of a joint that is "
                 "drawn bent."}},
               joint_action_keys(Moves::turns)})};
