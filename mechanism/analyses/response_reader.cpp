@@ -25,7 +25,7 @@ std::string named_measure(const YamlValue& item, const Model& model, const char*
   return name;
 }
 
-const KeyTable& input_keys() {
+const KeyTable& node_input_keys() {
   using namespace keys;
   static const KeyTable table{"an input: a force on a node",
                               "A force or moment on a node.",
@@ -36,7 +36,7 @@ const KeyTable& input_keys() {
   return table;
 }
 
-const KeyTable& output_motion_keys() {
+const KeyTable& node_output_keys() {
   using namespace keys;
   static const KeyTable table{"an output: what a node does",
                               "A small motion of a node.",
@@ -73,9 +73,9 @@ Directed read_directed(const YamlValue& item, const Model& model) {
 
 std::vector<Key> response_keys() {
   using namespace keys;
-  return {{"inputs", list_of(KeyForms{name_of("input"), nested(input_keys)}).items_at_least(1), required,
+  return {{"inputs", list_of(KeyForms{name_of("input"), nested(node_input_keys)}).items_at_least(1), required,
            "Inputs of the model, and forces or moments on nodes."},
-          {"outputs", list_of(KeyForms{name_of("measure"), nested(output_motion_keys)}).items_at_least(1), required,
+          {"outputs", list_of(KeyForms{name_of("measure"), nested(node_output_keys)}).items_at_least(1), required,
            "Measures of the model, and motions of nodes."}};
 }
 

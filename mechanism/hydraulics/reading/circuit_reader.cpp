@@ -54,7 +54,7 @@ const KeyTable& machine_keys() {
   static const KeyTable table{
       "a machine",
       "A pump or motor on a coordinate of a joint, its shaft.",
-      {{"joint", {name_of("joint"), state_formula("any", {})}, required, "Joint, or `joint.coordinate`, of the shaft."},
+      {{"joint", coordinate_forms(), required, "Joint, or `joint.coordinate`, of the shaft."},
        {"from", name_of("hydraulics"), required, "Place from which positive turning moves the fluid."},
        {"to", name_of("hydraulics"), required, "Place to which positive turning moves the fluid."},
        {"displacement", number("m^3/rad or m^2").non_negative(), required, "Volume per angle or displacement."},
