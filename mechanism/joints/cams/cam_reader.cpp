@@ -6,6 +6,7 @@
 #include "mechanism/joints/friction/friction_reader.hpp"
 #include "mechanism/joints/pairs/point_on_curve.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "reduce/common/files/table_file.hpp"
 

@@ -18,12 +18,12 @@ namespace {
 
 FrictionLaw friction(const std::string& text) {
   static const KeyTable table{"friction", "Friction.", keys_of_friction_law({"coulomb", "lugre"})};
-  return read_friction_law(YamlValue::parse(text, "law.yaml").keyed(table), {"coulomb", "lugre"});
+  return read_friction_law(YamlValue::parse(text, "law.yaml").keyed(table));
 }
 
 NormalLaw normal(const std::string& text) {
   static const KeyTable table{"a contact", "A contact.", keys_of_normal_law()};
-  return read_normal_law(YamlValue::parse(text, "law.yaml").keyed(table), 1.5);
+  return read_normal_law(YamlValue::parse(text, "law.yaml").keyed(table));
 }
 
 ElasticLaw elastic(const std::string& text) {
