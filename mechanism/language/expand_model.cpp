@@ -35,7 +35,7 @@ const KeyForms* entry_forms(const KeyTable& table, const std::string& key) {
 }
 
 /// Returns the table of a map among forms; null if there is none.
-const KeyTable* table_of(const KeyForms& forms, const YamlNode& map) {
+const KeyTable* table_of_entry(const KeyForms& forms, const YamlNode& map) {
   const auto found =
       std::find_if(forms.begin(), forms.end(), [](const KeyForm& form) { return form.table != nullptr; });
   return found == forms.end() ? nullptr : &found->table().of_map(map);
@@ -88,7 +88,7 @@ class Expander {
   }
 
   void write_hydraulics(const YamlNode& body, const Scope& scope) {
-    const KeyTable* table = table_of(keys_.find("hydraulics")->forms, body);
+    const KeyTable* table = table_of_entry(keys_.find("hydraulics")->forms, body);
     for (const YamlNode::Pair& pair : body.pairs) {
       const std::string list = pair.key->scalar, path = "hydraulics." + list;
       const Key* key = table ? table->find(list) : nullptr;
@@ -109,7 +109,7 @@ class Expander {
     const Tree written = writer(scope).write(value, forms, path);
     if (scope.placement.is_identity() || value->kind != YamlNode::Kind::map) return written;
     check_placed(*value, section, scope, path);
-    const KeyTable* table = table_of(forms, *value);
+    const KeyTable* table = table_of_entry(forms, *value);
     if (!table) return written;
     const NodeFrame frame_of = [&](const YamlNode& name, const std::string& place) {
       return model_.frame_of_node(name.scalar, name, place);
