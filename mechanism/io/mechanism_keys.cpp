@@ -62,42 +62,72 @@ const KeyTable& analysis_keys() {
   return table;
 }
 
+namespace {
+
+const KeyTable& part_definition_keys();
+
+/// Sections of a model and of a part.
+std::vector<Key> section_keys() {
+  using namespace keys;
+  return {
+      {"include",
+       {file("mechanism"), list_of(file("mechanism"))},
+       optional,
+       "Files whose entries belong to this one. Parameters of this file replace those of included ones."},
+      {"parameters", entries("parameter", {number("any")}), optional,
+       "Named numbers for formulas; each may use those before it."},
+      {"nodes", entries("entry", {nested(node_keys)}), optional, "Points with axes, which move."},
+      {"points", entries("entry", {nested(point_keys)}), optional, "Nodes at points of superelements."},
+      {"elements", entries("entry", {nested(element_keys)}), optional, "Bodies, springs and actuators."},
+      {"joints", entries("entry", {nested(joint_keys)}), optional, "Connections of nodes."},
+      {"drives", entries("entry", {nested(keys_of(Section::drives))}), optional,
+       "Motions, forces and controls of joints."},
+      {"loads", entries("entry", {nested(keys_of(Section::loads))}), optional, "Forces and moments on nodes."},
+      {"states", entries("entry", {nested(keys_of(Section::states))}), optional,
+       "Differential equations and control blocks."},
+      {"measures", entries("entry", {state_formula("any", {"t"}), nested(measure_keys)}), optional,
+       "Named quantities of the state."},
+      {"inputs", entries("entry", {number("any"), nested(input_keys)}), optional,
+       "Numbers that a program sets while the mechanism moves."},
+      {"events", entries("entry", {nested(event_keys)}), optional, "Quantities that cross a value."},
+      {"hydraulics", nested(hydraulics_keys), optional, "Circuits of fluid."},
+      {"definitions", entries("part", {nested(part_definition_keys)}), optional,
+       "Sub-assemblies that are written once and placed by `parts`."},
+      {"parts", entries("entry", {nested(part_keys)}), optional, "Sub-assemblies that are placed in the mechanism."}};
+}
+
+const KeyTable& part_definition_keys() {
+  static const KeyTable table{"a definition of a part", "Sections of a sub-assembly, as in a mechanism file.",
+                              section_keys()};
+  return table;
+}
+
+const KeyTable& case_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a case",
+      "A set of parameters with the analyses that belong to it.",
+      {{"parameters", entries("parameter", {number("any")}), optional, "Values of parameters, in place of the file's."},
+       {"analysis", list_of(nested(analysis_keys)), computed("those of the file"), "Analyses of this case."},
+       {"output", nested(output_keys), computed("that of the file"), "Output of this case."}}};
+  return table;
+}
+
+}  // namespace
+
 const KeyTable& mechanism_file_keys() {
   using namespace keys;
   static const KeyTable table{
       "a mechanism file",
       "A mechanism, the analyses to run on it, and the results that are kept. Units are SI, angles are in radians.",
-      {{"mechanism", text(), optional, "Title."},
-       {"include",
-        {file("mechanism"), list_of(file("mechanism"))},
-        optional,
-        "Files whose entries belong to this one. Parameters of this file replace those of included ones."},
-       {"gravity", vector3("m/s^2").as_vector(), otherwise("[0, 0, 0]"),
-        "Acceleration of gravity, in inertial components."},
-       {"parameters", entries("parameter", {number("any")}), optional,
-        "Named numbers for formulas; each may use those before it."},
-       {"nodes", entries("entry", {nested(node_keys)}), optional, "Points with axes, which move."},
-       {"points", entries("entry", {nested(point_keys)}), optional, "Nodes at points of superelements."},
-       {"elements", entries("entry", {nested(element_keys)}), optional, "Bodies, springs and actuators."},
-       {"joints", entries("entry", {nested(joint_keys)}), optional, "Connections of nodes."},
-       {"drives", entries("entry", {nested(keys_of(Section::drives))}), optional,
-        "Motions, forces and controls of joints."},
-       {"loads", entries("entry", {nested(keys_of(Section::loads))}), optional, "Forces and moments on nodes."},
-       {"states", entries("entry", {nested(keys_of(Section::states))}), optional,
-        "Differential equations and control blocks."},
-       {"measures", entries("entry", {state_formula("", {"t"}), nested(measure_keys)}), optional,
-        "Named quantities of the state."},
-       {"inputs", entries("entry", {number("any"), nested(input_keys)}), optional,
-        "Numbers that a program sets while the mechanism moves."},
-       {"events", entries("entry", {nested(event_keys)}), optional, "Quantities that cross a value."},
-       {"hydraulics", nested(hydraulics_keys), optional, "Circuits of fluid."},
-       {"definitions", entries("part", {entries("section", {text()})}), optional,
-        "Sub-assemblies that are written once: sections as in this file, placed by `parts`."},
-       {"parts", entries("entry", {nested(part_keys)}), optional, "Sub-assemblies that are placed in the mechanism."},
-       {"analysis", list_of(nested(analysis_keys)), optional, "Analyses, one after the other."},
-       {"output", nested(output_keys), optional, "Results that are kept."},
-       {"cases", entries("case", {nested(case_keys)}), optional,
-        "Named sets of parameters and analyses, which `--case` runs."}}};
+      joined({{{"mechanism", text(), optional, "Title."},
+               {"gravity", vector3("m/s^2").as_vector(), otherwise("[0, 0, 0]"),
+                "Acceleration of gravity, in inertial components."}},
+              section_keys(),
+              {{"analysis", list_of(nested(analysis_keys)), optional, "Analyses, one after the other."},
+               {"output", nested(output_keys), optional, "Results that are kept."},
+               {"cases", entries("case", {nested(case_keys)}), optional,
+                "Named sets of parameters and analyses, which `--case` runs."}}})};
   return table;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/language/language_keys.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -16,7 +15,7 @@ std::vector<std::string> case_names(const Tree& root, const std::string& file) {
   return names;
 }
 
-Tree with_case(const Tree& root, const std::string& file, const std::string& chosen) {
+Tree with_case(const Tree& root, const std::string& file, const KeyTable& keys, const std::string& chosen) {
   const Tree cases = find_value(*root, "cases");
   if (chosen.empty()) return cases ? without(*root, {"cases"}) : root;
   const std::vector<std::string> names = case_names(root, file);
@@ -24,7 +23,8 @@ Tree with_case(const Tree& root, const std::string& file, const std::string& cho
     throw InputError(fmt::format("--case {}: {} has no such case{}", chosen, file,
                                  names.empty() ? "" : did_you_mean(chosen, names)));
   const Tree entry = find_value(*cases, chosen);
-  YamlValue::of_tree(entry, "", entry->file ? *entry->file : file).keyed(case_keys());
+  YamlValue::of_tree(entry, "", entry->file ? *entry->file : file)
+      .keyed(keys.find("cases")->forms.front().items.front().front().table());
   Tree result = without(*root, {"cases"});
   for (const char* key : {"analysis", "output"})
     if (const Tree value = find_value(*entry, key)) result = with(*result, key, value);

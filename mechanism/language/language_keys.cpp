@@ -47,17 +47,6 @@ const KeyTable& part_keys() {
   return table;
 }
 
-const KeyTable& case_keys() {
-  using namespace keys;
-  static const KeyTable table{
-      "a case",
-      "A set of parameters with the analyses that belong to it.",
-      {{"parameters", entries("parameter", {number("any")}), optional, "Values of parameters, in place of the file's."},
-       {"analysis", list_of(text()), computed("those of the file"), "Analyses of this case."},
-       {"output", entries("key", {text()}), computed("that of the file"), "Output of this case."}}};
-  return table;
-}
-
 const KeyTable& body_point_keys() {
   using namespace keys;
   static const KeyTable table{

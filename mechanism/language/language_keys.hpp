@@ -11,8 +11,6 @@ std::vector<Key> entry_keys();
 const KeyTable& repeat_keys();
 /// A placed part: an entry of the section `parts`.
 const KeyTable& part_keys();
-/// An entry of the section `cases`.
-const KeyTable& case_keys();
 /// A point of a body, in place of the name of a node.
 const KeyTable& body_point_keys();
 

@@ -68,9 +68,24 @@ class Lookup {
     return reference.function == "angle" ? make_angle(name, pair) : make_distance(name, pair);
   }
 
+  bool exists(const std::string& name) const {
+    return !model_.components_named(name).empty() || model_.find_node(name).has_value();
+  }
+
+  /// Splits "blade_2.tip.position.x" into the longest name of something in the model, which may have dots, and the
+  /// quantity.
+  std::pair<std::string, std::string> subject_and_quantity(const FormulaReference& reference) const {
+    const std::vector<std::string>& path = reference.path;
+    for (std::size_t count = path.size() - 1; count > 0; --count) {
+      const auto end = path.begin() + static_cast<std::ptrdiff_t>(count);
+      std::string name = fmt::format("{}.{}", reference.subjects.front(), fmt::join(path.begin(), end, "."));
+      if (exists(name)) return {std::move(name), fmt::format("{}", fmt::join(end, path.end(), "."))};
+    }
+    return {reference.subjects.front(), fmt::format("{}", fmt::join(path, "."))};
+  }
+
   std::unique_ptr<Measure> make_dotted(const FormulaReference& reference, const std::string& name) const {
-    const std::string& subject = reference.subjects.front();
-    const std::string wanted = fmt::format("{}", fmt::join(reference.path, "."));
+    const auto [subject, wanted] = subject_and_quantity(reference);
     const auto has = [&](const std::vector<std::string>& names) {
       return std::find(names.begin(), names.end(), wanted) != names.end();
     };
@@ -223,6 +238,21 @@ std::string units_of_formula(const YamlValue& value, Model& model) {
   return units_of(read.expression, argument_units(read.measures));
 }
 
+namespace {
+
+/// Whether a name consists of words with dots between them, as a measure of a part has ("blade_2.droop").
+bool is_dotted_word(const std::string& name) {
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('.', begin), name.size());
+    const std::string word = name.substr(begin, end - begin);
+    if (words_in(word) != std::vector{word}) return false;
+    begin = end + 1;
+  }
+  return true;
+}
+
+}  // namespace
+
 void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model) {
   if (model.announces_measure(name)) entry.fail(fmt::format("there is a measure, input or state '{}' already", name));
   if (entry.parameters().count(name)) entry.fail(fmt::format("'{}' is a parameter already; choose another name", name));
@@ -232,8 +262,7 @@ void check_measure_name(const std::string& name, const YamlValue& entry, const M
   };
   if (is_in(own) || is_in(built_in_names()) || is_in(functions))
     entry.fail(fmt::format("'{}' means something in formulas already; choose another name", name));
-  if (words_in(name) != std::vector{name})
-    entry.fail("this is a name in formulas: letters, digits and '_', no digit first");
+  if (!is_dotted_word(name)) entry.fail("this is a name in formulas: letters, digits and '_', no digit first");
 }
 
 const KeyTable& measure_keys() {

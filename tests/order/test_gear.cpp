@@ -41,8 +41,10 @@ struct Spiral {
     CoordinateGear& gear = *made;
     model.add(std::move(made), Entry{Section::elements, "gear"}, Recorded::no);
     const auto entry = [](const char* text) { return YamlValue::parse(text, "spiral.yaml"); };
-    read_rigid_body("arm", entry("{type: rigid_body, node: arm, mass: 1, inertia: [0.2, 0.2, 0.3]}"), model);
-    read_rigid_body("slider", entry("{type: rigid_body, node: slider, mass: 2, inertia: [0.05, 0.05, 0.05]}"), model);
+    read_component(Section::elements, "arm", entry("{type: rigid_body, node: arm, mass: 1, inertia: [0.2, 0.2, 0.3]}"),
+                   model);
+    read_component(Section::elements, "slider",
+                   entry("{type: rigid_body, node: slider, mass: 2, inertia: [0.05, 0.05, 0.05]}"), model);
     read_component(Section::joints, "pivot",
                    entry("{type: hinge, nodes: [ground, arm], axis: [0, 0, 1], position: [0, 0, 0]}"), model);
     read_component(Section::joints, "guide", entry("{type: prismatic, nodes: [arm, slider], axis: [1, 0, 0]}"), model);

@@ -187,8 +187,8 @@ YamlValue YamlValue::keyed(const KeyTable& table) const {
   std::vector<std::string> expected = bound.table_->names();
   if (bound.table_ == &table)
     for (const KeyTable::Variant& variant : table.variants) {
-      if (!variant.value.empty()) return bound;  // its reader says that the value is none of them
-      expected.push_back(variant.key);           // one may be misspelt
+      if (!variant.value.empty() && has(variant.key)) return bound;  // its reader says that the value is none of them
+      if (variant.value.empty()) expected.push_back(variant.key);    // one may be misspelt
     }
   check_keys(expected, bound.table_->of);
   return bound;

@@ -28,7 +28,7 @@ const std::string machine = R"yaml(
     elements:
       arm: {type: rigid_body, node: arm, mass: 2, centre: [0.1, 0.02, 0], inertia: [0.3, 0.4, 0.5, 0.02, -0.03, 0.05], also: [side]}
       rider: {type: rigid_body, node: rider, mass: 1, inertia: [[0.2, 0.01, 0], [0.01, 0.3, 0.02], [0, 0.02, 0.4]]}
-      cart: {type: rigid_body, node: cart, mass: 3, solid: {box: [0.1, 0.2, 0.3], mass: 3, rotation_vector: [0.2, 0, 0.1]}}
+      cart: {type: rigid_body, node: cart, solid: {box: [0.1, 0.2, 0.3], mass: 3, rotation_vector: [0.2, 0, 0.1]}}
       bar: {type: beam, nodes: [wrist, end], elements: 2, twist: 0.4, section: {rectangle: [0.05, 0.02], young: 1e9, poisson: 0.3, density: 3000}}
       spring: {type: spring_damper, nodes: [arm, rider], at: [[0, 0.1, 0], [0.1, 0, 0]], stiffness: 300, damping: 2, length: 0.4}
       pull: {type: node_force, nodes: [arm, cart], force: [1, "2*sin(9*t)", 0.5], moment: [0, 0.2, 0.1], at: [0, 0.1, 0], axes: inertial}
@@ -39,7 +39,7 @@ const std::string machine = R"yaml(
       rail: {type: prismatic, nodes: [ground, cart], axis: [1, 0.5, 0], stiffness: 100, rest: 0.05}
       link: {type: distance, nodes: [cart, side]}
     drives:
-      motor: {joint: shoulder, force: "3*sin(5*t) - 0.1*shoulder.angle"}
+      motor: {joint: shoulder, torque: "3*sin(5*t) - 0.1*shoulder.angle"}
     loads:
       wind: {node: rider, force: ["2*t", 1, 0.2], moment: [0.1, 0, "0.3*cos(3*t)"], at: [0.1, 0, 0]}
       thrust: {node: rider, force: [0.1, 0, 1], moment: [0, 0.2, 0], follower: true}

@@ -124,7 +124,7 @@ TEST_CASE("A slip in a reference is told with its place") {
   CHECK(why("main.2") == "a name is missing after 'main.' at character 1");
   CHECK(why("2*'left arm.angle") == "the quote at character 3 is not closed");
   CHECK(why("''.angle") == "a name is missing in the quotes at character 1");
-  CHECK(why("1 + distance(a.x, b)") ==
+  CHECK(why("1 + distance(a.1, b)") ==
         "'distance' at character 5 takes names, in quotes if they are more than a word: distance(one, 'number two')");
   for (const std::string text :
        {"angle(", "angle()", "angle(a,", "angle(a, )", "angle(a b)", "angle(a, 2*b)", "angle('', b)"})
