@@ -38,9 +38,11 @@ const KeyTable& contact_of_materials_keys() {
     const KeyForm modulus = number("Pa").positive();
     KeyForm ratio = number().between(-1, 0.5);
     ratio.above = true;
+    std::vector<Key> of_normal_law = keys_of_normal_law();
+    for (Key& key : of_normal_law) key.presence.required = false;
     return KeyTable{
         "a contact", "Normal force of the surfaces that touch, by a stiffness or by the materials of both parts.",
-        joined({keys_of_normal_law(),
+        joined({of_normal_law,
                 {{"young",
                   {modulus, list_of(2, modulus)},
                   optional,
