@@ -160,7 +160,7 @@ TEST_CASE("analyses take values with units, and refuse others") {
   CHECK(options.duration == 120);
   CHECK(options.stepping.size == Approx(0.005));
   CHECK(options.stepping.largest == 1);
-  refused("{type: dynamic, duration: 2 Hz, step: 1}", "s", "Hz");
+  refused("{type: dynamic, duration: 2 m, step: 1}", "s", "m");
   CHECK(read_of("{type: kinematic, duration: 500 ms, step: 1 ms}")->duration() == Approx(0.5));
   refused("{type: inverse_dynamics, duration: 2, step: 3 m}", "s", "m");
 
@@ -176,7 +176,7 @@ TEST_CASE("analyses take values with units, and refuse others") {
   const std::string ends = "inputs: [{node: tip, direction: x}], outputs: [{node: tip, direction: z}]";
   const auto responses = read_of("{type: frequency_response, " + ends + ", frequencies: [1 kHz, 2 kHz]}");
   CHECK(dynamic_cast<const FrequencyResponseAnalysis&>(*responses).options().frequencies[1] == Approx(2000));
-  refused("{type: frequency_response, " + ends + ", frequencies: {from: 1, to: 2 s}}", "Hz", "s");
+  refused("{type: frequency_response, " + ends + ", frequencies: {from: 1, to: 2 m}}", "Hz", "m");
   refused("{type: state_space, " + ends + ", rotation: {rate: 1, axis: [0, 0, 1], position: [1 s, 0, 0]}}", "m", "s");
 
   const auto speeds = [&](const std::string& text) {

@@ -54,10 +54,12 @@ void check_equal_lines(const std::string& with_units, const std::string& plain) 
 }
 
 /// Value of a measure at the start.
-double measured(const std::string& entries, const std::string& measure) {
-  const MechanismFile file = read(circuit(entries));
+double measured(const std::string& entries, const std::string& measure, const std::string& actuator = "") {
+  const MechanismFile file = read(circuit(entries), actuator);
   Session session(file.model);
-  session.assemble();
+  DynamicsOptions options;
+  options.duration = options.stepping.size = 1e-6;
+  const Motion motion = session.dynamics(options);
   return session.measure(measure);
 }
 
@@ -178,7 +180,7 @@ TEST_CASE("actuators take values with units") {
   CHECK(described("stroke: [0.5 m, 150 cm], piston_areas: [20 cm^2, 10 cm^2], dead_volumes: [0.1 L, 0.2 L], "
                   "pressures: [50 bar, 80 bar], leakage: 1 mm^3/(s bar), external_leakage: [2 mm^3/(s bar), 0], "
                   "compliances: [1 cm^3/GPa, 0], friction: {viscous: 5 N s/cm, coulomb: 1 kN, velocity: 2 mm/s}, "
-                  "end_stops: {stiffness: 1 kN/mm, damping: 2 kN s/m}, supply: {flow: 1e-4, volume: 1 L, tank: 2 bar}, "
+                  "end_stops: {stiffness: 1 kN/mm, damping: 2 kN s/m}, supply: {flow: 1e-4, volume: 1 L, tank: 2e5}, "
                   "valve: {area: 3 mm^2, command: 0.1}, relief: {pressure: 90 bar, diameter: 2 mm}, accumulator: "
                   "{gas_volume: 1 L, precharge: 10 bar}, cushions: {lengths: [2 cm, 3 cm], areas: [1 mm^2, 2 mm^2], "
                   "port_area: 1 cm^2}, viscosity: 30 mPa s") ==
@@ -192,6 +194,9 @@ TEST_CASE("actuators take values with units") {
   CHECK(described("stroke: [0.5, 1.5], stages: [{piston_areas: [20 cm^2, 0 cm^2], length: 1000 mm}], "
                   "dead_volumes: [0.1 L]") ==
         described("stroke: [0.5, 1.5], stages: [{piston_areas: [2e-3], length: 1}], dead_volumes: [1e-4, 0]"));
+  CHECK(measured("", "'jack.tank'.pressure",
+                 actuator("stroke: [0.5, 1.5], piston_areas: [2e-3, 1e-3], supply: {pressure: 90 bar, tank: 2 bar}, "
+                          "valve: {area: 1e-6, command: 0}")) == Approx(2e5));
   const auto refused = [&](const std::string& keys) { return refusal("", actuator(keys)); };
   check_refused(refused("stroke: [0.5 m, 150 kg], piston_areas: [1, 1]"), "jack.stroke[2]", "m", "kg");
   check_refused(refused("stroke: [0.5, 1.5], piston_areas: [20 cm, 1]"), "jack.piston_areas[1]", "m^2", "cm");
