@@ -35,7 +35,7 @@ const KeyTable& planes_along_axis_keys() {
 
 const KeyTable& plane_keys() {
   using namespace keys;
-  static const KeyTable table{"a plane",
+  static const KeyTable table{"a plane that cuts",
                               "A plane that cuts the whole body, by a point and its normal.",
                               {{"point", vector3("m"), required, "A point of the plane."},
                                {"normal", direction(), required, "Direction normal to the plane."},

@@ -61,18 +61,20 @@ std::mutex& mutex() {
   return the_mutex;
 }
 
-/// Tells whether two units differ by a power of the radian, which UDUNITS takes for the number 1.
-bool differ_by_angle(const Unit& first, const Unit& second) {
+/// Tells whether two units have the same dimension. UDUNITS takes the radian for the number 1, and converts a unit to
+/// its reciprocal (Hz to s): here they have different dimensions.
+bool same_dimension(const Unit& first, const Unit& second) {
   const Unit quotient(ut_divide(first.get(), second.get()));
   char text[256] = "";
-  if (!quotient || ut_format(quotient.get(), text, sizeof text, UT_ASCII | UT_DEFINITION) < 0) return true;
-  return std::string_view(text).find("rad") != std::string_view::npos;
+  if (!quotient || !ut_is_dimensionless(quotient.get())) return false;
+  if (ut_format(quotient.get(), text, sizeof text, UT_ASCII | UT_DEFINITION) < 0) return false;
+  return std::string_view(text).find("rad") == std::string_view::npos;
 }
 
 /// @returns the converted value, or nothing if the unit has another dimension
 std::optional<double> convert(double value, const Unit& unit, const std::string& expected) {
   const Unit wanted = UnitSystem::instance().parse(expected);
-  if (!wanted || !ut_are_convertible(unit.get(), wanted.get()) || differ_by_angle(unit, wanted)) return {};
+  if (!wanted || !same_dimension(unit, wanted)) return {};
   const std::unique_ptr<cv_converter, FreeConverter> converter(ut_get_converter(unit.get(), wanted.get()));
   if (!converter) return {};
   return cv_convert_double(converter.get(), value);

@@ -347,7 +347,8 @@ TEST_CASE("values have units: lengths, angles, pressures, frequencies and dampin
 
 TEST_CASE("a unit of the geometry scales the geometry alone, and is a word") {
   CHECK(read("length_unit: mm", "length_unit: in").mesh.size == 3e-3);
-  check("length_unit: mm", "length_unit: mn", "3: length_unit: 'mn' is not a unit of length; did you mean");
+  check("length_unit: mm", "length_unit: mn",
+        "3: length_unit: 'mn' is not a unit of length; expected one of 'm', 'mm'");
 }
 
 TEST_CASE("keys without values are empty maps, other values than maps are refused") {

@@ -90,7 +90,8 @@ TEST_CASE("places of cuts have units") {
 }
 
 TEST_CASE("a plane has the keys of its kind") {
-  CHECK_THAT(message("{planes: {axs: x, at: 1}}"), Contains("'axs' is not a key of a plane; did you mean 'axis'?"));
+  CHECK_THAT(message("{planes: {axs: x, at: 1}}"),
+             Contains("'axs' is not a key of a plane that cuts; did you mean 'axis'?"));
   CHECK_THAT(message("{planes: {axis: x, at: 1, normal: [1, 0, 0]}}"),
              Contains("'normal' is not a key of planes normal to an axis"));
 }

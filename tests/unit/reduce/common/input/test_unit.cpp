@@ -65,6 +65,13 @@ TEST_CASE("An angle is a dimension") {
   CHECK(refusal("5 deg", "m") == "expected a value in m, found one in 'deg', which measures something else");
 }
 
+TEST_CASE("A unit is not its reciprocal") {
+  CHECK(refusal("50 Hz", "s") == "expected a value in s, found one in 'Hz', which measures something else");
+  CHECK(refusal("20 ms", "Hz") == "expected a value in Hz, found one in 'ms', which measures something else");
+  CHECK(refusal("5 1/m", "m") == "expected a value in m, found one in '1/m', which measures something else");
+  CHECK(refusal("5 1/deg", "rad") == "expected a value in rad, found one in '1/deg', which measures something else");
+}
+
 TEST_CASE("One of several units is taken, the one that fits") {
   CHECK(si("3 mm", "m or rad") == Approx(3e-3));
   CHECK(si("3 deg", "m or rad") == Approx(3 * turn / 360));
