@@ -112,7 +112,8 @@ int body(int argc, char** argv) {
     return 0;
   }
   if (options.schema) {
-    fmt::print("{}", write_key_schema(mechanism_file_keys(), "mechanism file of bielle-mechanism", entry_keys()));
+    fmt::print("{}", write_key_schema(mechanism_file_keys(), "mechanism file of bielle-mechanism",
+                                      {entry_keys(), {{"node", body_point_keys}}}));
     return 0;
   }
   if (options.model.empty()) throw InputError("MODEL is required; --help shows the options");

@@ -11,6 +11,17 @@ namespace {
 const std::vector<std::string> usual_order = {"nodes",  "points",   "elements", "joints", "drives",    "loads",
                                               "states", "measures", "inputs",   "events", "hydraulics"};
 
+/// Returns a name for the node at a point of a body: "spring.point_2" for "elements.spring.nodes[2]".
+std::string name_of_point(const std::string& path) {
+  std::string name;
+  for (const char letter : path.substr(path.find('.') + 1))
+    if (letter != ']') name += letter == '[' ? '_' : letter;
+  const std::size_t last = name.rfind('.') + 1;
+  for (const std::string key : {"nodes", "node"})
+    if (name.compare(last, key.size(), key) == 0) return name.replace(last, key.size(), "point");
+  return name + ".point";
+}
+
 }  // namespace
 
 WrittenModel::WrittenModel(std::string main_file, const Parameters& parameters)
@@ -43,7 +54,7 @@ std::string WrittenModel::add_point(const YamlNode& point, const std::string& pa
   const Tree body = find_value(point, "body");
   if (!body || body->kind != YamlNode::Kind::scalar)
     fail_at(point, main_file_, path, "expected the name of a node, or a point of a body: {body: name, at: [x, y, z]}");
-  const std::string name = path.substr(path.find('.') + 1) + ".point";
+  const std::string name = name_of_point(path);
   points_.push_back({body->scalar, name, make_map(point.pairs, point), path});
   return name;
 }

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 /// Schemas of tables by their names; each table is written once and referred to.
 class Writer {
  public:
-  Writer(const KeyTable& root, const std::vector<Key>& entry_keys) : entry_keys_(entry_keys) {
+  Writer(const KeyTable& root, const SchemaAdditions& additions) : additions_(additions) {
     for (const Key& key : root.keys)
       for (const KeyForm& form : key.forms)
         if (form.kind == KeyForm::Kind::entries)
@@ -68,7 +68,7 @@ class Writer {
       if (key.presence.required) required.push_back(key.name);
     }
     if (entry_tables_.count(&table))
-      for (const Key& key : entry_keys_)
+      for (const Key& key : additions_.entry_keys)
         if (!table.find(key.name)) properties[key.name] = of_key(key);
     schema["properties"] = std::move(properties);
     if (!required.empty()) schema["required"] = std::move(required);
@@ -133,9 +133,10 @@ class Writer {
         return of_number(form);
       case Kind::boolean:
         return {{"type", "boolean"}};
-      case Kind::text:
       case Kind::name:
-        return {{"type", Json::array({"string", "number", "boolean"})}};
+        return of_name(form);
+      case Kind::text:
+        return any_scalar();
       case Kind::word:
         return {{"enum", form.words}};
       case Kind::file:
@@ -152,6 +153,14 @@ class Writer {
     return true;
   }
 
+  static Json any_scalar() { return {{"type", Json::array({"string", "number", "boolean"})}}; }
+
+  Json of_name(const KeyForm& form) {
+    const auto found = additions_.in_place_of_names.find(form.of);
+    if (found == additions_.in_place_of_names.end()) return any_scalar();
+    return {{"anyOf", {any_scalar(), reference(found->second())}}};
+  }
+
   Json of_list(const KeyForm& form) {
     Json schema{{"type", "array"}};
     if (form.items.size() == 1) {
@@ -166,7 +175,7 @@ class Writer {
     return schema;
   }
 
-  const std::vector<Key>& entry_keys_;
+  const SchemaAdditions& additions_;
   std::set<const KeyTable*> entry_tables_;
   std::map<const KeyTable*, std::string> names_;
   std::set<std::string> taken_;
@@ -175,8 +184,8 @@ class Writer {
 
 }  // namespace
 
-std::string write_key_schema(const KeyTable& root, const std::string& title, const std::vector<Key>& entry_keys) {
-  Writer writer(root, entry_keys);
+std::string write_key_schema(const KeyTable& root, const std::string& title, const SchemaAdditions& additions) {
+  Writer writer(root, additions);
   const Json reference = writer.reference(root);
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
   schema["allOf"] = Json::array({reference});

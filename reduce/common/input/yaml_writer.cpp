@@ -47,6 +47,10 @@ class Writer {
          event);
   }
 
+  static bool holds_maps(const YamlNode& list) {
+    return !list.items.empty() && list.items.front()->kind == YamlNode::Kind::map;
+  }
+
   void write_node(const YamlNode& node, int level) {
     yaml_event_t event;
     switch (node.kind) {
@@ -58,8 +62,9 @@ class Writer {
                                       node.scalar != "Null" && node.scalar != "NULL");
         break;
       case YamlNode::Kind::sequence:
-        emit(yaml_sequence_start_event_initialize(&event, nullptr, nullptr, 1,
-                                                  level < 2 ? YAML_BLOCK_SEQUENCE_STYLE : YAML_FLOW_SEQUENCE_STYLE),
+        emit(yaml_sequence_start_event_initialize(
+                 &event, nullptr, nullptr, 1,
+                 level < 2 && holds_maps(node) ? YAML_BLOCK_SEQUENCE_STYLE : YAML_FLOW_SEQUENCE_STYLE),
              event);
         for (const auto& item : node.items) write_node(*item, 2);
         emit(yaml_sequence_end_event_initialize(&event), event);

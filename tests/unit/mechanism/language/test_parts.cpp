@@ -116,8 +116,8 @@ elements:
   car: {type: rigid_body, node: seat, mass: 1, inertia: [1, 1, 1]}
   spring: {type: spring_damper, nodes: [{body: car, at: [0.1, 0, 0]}, ground], stiffness: 1}
 )yaml");
-  CHECK_THAT(text, Contains("spring.nodes[1].point: {at: seat, position: [0.1, 0, 0]}"));
-  CHECK_THAT(text, Contains("also: ['spring.nodes[1].point']") && Contains("nodes: ['spring.nodes[1].point', ground]"));
+  CHECK_THAT(text, Contains("spring.point_1: {at: seat, position: [0.1, 0, 0]}"));
+  CHECK_THAT(text, Contains("also: [spring.point_1]") && Contains("nodes: [spring.point_1, ground]"));
   CHECK_THAT(refusal("elements:\n  s: {type: spring_damper, nodes: [{body: car}, ground]}\n"),
              Contains("model.yaml:2: elements.s.nodes[1]") && Contains("no element 'car'"));
   CHECK_THAT(refusal("nodes: {a: {}}\nelements:\n  m: {type: point_mass, node: a, mass: 1}\n"
