@@ -14,9 +14,10 @@ class Entries:
         raise NotImplementedError
 
     def rigid_body(self, name: str, *,
-            node: str, mass: float | str | None = None, centre: Sequence[Any] | None = None, inertia: Sequence[Any] |
-            None = None, inertia_about: str | None = None, inertia_axes: Mapping[str, Any] | None = None, solid:
-            Mapping[str, Any] | Sequence[Any] | None = None, also: Sequence[Any] | None = None, **more: Any) -> None:
+            node: Mapping[str, Any] | str, mass: float | str | None = None, centre: Sequence[Any] | None = None,
+            inertia: Sequence[Any] | None = None, inertia_about: str | None = None, inertia_axes: Mapping[str, Any] |
+            None = None, solid: Mapping[str, Any] | Sequence[Any] | None = None, also: Sequence[Any] | None = None,
+            **more: Any) -> None:
         """A rigid body on a node, by its mass and inertia or by solids.
 
         node: The node that moves with the body. (name of a node)
@@ -38,7 +39,8 @@ class Entries:
             "also": also, **more})
 
     def point_mass(self, name: str, *,
-            node: str, mass: float | str, centre: Sequence[Any] | None = None, **more: Any) -> None:
+            node: Mapping[str, Any] | str, mass: float | str, centre: Sequence[Any] | None = None, **more: Any) ->
+            None:
         """A mass without inertia about its centre.
 
         node: The node that moves with the mass. (name of a node)
@@ -853,12 +855,13 @@ class Entries:
             "carries": carries, **more})
 
     def slider(self, name: str, *,
-            node: str, beam: str, at: Sequence[Any] | None = None, start: float | str | None = None, ends: str | None
-            = None, orientation: str | None = None, stiffness: Mapping[str, Any] | float | str | None = None,
-            damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str | None =
-            None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start_rate: Mapping[str, Any] | float | str | None =
-            None, friction: Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
+            node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None, start: float | str | None =
+            None, ends: str | None = None, orientation: str | None = None, stiffness: Mapping[str, Any] | float | str
+            | None = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float |
+            str | None = None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] |
+            None = None, locked: Mapping[str, Any] | bool | None = None, start_rate: Mapping[str, Any] | float | str
+            | None = None, friction: Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) ->
+            None:
         """A joint that holds a node on a beam that deforms, along which it slides.
 
         node: Node that slides. (name of a node)
@@ -1169,10 +1172,11 @@ class Entries:
             "internal": internal, "factors": factors, **more})
 
     def gear_mesh(self, name: str, *,
-            nodes: Sequence[Any], axes: Sequence[Any], carrier: str | None = None, radii: Sequence[Any] | None =
-            None, position: Sequence[Any] | None = None, internal: bool | None = None, pressure_angle: float | str |
-            None = None, helix_angle: float | str | None = None, stiffness: float | str | None = None, damping: float
-            | str | None = None, backlash: float | str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None, radii:
+            Sequence[Any] | None = None, position: Sequence[Any] | None = None, internal: bool | None = None,
+            pressure_angle: float | str | None = None, helix_angle: float | str | None = None, stiffness: float | str
+            | None = None, damping: float | str | None = None, backlash: float | str | None = None, **more: Any) ->
+            None:
         """Forces between the teeth of two wheels, which load the bearings.
 
         nodes: Nodes of the two wheels, on their axes. (list of 2: name of a node)
