@@ -194,7 +194,7 @@ TEST_CASE("actuators take values with units") {
   CHECK(described("stroke: [0.5, 1.5], stages: [{piston_areas: [20 cm^2, 0 cm^2], length: 1000 mm}], "
                   "dead_volumes: [0.1 L]") ==
         described("stroke: [0.5, 1.5], stages: [{piston_areas: [2e-3], length: 1}], dead_volumes: [1e-4, 0]"));
-  CHECK(measured("", "'jack.tank'.pressure",
+  CHECK(measured("", "jack.tank.pressure",
                  actuator("stroke: [0.5, 1.5], piston_areas: [2e-3, 1e-3], supply: {pressure: 90 bar, tank: 2 bar}, "
                           "valve: {area: 1e-6, command: 0}")) == Approx(2e5));
   const auto refused = [&](const std::string& keys) { return refusal("", actuator(keys)); };
