@@ -17,8 +17,8 @@ std::vector<std::string> case_names(const Tree& root, const std::string& file) {
 
 Tree with_case(const Tree& root, const std::string& file, const KeyTable& keys, const std::string& chosen) {
   const Tree cases = find_value(*root, "cases");
-  if (chosen.empty()) return cases ? without(*root, {"cases"}) : root;
   const std::vector<std::string> names = case_names(root, file);
+  if (chosen.empty()) return cases ? without(*root, {"cases"}) : root;
   if (!is_among(chosen, names))
     throw InputError(fmt::format("--case {}: {} has no such case{}", chosen, file,
                                  names.empty() ? "" : did_you_mean(chosen, names)));

@@ -127,7 +127,9 @@ class Expander {
     Scope unplaced = outer;  // names and numbers are those of the surroundings; the place is computed below
     unplaced.placement = {};
     const Tree written = writer(unplaced).write_map(*entry, part_keys(), path);
-    const YamlValue keyed = value_of(written).keyed(part_keys());
+    const YamlValue keyed = value_of(written, outer.prefix + name).keyed(part_keys());
+    for (const char* key : {"parameters", "merge"})
+      if (const auto map = keyed.find(key)) map->entries();  // refuses what is no map
     const Part part = library_.find(*written, definitions, path);
 
     Scope scope;
@@ -145,10 +147,13 @@ class Expander {
     --depth_;
   }
 
-  YamlValue value_of(const Tree& tree) const {
-    YamlValue value = YamlValue::of_tree(tree, "", tree->file ? *tree->file : file_);
-    value.set_parameters(parameters_);
-    return value;
+  /// Returns the entry of a placed part, with its path.
+  YamlValue value_of(const Tree& entry, const std::string& name) const {
+    const Tree section = make_map({{make_scalar(name, *entry), entry}}, *entry);
+    YamlValue root = YamlValue::of_tree(make_map({{make_scalar("parts", *entry), section}}, *entry), "",
+                                        entry->file ? *entry->file : file_);
+    root.set_parameters(parameters_);
+    return root.at("parts").at(name);
   }
 
   /// @returns the placement in the surroundings; of a part `at` a node the one in the model

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/input/yaml_file.hpp"
+#include "reduce/common/files/file_checks.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -26,15 +26,16 @@ std::string resolve(const YamlNode& name, const std::string& from, const std::st
   return (fs::path(name.file ? *name.file : from).parent_path() / name.scalar).lexically_normal().string();
 }
 
-/// Reads the tree of a file and checks its keys.
+/// Reads the tree of a file. Errors in it have their own line, others that of its name.
 Tree load(const YamlNode& name, const std::string& path, const std::string& from, const std::string& what) {
-  try {
-    const YamlValue value = YamlValue::load(path);
-    return in_file(parse_yaml(value.source_text(), path), std::make_shared<const std::string>(path));
-  } catch (const InputError& error) {
-    if (fs::exists(path)) throw;  // the message names a line of that file
-    fail_at(name, from, what, error.what());
-  }
+  const std::string text = [&] {
+    try {
+      return read_input_text(path);
+    } catch (const InputError& error) {
+      fail_at(name, from, what, error.what());
+    }
+  }();
+  return in_file(parse_yaml(text, path), std::make_shared<const std::string>(path));
 }
 
 /// Collects the sections of several files.

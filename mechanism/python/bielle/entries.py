@@ -15,9 +15,9 @@ class Entries:
 
     def rigid_body(self, name: str, *,
             node: Mapping[str, Any] | str, mass: float | str | None = None, centre: Sequence[Any] | None = None,
-            inertia: Sequence[Any] | None = None, inertia_about: str | None = None, inertia_axes: Mapping[str, Any] |
-            None = None, solid: Mapping[str, Any] | Sequence[Any] | None = None, also: Sequence[Any] | None = None,
-            **more: Any) -> None:
+            inertia: Sequence[Any] | None = None, inertia_about: str | None = None,
+            inertia_axes: Mapping[str, Any] | None = None, solid: Mapping[str, Any] | Sequence[Any] | None = None,
+            also: Sequence[Any] | None = None, **more: Any) -> None:
         """A rigid body on a node, by its mass and inertia or by solids.
 
         node: The node that moves with the body. (name of a node)
@@ -39,8 +39,8 @@ class Entries:
             "also": also, **more})
 
     def point_mass(self, name: str, *,
-            node: Mapping[str, Any] | str, mass: float | str, centre: Sequence[Any] | None = None, **more: Any) ->
-            None:
+            node: Mapping[str, Any] | str, mass: float | str, centre: Sequence[Any] | None = None,
+            **more: Any) -> None:
         """A mass without inertia about its centre.
 
         node: The node that moves with the mass. (name of a node)
@@ -51,9 +51,10 @@ class Entries:
 
     def beam(self, name: str, *,
             nodes: Sequence[Any], section: Mapping[str, Any] | Sequence[Any], elements: float | str | None = None,
-            orientation: Sequence[Any] | None = None, twist: float | str | None = None, damping: float | str | None =
-            None, bending: str | None = None, arc_centre: Sequence[Any] | None = None, arc_through: Sequence[Any] |
-            None = None, distributed: Mapping[str, Any] | Sequence[Any] | None = None, **more: Any) -> None:
+            orientation: Sequence[Any] | None = None, twist: float | str | None = None,
+            damping: float | str | None = None, bending: str | None = None, arc_centre: Sequence[Any] | None = None,
+            arc_through: Sequence[Any] | None = None, distributed: Mapping[str, Any] | Sequence[Any] | None = None,
+            **more: Any) -> None:
         """A straight or curved beam between two nodes, cut into elements of equal length.
 
         nodes: The nodes at the start and at the end. (list of 2: name of a node)
@@ -79,10 +80,11 @@ class Entries:
 
     def superelement(self, name: str, *,
             file: str, nodes: Mapping[str, Any] | None = None, position: Sequence[Any] | None = None,
-            rotation_vector: Sequence[Any] | None = None, quaternion: Sequence[Any] | None = None, bryant:
-            Sequence[Any] | None = None, euler: Sequence[Any] | None = None, axes: Mapping[str, Any] | None = None,
-            matrix: Sequence[Any] | None = None, rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] |
-            None = None, frame: Mapping[str, Any] | str | None = None, largest_error: float | str | None = None,
+            rotation_vector: Sequence[Any] | None = None, quaternion: Sequence[Any] | None = None,
+            bryant: Sequence[Any] | None = None, euler: Sequence[Any] | None = None,
+            axes: Mapping[str, Any] | None = None, matrix: Sequence[Any] | None = None,
+            rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] | None = None,
+            frame: Mapping[str, Any] | str | None = None, largest_error: float | str | None = None,
             damping: Mapping[str, Any] | None = None, loads: Mapping[str, Any] | None = None, **more: Any) -> None:
         """An elastic body that `bielle-reduce` has reduced to its interfaces.
 
@@ -112,9 +114,9 @@ class Entries:
             "largest_error": largest_error, "damping": damping, "loads": loads, **more})
 
     def spring_damper(self, name: str, *,
-            nodes: Sequence[Any], at: Sequence[Any] | None = None, stiffness: float | str | None = None, damping:
-            float | str | None = None, length: float | str | None = None, force: float | str | None = None, **more:
-            Any) -> None:
+            nodes: Sequence[Any], at: Sequence[Any] | None = None, stiffness: float | str | None = None,
+            damping: float | str | None = None, length: float | str | None = None, force: float | str | None = None,
+            **more: Any) -> None:
         """A spring, a damper or a force along the line between points of two nodes.
 
         nodes: The two nodes. (list of 2: name of a node)
@@ -130,8 +132,8 @@ class Entries:
             "damping": damping, "length": length, "force": force, **more})
 
     def node_force(self, name: str, *,
-            nodes: Sequence[Any], force: Sequence[Any] | None = None, moment: Sequence[Any] | None = None, at:
-            Sequence[Any] | None = None, axes: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], force: Sequence[Any] | None = None, moment: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, axes: str | None = None, **more: Any) -> None:
         """A force and a moment between two nodes.
 
         nodes: The two nodes: force and moment act on the second, and back on the first at the same place. (list of
@@ -148,11 +150,12 @@ class Entries:
             "axes": axes, **more})
 
     def stiffness_field(self, name: str, *,
-            nodes: Sequence[Any], stiffness: Mapping[str, Any] | Sequence[Any], damping: Mapping[str, Any] |
-            Sequence[Any] | float | str | None = None, rotation_vector: Sequence[Any] | None = None, quaternion:
-            Sequence[Any] | None = None, bryant: Sequence[Any] | None = None, euler: Sequence[Any] | None = None,
-            axes: Mapping[str, Any] | None = None, matrix: Sequence[Any] | None = None, rodrigues: Sequence[Any] |
-            None = None, conformal: Sequence[Any] | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], stiffness: Mapping[str, Any] | Sequence[Any],
+            damping: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
+            rotation_vector: Sequence[Any] | None = None, quaternion: Sequence[Any] | None = None,
+            bryant: Sequence[Any] | None = None, euler: Sequence[Any] | None = None,
+            axes: Mapping[str, Any] | None = None, matrix: Sequence[Any] | None = None,
+            rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] | None = None, **more: Any) -> None:
         """A part between two nodes with the stiffness matrix of another program.
 
         nodes: The two nodes. (list of 2: name of a node)
@@ -174,17 +177,19 @@ class Entries:
             "euler": euler, "axes": axes, "matrix": matrix, "rodrigues": rodrigues, "conformal": conformal, **more})
 
     def hydraulic_actuator(self, name: str, *,
-            nodes: Sequence[Any], stroke: Sequence[Any], at: Sequence[Any] | None = None, piston_areas: Sequence[Any]
-            | None = None, stages: Sequence[Any] | None = None, dead_volumes: Sequence[Any] | None = None, leakage:
-            float | str | None = None, external_leakage: Sequence[Any] | None = None, friction: Mapping[str, Any] |
-            None = None, end_stops: Mapping[str, Any] | None = None, ports: Sequence[Any] | None = None, pressures:
-            Sequence[Any] | None = None, compliances: Sequence[Any] | None = None, cushions: Mapping[str, Any] | None
-            = None, supply: Mapping[str, Any] | None = None, valve: Mapping[str, Any] | None = None, relief:
-            Mapping[str, Any] | None = None, accumulator: Mapping[str, Any] | None = None, ambient_pressure: float |
-            str | None = None, density: float | str | None = None, viscosity: float | str | None = None,
-            bulk_modulus: float | str | None = None, air_fraction: float | str | None = None, air_exponent: float |
-            str | None = None, vapour_pressure: float | str | None = None, conserves: str | None = None, **more: Any)
-            -> None:
+            nodes: Sequence[Any], stroke: Sequence[Any], at: Sequence[Any] | None = None,
+            piston_areas: Sequence[Any] | None = None, stages: Sequence[Any] | None = None,
+            dead_volumes: Sequence[Any] | None = None, leakage: float | str | None = None,
+            external_leakage: Sequence[Any] | None = None, friction: Mapping[str, Any] | None = None,
+            end_stops: Mapping[str, Any] | None = None, ports: Sequence[Any] | None = None,
+            pressures: Sequence[Any] | None = None, compliances: Sequence[Any] | None = None,
+            cushions: Mapping[str, Any] | None = None, supply: Mapping[str, Any] | None = None,
+            valve: Mapping[str, Any] | None = None, relief: Mapping[str, Any] | None = None,
+            accumulator: Mapping[str, Any] | None = None, ambient_pressure: float | str | None = None,
+            density: float | str | None = None, viscosity: float | str | None = None,
+            bulk_modulus: float | str | None = None, air_fraction: float | str | None = None,
+            air_exponent: float | str | None = None, vapour_pressure: float | str | None = None,
+            conserves: str | None = None, **more: Any) -> None:
         """A cylinder between points of two nodes, in a circuit or with a circuit of its own.
 
         nodes: The two nodes, which chamber 1 pushes apart. (list of 2: name of a node)
@@ -238,13 +243,15 @@ class Entries:
             "air_exponent": air_exponent, "vapour_pressure": vapour_pressure, "conserves": conserves, **more})
 
     def rigid(self, name: str, *,
-            nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None, axis:
-            Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] |
-            float | str | None = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str,
-            Any] | float | str | None = None, preload: Mapping[str, Any] | float | str | None = None, stops:
-            Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any]
-            | float | str | None = None, start_rate: Mapping[str, Any] | float | str | None = None, friction:
-            Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that fixes two nodes to each other.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -285,13 +292,15 @@ class Entries:
             "carries": carries, **more})
 
     def hinge(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] |
-            None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] | float | str | None
-            = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str |
-            None = None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None =
-            None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None =
-            None, start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None =
-            None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that leaves turning about an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -331,13 +340,15 @@ class Entries:
             "carries": carries, **more})
 
     def prismatic(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] |
-            None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] | float | str | None
-            = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str |
-            None = None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None =
-            None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None =
-            None, start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None =
-            None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -376,13 +387,15 @@ class Entries:
             "carries": carries, **more})
 
     def cylindrical(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] |
-            None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] | float | str | None
-            = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str |
-            None = None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None =
-            None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None =
-            None, start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None =
-            None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -423,13 +436,15 @@ class Entries:
             "friction": friction, "carries": carries, **more})
 
     def spherical(self, name: str, *,
-            nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None, axis:
-            Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] |
-            float | str | None = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str,
-            Any] | float | str | None = None, preload: Mapping[str, Any] | float | str | None = None, stops:
-            Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any]
-            | float | str | None = None, start_rate: Mapping[str, Any] | float | str | None = None, friction:
-            Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -469,13 +484,15 @@ class Entries:
             "carries": carries, **more})
 
     def planar(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] |
-            None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] | float | str | None
-            = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str |
-            None = None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None =
-            None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None =
-            None, start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None =
-            None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding across an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -516,13 +533,15 @@ class Entries:
             "carries": carries, **more})
 
     def screw(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], pitch: float | str, position: Sequence[Any] | None = None, at:
-            Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] |
-            float | str | None = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str,
-            Any] | float | str | None = None, preload: Mapping[str, Any] | float | str | None = None, stops:
-            Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any]
-            | float | str | None = None, start_rate: Mapping[str, Any] | float | str | None = None, friction:
-            Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], axis: Sequence[Any], pitch: float | str, position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that slides along its axis as it turns about it.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -564,13 +583,15 @@ class Entries:
             "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def universal(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], second_axis: Sequence[Any], position: Sequence[Any] | None =
-            None, at: Sequence[Any] | None = None, stiffness: Mapping[str, Any] | float | str | None = None, damping:
-            Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str | None = None,
-            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None, locked:
-            Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None, start_rate:
-            Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None, carries: str |
-            None = None, **more: Any) -> None:
+            nodes: Sequence[Any], axis: Sequence[Any], second_axis: Sequence[Any],
+            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A cross between two shafts, which turns about its two arms.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -609,13 +630,15 @@ class Entries:
             "friction": friction, "carries": carries, **more})
 
     def constant_velocity(self, name: str, *,
-            nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None, axis:
-            Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None, axes: Sequence[Any] | None = None,
-            stiffness: Mapping[str, Any] | float | str | None = None, damping: Mapping[str, Any] | float | str | None
-            = None, rest: Mapping[str, Any] | float | str | None = None, preload: Mapping[str, Any] | float | str |
-            None = None, stops: Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None = None,
-            start: Mapping[str, Any] | float | str | None = None, start_rate: Mapping[str, Any] | float | str | None
-            = None, friction: Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            axes: Sequence[Any] | None = None, stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint between two shafts that turn at equal rates at any bend below 180 degrees.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -657,8 +680,8 @@ class Entries:
             "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def distance(self, name: str, *,
-            nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None, **more: Any) ->
-            None:
+            nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
+            **more: Any) -> None:
         """A rod without mass and with a ball joint at either end.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -670,8 +693,8 @@ class Entries:
         self.add("joints", name, {"type": "distance", "nodes": nodes, "at": at, "length": length, **more})
 
     def spherical_spherical(self, name: str, *,
-            nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None, **more: Any) ->
-            None:
+            nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
+            **more: Any) -> None:
         """A rod without mass and with a ball joint at either end.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -683,12 +706,14 @@ class Entries:
         self.add("joints", name, {"type": "spherical_spherical", "nodes": nodes, "at": at, "length": length, **more})
 
     def revolute_spherical(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None =
-            None, stiffness: Mapping[str, Any] | float | str | None = None, damping: Mapping[str, Any] | float | str
-            | None = None, rest: Mapping[str, Any] | float | str | None = None, preload: Mapping[str, Any] | float |
-            str | None = None, stops: Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None =
-            None, start: Mapping[str, Any] | float | str | None = None, start_rate: Mapping[str, Any] | float | str |
-            None = None, friction: Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], axis: Sequence[Any], at: Sequence[Any] | None = None,
+            length: float | str | None = None, stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A rod without mass that hinges on the first node, with a ball joint on the second.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -723,13 +748,15 @@ class Entries:
             "carries": carries, **more})
 
     def point_on_line(self, name: str, *,
-            nodes: Sequence[Any], line: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] |
-            None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] | float | str | None
-            = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str |
-            None = None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None =
-            None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None =
-            None, start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None =
-            None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], line: Sequence[Any], position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a line and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -768,13 +795,15 @@ class Entries:
             "friction": friction, "carries": carries, **more})
 
     def point_on_plane(self, name: str, *,
-            nodes: Sequence[Any], normal: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] |
-            None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] | float | str | None
-            = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str |
-            None = None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None =
-            None, locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None =
-            None, start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None =
-            None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], normal: Sequence[Any], position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point in a plane and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -814,12 +843,13 @@ class Entries:
 
     def point_on_curve(self, name: str, *,
             nodes: Sequence[Any], curve: str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
-            closed: bool | None = None, stiffness: Mapping[str, Any] | float | str | None = None, damping:
-            Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str | None = None,
-            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None, locked:
-            Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None, start_rate:
-            Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None, carries: str |
-            None = None, **more: Any) -> None:
+            closed: bool | None = None, stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a curve of the first node and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -855,13 +885,15 @@ class Entries:
             "carries": carries, **more})
 
     def slider(self, name: str, *,
-            node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None, start: float | str | None =
-            None, ends: str | None = None, orientation: str | None = None, stiffness: Mapping[str, Any] | float | str
-            | None = None, damping: Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float |
-            str | None = None, preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] |
-            None = None, locked: Mapping[str, Any] | bool | None = None, start_rate: Mapping[str, Any] | float | str
-            | None = None, friction: Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) ->
-            None:
+            node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None,
+            start: float | str | None = None, ends: str | None = None, orientation: str | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a node on a beam that deforms, along which it slides.
 
         node: Node that slides. (name of a node)
@@ -896,13 +928,15 @@ class Entries:
             "carries": carries, **more})
 
     def wheel(self, name: str, *,
-            nodes: Sequence[Any], normal: Sequence[Any], axis: Sequence[Any], radius: float | str, position:
-            Sequence[Any] | None = None, at: Sequence[Any] | None = None, slip: Mapping[str, Any] | str | None =
-            None, stiffness: Mapping[str, Any] | float | str | None = None, damping: Mapping[str, Any] | float | str
-            | None = None, rest: Mapping[str, Any] | float | str | None = None, preload: Mapping[str, Any] | float |
-            str | None = None, stops: Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None =
-            None, start: Mapping[str, Any] | float | str | None = None, start_rate: Mapping[str, Any] | float | str |
-            None = None, friction: Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], normal: Sequence[Any], axis: Sequence[Any], radius: float | str,
+            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            slip: Mapping[str, Any] | str | None = None, stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A thin wheel of the second node on a plane of the first.
 
         nodes: Node of the plane and node of the wheel. (list of 2: name of a node)
@@ -939,13 +973,15 @@ class Entries:
             "friction": friction, "carries": carries, **more})
 
     def bushing(self, name: str, *,
-            nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None, axis:
-            Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None, stiffness: Mapping[str, Any] |
-            Sequence[Any] | None = None, damping: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
-            preload: Sequence[Any] | None = None, curves: Mapping[str, Any] | None = None, maxwell: Sequence[Any] |
-            None = None, stops: Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None = None,
-            start: Mapping[str, Any] | float | str | None = None, start_rate: Mapping[str, Any] | float | str | None
-            = None, carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | Sequence[Any] | None = None,
+            damping: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
+            preload: Sequence[Any] | None = None, curves: Mapping[str, Any] | None = None,
+            maxwell: Sequence[Any] | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
+            **more: Any) -> None:
         """An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -986,14 +1022,16 @@ class Entries:
 
     def bearing(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], radial: Mapping[str, Any] | Sequence[Any] | float | str,
-            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None
-            = None, axial: Mapping[str, Any] | float | str | None = None, tilting: Mapping[str, Any] | Sequence[Any]
-            | float | str | None = None, stiffness: Mapping[str, Any] | float | str | None = None, damping:
-            Mapping[str, Any] | float | str | None = None, rest: Mapping[str, Any] | float | str | None = None,
-            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None, locked:
-            Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None, start_rate:
-            Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None, carries: str |
-            None = None, **more: Any) -> None:
+            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            second_axis: Sequence[Any] | None = None, axial: Mapping[str, Any] | float | str | None = None,
+            tilting: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """An elastic hinge, whose shaft turns freely.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1042,14 +1080,16 @@ class Entries:
             **more})
 
     def clearance_hinge(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any], position:
-            Sequence[Any] | None = None, at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
-            radius: float | str | None = None, friction: Mapping[str, Any] | None = None, stiffness: Mapping[str,
-            Any] | float | str | None = None, damping: Mapping[str, Any] | float | str | None = None, rest:
-            Mapping[str, Any] | float | str | None = None, preload: Mapping[str, Any] | float | str | None = None,
-            stops: Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None = None, start:
-            Mapping[str, Any] | float | str | None = None, start_rate: Mapping[str, Any] | float | str | None = None,
-            carries: str | None = None, length: float | str | None = None, axial_gap: float | str | None = None,
+            nodes: Sequence[Any], axis: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
+            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            second_axis: Sequence[Any] | None = None, radius: float | str | None = None,
+            friction: Mapping[str, Any] | None = None, stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
+            length: float | str | None = None, axial_gap: float | str | None = None,
             axial_contact: Mapping[str, Any] | None = None, **more: Any) -> None:
         """A journal with play in a bush.
 
@@ -1102,14 +1142,17 @@ class Entries:
             "length": length, "axial_gap": axial_gap, "axial_contact": axial_contact, **more})
 
     def clearance_spherical(self, name: str, *,
-            nodes: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any], position: Sequence[Any] | None
-            = None, at: Sequence[Any] | None = None, axis: Sequence[Any] | None = None, second_axis: Sequence[Any] |
-            None = None, radius: float | str | None = None, friction: Mapping[str, Any] | None = None, stiffness:
-            Mapping[str, Any] | float | str | None = None, damping: Mapping[str, Any] | float | str | None = None,
-            rest: Mapping[str, Any] | float | str | None = None, preload: Mapping[str, Any] | float | str | None =
-            None, stops: Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | None = None, start:
-            Mapping[str, Any] | float | str | None = None, start_rate: Mapping[str, Any] | float | str | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
+            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            radius: float | str | None = None, friction: Mapping[str, Any] | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
+            **more: Any) -> None:
         """A ball with play in a socket.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1156,8 +1199,8 @@ class Entries:
             "carries": carries, **more})
 
     def gear(self, name: str, *,
-            joints: Sequence[Any], ratio: float | str | None = None, teeth: Sequence[Any] | None = None, internal:
-            bool | None = None, factors: Sequence[Any] | None = None, **more: Any) -> None:
+            joints: Sequence[Any], ratio: float | str | None = None, teeth: Sequence[Any] | None = None,
+            internal: bool | None = None, factors: Sequence[Any] | None = None, **more: Any) -> None:
         """Coordinates of joints in a fixed ratio.
 
         joints: Coordinates that are coupled: angles of two joints; with `factors` any coordinates. (list of at least
@@ -1172,11 +1215,11 @@ class Entries:
             "internal": internal, "factors": factors, **more})
 
     def gear_mesh(self, name: str, *,
-            nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None, radii:
-            Sequence[Any] | None = None, position: Sequence[Any] | None = None, internal: bool | None = None,
-            pressure_angle: float | str | None = None, helix_angle: float | str | None = None, stiffness: float | str
-            | None = None, damping: float | str | None = None, backlash: float | str | None = None, **more: Any) ->
-            None:
+            nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None,
+            radii: Sequence[Any] | None = None, position: Sequence[Any] | None = None, internal: bool | None = None,
+            pressure_angle: float | str | None = None, helix_angle: float | str | None = None,
+            stiffness: float | str | None = None, damping: float | str | None = None,
+            backlash: float | str | None = None, **more: Any) -> None:
         """Forces between the teeth of two wheels, which load the bearings.
 
         nodes: Nodes of the two wheels, on their axes. (list of 2: name of a node)
@@ -1242,9 +1285,9 @@ class Entries:
             "follower": follower, "radius": radius, "at": at, "normal": normal, "friction": friction, **more})
 
     def belt(self, name: str, *,
-            nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None, at:
-            Sequence[Any] | None = None, pretension: float | str | None = None, damping: float | str | None = None,
-            **more: Any) -> None:
+            nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, pretension: float | str | None = None,
+            damping: float | str | None = None, **more: Any) -> None:
         """A closed belt or chain that grips its pulleys.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
@@ -1261,9 +1304,10 @@ class Entries:
             "pretension": pretension, "damping": damping, **more})
 
     def cable(self, name: str, *,
-            nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None, at:
-            Sequence[Any] | None = None, pretension: float | str | None = None, damping: float | str | None = None,
-            grips: Sequence[Any] | None = None, turns: Sequence[Any] | None = None, **more: Any) -> None:
+            nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, pretension: float | str | None = None,
+            damping: float | str | None = None, grips: Sequence[Any] | None = None,
+            turns: Sequence[Any] | None = None, **more: Any) -> None:
         """A rope from the first node to the last, over pulleys on which it slides without friction.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
@@ -1284,8 +1328,8 @@ class Entries:
 
     def contact(self, name: str, *,
             stiffness: float | str, shapes: Sequence[Any] | None = None, between: Sequence[Any] | None = None,
-            exponent: float | str | None = None, damping: float | str | None = None, restitution: float | str | None
-            = None, friction: Mapping[str, Any] | None = None, **more: Any) -> None:
+            exponent: float | str | None = None, damping: float | str | None = None,
+            restitution: float | str | None = None, friction: Mapping[str, Any] | None = None, **more: Any) -> None:
         """Shapes on nodes that push each other apart when they touch.
 
         stiffness: Stiffness K of the force K p^n at the depth p, in N/m^n with the `exponent` n. (number greater
@@ -1316,8 +1360,9 @@ class Entries:
         self.add("analysis", None, {"type": "assembly", "keep": keep, **more})
 
     def static(self, *,
-            steps: float | str | None = None, branch: float | str | None = None, arc_length: Mapping[str, Any] | None
-            = None, newton: Mapping[str, Any] | None = None, **more: Any) -> None:
+            steps: float | str | None = None, branch: float | str | None = None,
+            arc_length: Mapping[str, Any] | None = None, newton: Mapping[str, Any] | None = None,
+            **more: Any) -> None:
         """Equilibrium under the loads, which grow with the load factor.
 
         steps: Number of equal increments of the load factor, or `auto`. (whole number of at least 1; or `auto`;
@@ -1334,8 +1379,9 @@ class Entries:
     def dynamic(self, *,
             duration: float | str, step: float | str | None = None, tolerance: float | str | None = None,
             largest_step: float | str | None = None, scheme: str | None = None, rho: float | str | None = None,
-            alpha: float | str | None = None, constraints: str | None = None, start: Mapping[str, Any] | str | None =
-            None, newton: Mapping[str, Any] | None = None, **more: Any) -> None:
+            alpha: float | str | None = None, constraints: str | None = None,
+            start: Mapping[str, Any] | str | None = None, newton: Mapping[str, Any] | None = None,
+            **more: Any) -> None:
         """Motion by integration in time.
 
         duration: Duration of the motion. (number [s] greater than 0)
@@ -1402,8 +1448,8 @@ class Entries:
         self.add("analysis", None, {"type": "campbell", "parameter": parameter, **more})
 
     def frequency_response(self, *,
-            inputs: Sequence[Any], outputs: Sequence[Any], frequencies: Mapping[str, Any] | Sequence[Any], modes:
-            float | str | None = None, rotation: Mapping[str, Any] | None = None, **more: Any) -> None:
+            inputs: Sequence[Any], outputs: Sequence[Any], frequencies: Mapping[str, Any] | Sequence[Any],
+            modes: float | str | None = None, rotation: Mapping[str, Any] | None = None, **more: Any) -> None:
         """Harmonic responses of small motions.
 
         inputs: Inputs of the model, and forces or moments on nodes. (list of at least 1: name of a input; or keys of
@@ -1421,8 +1467,8 @@ class Entries:
             "frequencies": frequencies, "modes": modes, "rotation": rotation, **more})
 
     def state_space(self, *,
-            inputs: Sequence[Any], outputs: Sequence[Any], rotation: Mapping[str, Any] | None = None, **more: Any) ->
-            None:
+            inputs: Sequence[Any], outputs: Sequence[Any], rotation: Mapping[str, Any] | None = None,
+            **more: Any) -> None:
         """Small motions as matrices: E x' = A x + B u, y = C x + D u.
 
         inputs: Inputs of the model, and forces or moments on nodes. (list of at least 1: name of a input; or keys of

@@ -41,34 +41,6 @@ std::string hint_at_comma(const std::string& key) {
 /// Expectation of a reader that takes keys out of a value that is no map.
 constexpr const char* keys_with_values = "keys with values (`key: value`)";
 
-/// Upper bound of nodes that aliases repeat; larger files are not input files but attempts to exhaust the memory.
-constexpr std::size_t most_repeated = 100'000;
-
-/// Refuses what YAML permits and no input file means: repeated keys, merge keys (`<<`), and keys that are no words.
-/// @param budget  number of nodes that may still follow
-void check_keys_of_all_maps(const YamlNode& node, const std::string& file, const std::string& path,
-                            std::size_t& budget) {
-  if (budget-- == 0)
-    throw InputError(located_at(file, node.line, path.substr(0, 60),
-                                fmt::format("aliases (`*name`) repeat more than {} values", most_repeated)));
-  for (std::size_t k = 0; k < node.items.size(); ++k)
-    check_keys_of_all_maps(*node.items[k], file, fmt::format("{}[{}]", path, k + 1), budget);
-  std::map<std::string_view, int> lines;
-  for (const auto& [key, value] : node.pairs) {
-    if (key->kind != YamlNode::Kind::scalar)
-      throw InputError(
-          located_at(file, key->line, path, "a key must be a word; is something missing in front of ':'?"));
-    if (key->scalar == "<<")
-      throw InputError(
-          located_at(file, key->line, path, "'<<' (merging of maps) is not supported; write the keys out"));
-    const auto [first, is_new] = lines.emplace(key->scalar, key->line);
-    if (!is_new)
-      throw InputError(located_at(file, key->line, joined(path, key->scalar),
-                                  fmt::format("this key stands here twice; first on line {}", first->second)));
-    check_keys_of_all_maps(*value, file, joined(path, key->scalar), budget);
-  }
-}
-
 }  // namespace
 
 YamlValue::YamlValue(std::shared_ptr<Document> document, std::shared_ptr<const YamlNode> node, std::string path,
@@ -83,8 +55,6 @@ YamlValue YamlValue::parse(const std::string& text, const std::string& name) {
 
 YamlValue YamlValue::of_tree(std::shared_ptr<const YamlNode> root, const std::string& text, const std::string& name) {
   auto document = std::make_shared<Document>(Document{name, text, {}, {}});
-  std::size_t budget = text.size() + most_repeated;  // without aliases each node has a letter of its own
-  check_keys_of_all_maps(*root, name, "", budget);
   const int line = root->kind == YamlNode::Kind::null ? 1 : root->line;
   return {document, std::move(root), "", line};
 }
@@ -392,7 +362,7 @@ FormulaText YamlValue::formula_text(const std::vector<std::string>& variables,
   if (!is_scalar()) fail("expected a number or a formula");
   if (const double converted = in_si(node_->scalar); !std::isnan(converted)) {
     const std::string number = fmt::format("{}", converted);
-    return {node_->scalar, number, {}};
+    return {number, number, {}};
   }
   std::vector<std::string> plain_names = variables;
   for (const auto& [name, value] : document_->parameters) plain_names.push_back(name);

@@ -198,10 +198,47 @@ class Parser {
   std::map<std::string, std::shared_ptr<const YamlNode>> anchors_;
 };
 
+std::string below(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+
+std::string place_of_fault(const std::string& file, int line, const std::string& path, const std::string& message) {
+  return fmt::format("{}:{}: {}{}{}", file, line, path, path.empty() ? "" : ": ", message);
+}
+
+/// Upper bound of nodes that aliases repeat; larger files are not input files but attempts to exhaust the memory.
+constexpr std::size_t most_repeated = 100'000;
+
+/// Refuses what YAML permits and no input file means: repeated keys, merge keys (`<<`), and keys that are no words.
+/// @param budget  number of nodes that may still follow
+void check_keys_of_all_maps(const YamlNode& node, const std::string& file, const std::string& path,
+                            std::size_t& budget) {
+  if (budget-- == 0)
+    throw InputError(place_of_fault(file, node.line, path.substr(0, 60),
+                                    fmt::format("aliases (`*name`) repeat more than {} values", most_repeated)));
+  for (std::size_t k = 0; k < node.items.size(); ++k)
+    check_keys_of_all_maps(*node.items[k], file, fmt::format("{}[{}]", path, k + 1), budget);
+  std::map<std::string_view, int> lines;
+  for (const auto& [key, value] : node.pairs) {
+    if (key->kind != YamlNode::Kind::scalar)
+      throw InputError(
+          place_of_fault(file, key->line, path, "a key must be a word; is something missing in front of ':'?"));
+    if (key->scalar == "<<")
+      throw InputError(
+          place_of_fault(file, key->line, path, "'<<' (merging of maps) is not supported; write the keys out"));
+    const auto [first, is_new] = lines.emplace(key->scalar, key->line);
+    if (!is_new)
+      throw InputError(place_of_fault(file, key->line, below(path, key->scalar),
+                                      fmt::format("this key stands here twice; first on line {}", first->second)));
+    check_keys_of_all_maps(*value, file, below(path, key->scalar), budget);
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::string& name) {
-  return Parser(text, name).document();
+  std::shared_ptr<const YamlNode> root = Parser(text, name).document();
+  std::size_t budget = text.size() + most_repeated;  // without aliases each node has a letter of its own
+  check_keys_of_all_maps(*root, name, "", budget);
+  return root;
 }
 
 }  // namespace bielle

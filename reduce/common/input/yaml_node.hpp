@@ -26,7 +26,8 @@ struct YamlNode {
 /// Parses the only document of a text. Plain `~`, `null` and nothing are null; everything else is text.
 /// @param name  name of the file for messages
 /// @throws InputError `name:line: ..` if the text is empty, no valid YAML, holds several documents, is nested more than
-///         50 levels deep, or has tags (`!include`)
+///         50 levels deep, has tags (`!include`), repeats a key of a map, merges
+///         maps (`<<`), or has aliases that repeat more than 100,000 values
 std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::string& name);
 
 }  // namespace bielle

@@ -45,7 +45,7 @@ const std::string machine = R"yaml(
       thrust: {node: rider, force: [0.1, 0, 1], moment: [0, 0.2, 0], follower: true}
 )yaml";
 
-/// @param keys  of the placed part
+/// @param keys  keys of the placed part
 std::string placed(const std::string& keys, const Vector3& gravity) {
   return fmt::format("gravity: [{}, {}, {}]\ndefinitions:\n  machine:{}parts: {{it: {{part: machine{}}}}}\n",
                      gravity[0], gravity[1], gravity[2], machine, keys);
