@@ -1,7 +1,7 @@
 #include "mechanism/system/pair_tangents.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 #include "mechanism/system/node_relation.hpp"
 
@@ -22,6 +22,9 @@ void PairTangents::choose(const LocalState& state) {
   thread_local std::vector<std::pair<int, int>> near;
   near.clear();
   component_.add_near_nodes(state, near);
+  // Earlier pairs are kept if they are few: iterations may alternate between states with other pairs.
+  if (near_.size() <= 2 * near.size() + parts_.size())
+    for (const Near& pair : near_) near.emplace_back(pair.a, pair.b);
   for (auto& [a, b] : near)
     if (a > b) std::swap(a, b);
   std::sort(near.begin(), near.end());
@@ -83,8 +86,10 @@ class PairTangents::Sum final : public PairDerivatives {
     int local;
   };
 
-  template <class Block>
-  void put(const Columns& columns, int row, int column, const Block& block) {
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;  ///< on the stack
+
+  template <class Matrix>
+  void put(const Columns& columns, int row, int column, const Matrix& block) {
     for (int c = 0; c < block.cols(); ++c) {
       double* value = values_.data() + columns[static_cast<std::size_t>(column + c)] + row;
       for (int r = 0; r < block.rows(); ++r) value[r] += block(r, c);
@@ -123,7 +128,7 @@ class PairTangents::Sum final : public PairDerivatives {
       if (of_column.carried) columns += weights.stiffness * C.middleCols<6>(6 * j) * of_column.rate_of_displacement;
       for (int i = 0; i < 2; ++i) {
         const Side& row = sides[static_cast<std::size_t>(i)];
-        const Matrix6X6 block = relation(row).displacement.transpose() * columns.middleRows<6>(6 * i);
+        const Block block = relation(row).displacement.transpose() * columns.middleRows<6>(6 * i);
         put(*row.blocks[static_cast<std::size_t>(j)], 0, 0, block);
       }
       if (of_column.carried) add_turning_of_arm(column, r.segment<3>(6 * j));
@@ -138,7 +143,7 @@ class PairTangents::Sum final : public PairDerivatives {
     const Matrix3 turn = request_.weights.stiffness * (skew(carry->c) * skew(R.transpose() * force));
     const Matrix6X6 G = f.G.leftCols(f.count);
     const Matrix6X6 GT = times_step_tangent(G, f, request_.dq);
-    const Matrix6X6 block = G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>();
+    const Block block = G.bottomRows<3>().transpose() * turn * GT.bottomRows<3>();
     put(side.part.diagonal, 0, 0, block);
   }
 

@@ -20,7 +20,7 @@ class PairTangents {
   /// No pair is near at first. The object keeps references to its arguments.
   PairTangents(const CoupledPairs& component, const NodeKinematics& kinematics, const Slots& slots);
 
-  /// Takes the pairs that are near at a state, in place of the earlier ones.
+  /// Takes the pairs that are near at a state. Earlier ones are kept unless they are many.
   void choose(const LocalState& state);
   /// Discards all pairs.
   void forget() { near_.clear(); }

@@ -45,9 +45,8 @@ class NewtonMatrix {
   bool nearly_singular() const;
   /// Unknown at which the last factorisation found no pivot, or -1.
   int singular_unknown() const { return factors_->singular_column(); }
-  FactorCost factor_cost() const {
-    return factors_ ? factors_->cost() : FactorCost{};
-  }                                                                      ///< cost of the last factorisation
+  /// Cost of the last successful factorisation.
+  FactorCost factor_cost() const { return factors_ ? factors_->cost() : FactorCost{}; }
   double scale() const { return scale_; }                                ///< k
   int determinant_sign() const { return factors_->determinant_sign(); }  ///< for the last (scaled) tangent
   /// Computes the sums over columns |J_ij| s_j of the last (unscaled) tangent: the effect of rounding of the unknowns

@@ -17,12 +17,17 @@ using bielle::test::Random;
 
 namespace {
 
-/// Balls of 0.05 m in a group. @param nodes  text of the nodes b0, b1, ..; the balls that stand on them are all of them
-std::string group_of_balls(const std::vector<std::string>& nodes) {
+/// Balls of 0.05 m in a group.
+/// @param nodes    text of the nodes b0, b1, .. on which they stand
+/// @param carried  number of a ball that the last one carries; -1: none
+std::string group_of_balls(const std::vector<std::string>& nodes, int carried = -1) {
   std::string section = "nodes:\n", elements = "elements:\n", shapes;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    section += fmt::format("  b{}: {{{}}}\n", k, nodes[k]);
-    elements += fmt::format("  b{0}: {{type: rigid_body, node: b{0}, solid: {{sphere: 0.05, density: 1000}}}}\n", k);
+  for (int k = 0; k < static_cast<int>(nodes.size()); ++k) {
+    section += fmt::format("  b{}: {{{}}}\n", k, nodes[static_cast<std::size_t>(k)]);
+    const bool carries = carried >= 0 && k + 1 == static_cast<int>(nodes.size());
+    if (k != carried)
+      elements += fmt::format("  b{0}: {{type: rigid_body, node: b{0}, solid: {{sphere: 0.05, density: 1000}}{1}}}\n",
+                              k, carries ? fmt::format(", also: [b{}]", carried) : "");
     shapes += fmt::format("      - {{node: b{}, sphere: 0.05, at: [0.002, 0.001, -0.003]}}\n", k);
   }
   return section + elements + "joints:\n  it:\n    type: contact\n    shapes:\n" + shapes +
@@ -145,7 +150,9 @@ TEST_CASE("tangents of pairs are the derivatives of the forces, whatever holds o
     for (const std::string& third : {above, above + ", carried_by: b3"}) {
       CAPTURE(first, third);
       const MechanismFile file = read_mechanism_text(
-          group_of_balls({first, near, third, "position: [0.3, 0.2, 0.2], rotation_vector: [0.3, 0, 0.1]"}),
+          group_of_balls(
+              {"position: [0, 0, 0]" + held, near, above, "position: [0.3, 0.2, 0.2], rotation_vector: [0.3, 0, 0.1]"},
+              carried),
           "balls.yaml");
       const System system(file.model);
       Random random(3);
@@ -178,17 +185,17 @@ TEST_CASE("the entries of a sheet of touching balls grow with their number") {
 
 TEST_CASE("balls whose neighbours change move as with all pairs in the pattern") {
   // A fast ball arrives from far away at a row of balls, and is as far from its end at last.
-  std::vector<std::string> nodes = {"position: [-1.5, 0.01, 0.005], velocity: [30, 0, 0]"};
+  std::vector<std::string> nodes = {"position: [-1, 0.01, 0.005], velocity: [10, 0, 0]"};
   for (int k = 0; k < 6; ++k) nodes.push_back(fmt::format("position: [{}, {}, 0]", 0.11 * k, 0.004 * (k % 3)));
   const std::string text = group_of_balls(nodes);
   for (const ConstraintForm form : {ConstraintForm::position, ConstraintForm::stabilised})
     for (const double tolerance : {0.0, 1e-4}) {
       CAPTURE(static_cast<int>(form), tolerance);
       long few = 0, many = 0;
-      const VectorX near = positions_after(text, false, 0.15, form, tolerance, few),
-                    whole = positions_after(text, true, 0.15, form, tolerance, many);
+      const VectorX near = positions_after(text, false, 0.25, form, tolerance, few),
+                    whole = positions_after(text, true, 0.25, form, tolerance, many);
       CHECK(few < many);
-      CHECK(near.segment<3>(3 * 7).x() > 0.7);  // the last ball has been struck
-      CHECK((near - whole).cwiseAbs().maxCoeff() < 1e-7);
+      CHECK(near.segment<3>(3 * 7).x() > 0.6);  // the last ball has been struck
+      CHECK((near - whole).cwiseAbs().maxCoeff() < 1e-6);
     }
 }
