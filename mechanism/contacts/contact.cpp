@@ -262,8 +262,8 @@ void Contact::add_energy(const LocalState& state, Energy& energy) const {
   }
 }
 
-/// Pairs whose bounding spheres are farther apart than the smallest gap so far are skipped. Of equal gaps, that of the
-/// first pair is taken.
+/// Pairs whose bounding spheres are farther apart than the smallest gap so far are skipped. If gaps are equal,
+/// the first pair is taken.
 Contact::NearestPair Contact::nearest_of_all(const LocalState& state, bool apart_only) const {
   const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   NearestPair all{-1, {1e300, 0, nowhere, nowhere}};

@@ -1,7 +1,7 @@
 // Interface of components whose forces act between two of many nodes at a time, in pairs that change during a motion
 // (bodies that may touch).
 //
-// The tangent of such a component is the sum of those of its pairs. Of the n^2 / 2 pairs of n nodes, few touch at a
+// The tangent of such a component is the sum of those of its pairs. Few of the n^2 / 2 pairs of n nodes touch at a
 // time: the system's tangent has entries only of those that are near to each other (system/pair_tangents.hpp). The
 // component has no unknowns of its own and refers to no other component.
 #pragma once

@@ -61,7 +61,7 @@ class NewtonMatrix {
   void take_algebraic_columns();
 
   const System& system_;
-  std::shared_ptr<const TangentPattern> pattern_, factored_pattern_;  ///< of the tangent, and of the factors
+  std::shared_ptr<const TangentPattern> pattern_, factored_pattern_;  ///< those of the tangent and of the factors
   std::optional<CondensedLU> factors_;
   std::vector<double> values_, stiffness_;
   TangentWeights weights_;
