@@ -30,7 +30,8 @@ void PairTangents::choose(const LocalState& state) {
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
   near_.clear();
-  for (const auto& [a, b] : near) near_.push_back({a, b, {}, {}});
+  for (const auto& [a, b] : near)
+    if (part(a).count > 0 && part(b).count > 0) near_.push_back({a, b, {}, {}});
 }
 
 void PairTangents::find_places(const SparsePattern& pattern) {
@@ -63,12 +64,15 @@ class PairTangents::Sum final : public PairDerivatives {
   bool complete() const { return complete_; }
 
   void add(int a, int b, const Vector12& r, const Matrix12& K, const Matrix12& C) override {
-    const Near* near = all_.find(std::min(a, b), std::max(a, b));
+    // A node that is held in all directions, as the ground is, has no entries.
+    static constexpr Near none{};
+    const Part &first = all_.part(a), &second = all_.part(b);
+    const bool both_move = first.count > 0 && second.count > 0;
+    const Near* near = both_move ? all_.find(std::min(a, b), std::max(a, b)) : &none;
     if (!near) {
       complete_ = false;
       return;
     }
-    const Part &first = all_.part(a), &second = all_.part(b);
     const Columns &ab = a < b ? near->ab : near->ba, &ba = a < b ? near->ba : near->ab;
     const std::array<Side, 2> sides = {Side{first, {&first.diagonal, &ab}, a},
                                        Side{second, {&ba, &second.diagonal}, b}};
