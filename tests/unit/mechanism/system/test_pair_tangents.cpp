@@ -195,8 +195,6 @@ TEST_CASE("balls whose neighbours change move as with all pairs in the pattern")
                     whole = positions_after(text, true, 0.15, form, tolerance, many);
       CHECK(few < many);
       CHECK((near.segment<3>(3 * 7) - Vector3(0.55, 0.008, 0)).norm() > 0.05);  // the last ball has been struck
-      const double difference = (near - whole).cwiseAbs().maxCoeff();
-      CAPTURE(difference);
-      CHECK(difference < 1e-6);
+      CHECK((near - whole).cwiseAbs().maxCoeff() < 1e-9);  // the tolerance of Newton's method, in a model of about 1 m
     }
 }
