@@ -57,17 +57,6 @@ void Contact::declare(Declaration& declaration) const {
   declaration.event_functions = {touches};
 }
 
-void Contact::add_pattern(const Slots& /*slots*/, LocalPattern& pattern) const {
-  for (const auto& [a, b] : pairs_)
-    for (const int row : {local_node(a), local_node(b)})
-      for (const int column : {local_node(a), local_node(b)}) {
-        if (row == column)
-          pattern.add_block(6 * row, 6 * column, 6, 6);
-        else
-          pattern.add_intermittent_block(6 * row, 6 * column, 6, 6);
-      }
-}
-
 PairForce Contact::force_of(const LocalState& state, int pair) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
   return {shape(a), shape(b), state.node(local_node(a)), state.node(local_node(b))};
@@ -209,21 +198,56 @@ void Contact::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const
   }
 }
 
+namespace {
+
+/// Adds the derivatives of pairs to the local matrices of a component.
+class LocalPairs final : public PairDerivatives {
+ public:
+  explicit LocalPairs(LocalTangent& tangent) : tangent_(tangent) {}
+  void add(int a, int b, const Vector12& /*r*/, const Matrix12& K, const Matrix12& C) override {
+    const std::array<int, 4> at = {6 * a, 6 * a + 3, 6 * b, 6 * b + 3};
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const int row = at[static_cast<std::size_t>(i)], column = at[static_cast<std::size_t>(j)];
+        if (tangent_.wants_K) tangent_.K.add(row, column, Matrix3(K.block<3, 3>(3 * i, 3 * j)));
+        if (tangent_.wants_C) tangent_.C.add(row, column, Matrix3(C.block<3, 3>(3 * i, 3 * j)));
+      }
+  }
+
+ private:
+  LocalTangent& tangent_;
+};
+
+}  // namespace
+
 void Contact::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  LocalPairs pairs(tangent);
+  add_pair_tangents(state, pairs);
+}
+
+void Contact::add_pair_tangents(const LocalState& state, PairDerivatives& sum) const {
   thread_local std::vector<int> near;
   find_near(state, near);
   Matrix12 K, C;
   for (const int pair : near) {
-    if (acting(state, pair).depth <= 0) continue;
+    const PairForce::Result result = acting(state, pair);
+    if (result.depth <= 0) continue;
     calc_tangent_of(state, pair, K, C);
-    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-    const std::array<int, 4> at = {6 * local_node(a), 6 * local_node(a) + 3, 6 * local_node(b), 6 * local_node(b) + 3};
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const int row = at[static_cast<std::size_t>(i)], column = at[static_cast<std::size_t>(j)];
-        if (tangent.wants_K) tangent.K.add(row, column, Matrix3(K.block<3, 3>(3 * i, 3 * j)));
-        if (tangent.wants_C) tangent.C.add(row, column, Matrix3(C.block<3, 3>(3 * i, 3 * j)));
-      }
+    const auto [a, b] = nodes_of(pair);
+    sum.add(a, b, result.r, K, C);
+  }
+}
+
+void Contact::add_near_nodes(const LocalState& state, std::vector<std::pair<int, int>>& near) const {
+  // Pairs nearer than this part of their sizes have entries in the tangent before they touch.
+  constexpr double margin = 0.25;
+  std::vector<NearPairs::Bound> wider = bounds(state);
+  for (NearPairs::Bound& each : wider) each.reach *= 1 + margin;
+  std::vector<int> pairs;
+  near_pairs_.find(wider, pairs);
+  for (const int pair : pairs) {
+    const auto [a, b] = nodes_of(pair);
+    near.emplace_back(a, b);
   }
 }
 
@@ -238,18 +262,17 @@ void Contact::add_energy(const LocalState& state, Energy& energy) const {
   }
 }
 
-/// Pairs whose bounding spheres are farther apart than the smallest gap so far are skipped.
+/// Pairs whose bounding spheres are farther apart than the smallest gap so far are skipped. If gaps are equal,
+/// the first pair is taken.
 Contact::NearestPair Contact::nearest_of_all(const LocalState& state, bool apart_only) const {
   const Vector3 nowhere = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   NearestPair all{-1, {1e300, 0, nowhere, nowhere}};
-  const std::vector<NearPairs::Bound>& bound = bounds(state);
-  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
-    if (apart_only && state.memory()[dampings_begin() + pair] != apart) continue;
-    const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
-    if (NearPairs::apart(bound[static_cast<std::size_t>(a)], bound[static_cast<std::size_t>(b)]) >= all.found.gap)
-      continue;
-    if (const PairForce::Nearest found = nearest(state, pair); found.gap < all.found.gap) all = {pair, found};
-  }
+  const auto take = [&](int pair) {
+    if (apart_only && state.memory()[dampings_begin() + pair] != apart) return;
+    const PairForce::Nearest found = nearest(state, pair);
+    if (found.gap < all.found.gap || (found.gap == all.found.gap && pair < all.pair)) all = {pair, found};
+  };
+  near_pairs_.for_each_within(bounds(state), all.found.gap, take);
   return all;
 }
 

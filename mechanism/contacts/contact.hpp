@@ -1,8 +1,8 @@
 // Contact between shapes that are fixed on nodes: they repel each other if they touch.
 //
 // One component contains all pairs of a group of shapes. Each pair is a penalty contact (pair_force.hpp); only pairs
-// whose bounding spheres overlap are evaluated (near_pairs.hpp), and only pairs that touch have entries in the factors
-// of the tangent (LocalPattern::add_intermittent_block). With a `restitution`, the damping of a pair follows from its
+// whose bounding spheres overlap are evaluated (near_pairs.hpp), and only pairs that are near have entries in the
+// tangent (CoupledPairs). With a `restitution`, the damping of a pair follows from its
 // approach speed at the beginning of contact: steps end at this event (the event function is the smallest gap of the
 // separated pairs), and the damping is kept in the memory until the pair separates. With a `damping`, steps do not end
 // at the beginning of contact: the forces are continuous.
@@ -27,13 +27,14 @@
 
 #include "mechanism/contacts/near_pairs.hpp"
 #include "mechanism/contacts/pair_force.hpp"
+#include "mechanism/model/coupled_pairs.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/open_contact.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 
-class Contact final : public Component, public OpenContact {
+class Contact final : public Component, public CoupledPairs, public OpenContact {
  public:
   /// @param pairs  numbers of the shapes that may touch, the smaller first
   Contact(std::string name, std::vector<ContactShape> shapes, std::vector<std::pair<int, int>> pairs, SurfaceLaw law);
@@ -69,9 +70,10 @@ class Contact final : public Component, public OpenContact {
   }
 
   void declare(Declaration& declaration) const override;
-  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_near_nodes(const LocalState& state, std::vector<std::pair<int, int>>& near) const override;
+  void add_pair_tangents(const LocalState& state, PairDerivatives& sum) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;

@@ -28,10 +28,20 @@ void Contact::check_passage(const LocalState& state) const {
     const double lever = shape(k).reach() - shape(k).thickness() / 2;
     return std::isfinite(lever) ? passed * std::max(0.0, lever) * state.node(local_node(k)).Omega.norm() : 0.0;
   };
-  for (int k = 0; k < static_cast<int>(shapes_.size()); ++k)
-    farthest = std::max(farthest, (middle(state, k) - memory.segment<3>(1 + 3 * k)).norm() + turned(k));
+  thread_local std::vector<double> moved;
+  moved.clear();
+  for (int k = 0; k < static_cast<int>(shapes_.size()); ++k) {
+    moved.push_back((middle(state, k) - memory.segment<3>(1 + 3 * k)).norm() + turned(k));
+    farthest = std::max(farthest, moved.back());
+  }
   if (4 * farthest <= thinnest_) return;
-  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
+  // Only shapes whose bounds touch, enlarged by their displacements, can have met.
+  thread_local std::vector<NearPairs::Bound> swept;
+  thread_local std::vector<int> met;
+  swept = bounds(state);
+  for (std::size_t k = 0; k < swept.size(); ++k) swept[k].reach += moved[k];
+  near_pairs_.find(swept, met);
+  for (const int pair : met) {
     const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
     const double thickness = passage(a, b);
     const Vector3 now = middle(state, b) - middle(state, a);

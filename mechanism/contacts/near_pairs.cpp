@@ -35,40 +35,30 @@ double NearPairs::apart(const Bound& a, const Bound& b) {
   return (a.middle - b.middle).norm() - a.reach - b.reach;
 }
 
-void NearPairs::find(const std::vector<Bound>& bounds, std::vector<int>& near) const {
-  struct Range {
-    double low, high;
-    Vector3 middle;
-    double reach;
-    int shape;
-  };
-  thread_local std::vector<Range> ranges;
-  thread_local std::vector<int> planes;
-  ranges.clear();
-  planes.clear();
-  near.clear();
+const NearPairs::Sorted& NearPairs::sort(const std::vector<Bound>& bounds) const {
+  thread_local Sorted sorted;
+  sorted.ranges.clear();
+  sorted.planes.clear();
+  Eigen::AlignedBox3d box;
   for (int k = 0; k < shapes_; ++k) {
     const Bound& bound = bounds[static_cast<std::size_t>(k)];
     if (std::isinf(bound.reach))
-      planes.push_back(k);
+      sorted.planes.push_back(k);
     else
-      ranges.push_back({bound.middle.x() - bound.reach, bound.middle.x() + bound.reach, bound.middle, bound.reach, k});
+      box.extend(bound.middle);
   }
-  std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.low < b.low; });
-  const auto take = [&](int a, int b) {
-    if (const int pair = number(a, b); pair >= 0) near.push_back(pair);
-  };
-  for (std::size_t k = 0; k < ranges.size(); ++k) {
-    const Range& one = ranges[k];
-    for (std::size_t l = k + 1; l < ranges.size() && ranges[l].low <= one.high; ++l) {
-      const double most = one.reach + ranges[l].reach;
-      if ((one.middle - ranges[l].middle).squaredNorm() <= most * most) take(one.shape, ranges[l].shape);
-    }
-    for (const int plane : planes) {
-      const Bound& bound = bounds[static_cast<std::size_t>(plane)];
-      if (bound.normal.dot(one.middle - bound.middle) <= one.reach) take(one.shape, plane);
-    }
-  }
+  Eigen::Index axis = 0;
+  if (!box.isEmpty()) box.sizes().maxCoeff(&axis);
+  for (int k = 0; k < shapes_; ++k)
+    if (const Bound& bound = bounds[static_cast<std::size_t>(k)]; !std::isinf(bound.reach))
+      sorted.ranges.push_back({bound.middle[axis] - bound.reach, bound.middle[axis] + bound.reach, k});
+  std::sort(sorted.ranges.begin(), sorted.ranges.end(), [](const Range& a, const Range& b) { return a.low < b.low; });
+  return sorted;
+}
+
+void NearPairs::find(const std::vector<Bound>& bounds, std::vector<int>& near) const {
+  near.clear();
+  for_each_within(bounds, 0, [&](int pair) { near.push_back(pair); });
   std::sort(near.begin(), near.end());
 }
 

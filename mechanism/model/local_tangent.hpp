@@ -125,28 +125,19 @@ struct LocalTangent {
 /// The entries of a component's local tangent that can differ from zero at some state.
 class LocalPattern {
  public:
-  explicit LocalPattern(int size) : entries_(size, size) { entries_.setConstant(never); }
+  explicit LocalPattern(int size) : entries_(size, size) { entries_.setConstant(false); }
   int size() const { return static_cast<int>(entries_.rows()); }
-  void add_all() { entries_.setConstant(lasting); }
+  void add_all() { entries_.setConstant(true); }
   void add_block(int row, int column, int rows = 3, int columns = 3) {
-    entries_.block(row, column, rows, columns).setConstant(lasting);
+    entries_.block(row, column, rows, columns).setConstant(true);
   }
   void add_diagonal(int row, int column, int count = 3) {
-    for (int k = 0; k < count; ++k) entries_(row + k, column + k) = lasting;
+    for (int k = 0; k < count; ++k) entries_(row + k, column + k) = true;
   }
-  /// Adds entries that are zero most of the time (bodies that may touch): solvers omit them while they are zero.
-  void add_intermittent_block(int row, int column, int rows = 3, int columns = 3) {
-    entries_.block(row, column, rows, columns) = entries_.block(row, column, rows, columns).max(intermittent);
-    has_intermittent_ = true;
-  }
-  bool has(int row, int column) const { return entries_(row, column) != never; }
-  bool is_intermittent(int row, int column) const { return entries_(row, column) == intermittent; }
-  bool has_intermittent() const { return has_intermittent_; }
+  bool has(int row, int column) const { return entries_(row, column); }
 
  private:
-  static constexpr char never = 0, intermittent = 1, lasting = 2;
-  Eigen::Array<char, Eigen::Dynamic, Eigen::Dynamic> entries_;
-  bool has_intermittent_ = false;
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> entries_;
 };
 
 }  // namespace bielle::mechanism

@@ -105,53 +105,20 @@ const ScalarPart* LocalToGlobal::own_amplitudes() const {
   return nullptr;
 }
 
+/// Nodes that are held in some directions or carried by others mix the directions of forces: all entries are then kept.
 LocalPattern LocalToGlobal::pattern(const Component& component, const Slots& slots) const {
-  if (!plain) return related_pattern(component, slots);
   LocalPattern pattern(reduced_size());
+  if (!plain) {
+    pattern.add_all();
+    return pattern;
+  }
   component.add_pattern(slots, pattern);
   // T(Dq) mixes the three columns of a rotation.
   for (const NodePart& part : nodes)
-    for (int row = 0, first = part.local + 3; row < reduced_size(); ++row) {
-      bool any = false, lasts = false;
-      for (int column = first; column < first + 3; ++column) {
-        any = any || pattern.has(row, column);
-        lasts = lasts || (pattern.has(row, column) && !pattern.is_intermittent(row, column));
-      }
-      if (lasts)
+    for (int row = 0, first = part.local + 3; row < reduced_size(); ++row)
+      if (pattern.has(row, first) || pattern.has(row, first + 1) || pattern.has(row, first + 2))
         pattern.add_block(row, first, 1, 3);
-      else if (any)
-        pattern.add_intermittent_block(row, first, 1, 3);
-    }
   return pattern;
-}
-
-/// Pattern for nodes that are held in some directions or carried by others. A carrier mixes the directions of the
-/// forces that it takes over: all entries of a node are therefore kept, and the entries between two nodes as declared.
-LocalPattern LocalToGlobal::related_pattern(const Component& component, const Slots& slots) const {
-  LocalPattern reduced(reduced_size());
-  LocalPattern local(slots.size());
-  component.add_pattern(slots, local);
-  if (!local.has_intermittent() || !scalars.empty()) {
-    reduced.add_all();
-    return reduced;
-  }
-  const auto count = [&](std::size_t k) {
-    return (k + 1 < nodes.size() ? nodes[k + 1].reduced : reduced_size()) - nodes[k].reduced;
-  };
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    for (std::size_t b = 0; b < nodes.size(); ++b) {
-      bool any = false, lasts = false;
-      for (int row = nodes[a].local; row < nodes[a].local + 6; ++row)
-        for (int column = nodes[b].local; column < nodes[b].local + 6; ++column) {
-          any = any || local.has(row, column);
-          lasts = lasts || (local.has(row, column) && !local.is_intermittent(row, column));
-        }
-      if (lasts)
-        reduced.add_block(nodes[a].reduced, nodes[b].reduced, count(a), count(b));
-      else if (any)
-        reduced.add_intermittent_block(nodes[a].reduced, nodes[b].reduced, count(a), count(b));
-    }
-  return reduced;
 }
 
 void LocalToGlobal::set_places(const NodeKinematics& kinematics, const Slots& slots,

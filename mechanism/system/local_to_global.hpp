@@ -80,7 +80,6 @@ struct LocalToGlobal {
   void scatter(const double* entries, std::vector<double>& values) const;
 
  private:
-  LocalPattern related_pattern(const Component& component, const Slots& slots) const;
   void add_parts(const NodeKinematics& kinematics, const Unknowns& unknowns, const Slots& slots, int local, bool own);
 };
 

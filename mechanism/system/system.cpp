@@ -37,8 +37,11 @@ System::System(const Model& model)
 
 void System::build_pattern() {
   tangent_.build_pattern(idle_.possible());
-  idle_.find_places(tangent_.pattern());
-  condensed_ = std::make_unique<CondensedPattern>(tangent_.pattern(), tangent_.lone_amplitudes());
+  idle_.find_places(pattern());
+}
+
+void System::forget_pairs() const {
+  if (tangent_.forget_pairs()) idle_.find_places(pattern());
 }
 
 void System::set_aside(const std::vector<int>& multipliers) {
@@ -95,7 +98,7 @@ void System::residual(const State& state, const Environment& environment, Eigen:
 
 void System::tangent(const State& state, const Environment& environment, const TangentWeights& weights,
                      const VectorX* dq, std::vector<double>& values) const {
-  tangent_.set_values(state, environment, weights, dq, values);
+  if (tangent_.set_values(state, environment, weights, dq, values)) idle_.find_places(pattern());
   idle_.clear(state, values);
 }
 

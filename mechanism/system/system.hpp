@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/math/condensed.hpp"
 #include "mechanism/system/branches.hpp"
 #include "mechanism/system/idle_constraints.hpp"
 #include "mechanism/system/residual_assembly.hpp"
@@ -128,9 +127,15 @@ class System {
                      Eigen::Ref<VectorX> r) const {
     residual_.set_part(member, state, environment, r);
   }
-  const SparsePattern& pattern() const { return tangent_.pattern(); }
+  /// The pattern of the last tangent. `tangent` replaces it if bodies touch that were far apart when it was built; its
+  /// values are always in the order of the pattern after the call. References to the pattern are then invalid.
+  const SparsePattern& pattern() const { return tangent_.pattern()->whole; }
   /// The pattern of the tangent, with the amplitudes that are condensed before a factorisation.
-  const CondensedPattern& condensed_pattern() const { return *condensed_; }
+  const CondensedPattern& condensed_pattern() const { return tangent_.pattern()->condensed; }
+  /// Both, for owners of values or factors in their order: the pattern was replaced if the pointer is another one.
+  const std::shared_ptr<const TangentPattern>& shared_pattern() const { return tangent_.pattern(); }
+  /// Removes the entries of bodies that were near to each other, so that later results do not depend on earlier states.
+  void forget_pairs() const;
   /// Amplitudes of each component that couple only to its own unknowns, ascending.
   std::vector<std::vector<int>> lone_amplitudes() const { return tangent_.lone_amplitudes(); }
   /// Computes the values of the weighted tangent in the pattern's order.
@@ -157,10 +162,9 @@ class System {
   Unknowns unknowns_;
   SharedWork work_;
   ResidualAssembly residual_;
-  TangentAssembly tangent_;
-  IdleConstraints idle_;
+  mutable TangentAssembly tangent_;  ///< its pattern follows the states of the tangents
+  mutable IdleConstraints idle_;     ///< contains places in this pattern
   Branches branches_;
-  std::unique_ptr<const CondensedPattern> condensed_;
 };
 
 }  // namespace bielle::mechanism

@@ -1,9 +1,9 @@
 #include "mechanism/system/tangent_assembly.hpp"
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <numeric>
+#include <stdexcept>
 
 #include "mechanism/system/sparse_columns.hpp"
 
@@ -17,17 +17,10 @@ class TangentAssembly::KeptEntries {
     begin_.reserve(placements_.size() + 1);
     for (std::size_t m = 0; m < placements_.size(); ++m) {
       begin_.push_back(kept_.size());
-      if (placements_[m].contributes())
+      if (placements_[m].contributes() && !assembly.pairs_of(m))
         add(m, placements_[m].pattern(*assembly.model_.members()[m].component, assembly.unknowns_.slots()[m]));
     }
     begin_.push_back(kept_.size());
-  }
-  /// Whether some entry of a member is zero most of the time.
-  bool any_intermittent(std::size_t member) const { return intermittent_.contains(member); }
-  /// Whether this entry is zero most of the time. @param entry  index among the member's own entries, by columns
-  bool is_intermittent(std::size_t member, int entry) const {
-    const auto found = intermittent_.find(member);
-    return found != intermittent_.end() && found->second[static_cast<std::size_t>(entry)];
   }
   /// Calls act(entry, row, column) for each kept entry: its index among the member's own, by columns, and its global
   /// row and column.
@@ -50,11 +43,6 @@ class TangentAssembly::KeptEntries {
   void add(std::size_t member, const LocalPattern& pattern) {
     const LocalToGlobal& placement = placements_[member];
     const int n = placement.reduced_size();
-    if (pattern.has_intermittent()) {
-      std::vector<bool>& intermittent = intermittent_[member];
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) intermittent.push_back(pattern.is_intermittent(i, j));
-    }
     std::vector<bool> of_others(placement.reads_multipliers ? static_cast<std::size_t>(n) : 0, false);
     if (placement.reads_multipliers)
       for (const ScalarPart& part : placement.scalars)
@@ -72,13 +60,22 @@ class TangentAssembly::KeptEntries {
   const std::vector<LocalToGlobal>& placements_;
   int first_multiplier_;
   std::vector<bool> kept_;
-  std::vector<std::size_t> begin_;                         ///< first bit of each member, and the end
-  std::map<std::size_t, std::vector<bool>> intermittent_;  ///< intermittent entries of the members that have some
+  std::vector<std::size_t> begin_;  ///< first bit of each member, and the end
 };
 
 void TangentAssembly::complete() {
-  for (std::size_t m = 0; m < placements_.size(); ++m)
-    placements_[m].find_rows(kinematics_, unknowns_, unknowns_.slots()[m]);
+  for (std::size_t m = 0; m < placements_.size(); ++m) {
+    const Slots& slots = unknowns_.slots()[m];
+    placements_[m].find_rows(kinematics_, unknowns_, slots);
+    const auto* coupled = dynamic_cast<const CoupledPairs*>(model_.members()[m].component.get());
+    number_of_pairs_.push_back(coupled ? static_cast<int>(pairs_.size()) : -1);
+    if (!coupled) {
+      largest_local_ = std::max(largest_local_, slots.size());
+      continue;
+    }
+    pairs_.emplace_back(*coupled, kinematics_, slots);
+    pairs_member_.push_back(m);
+  }
   find_lone_amplitudes();
 }
 
@@ -110,53 +107,74 @@ std::vector<std::vector<int>> TangentAssembly::lone_amplitudes() const {
 }
 
 void TangentAssembly::build_pattern(const std::vector<bool>& may_be_idle) {
+  may_be_idle_ = may_be_idle;
+  build_pattern();
+}
+
+bool TangentAssembly::forget_pairs() {
+  if (std::all_of(pairs_.begin(), pairs_.end(), [](const PairTangents& each) { return each.count() == 0; }))
+    return false;
+  for (PairTangents& each : pairs_) each.forget();
+  build_pattern();
+  return true;
+}
+
+void TangentAssembly::build_pattern() {
   const KeptEntries kept(*this);
-  pattern_ = gather_columns(unknowns_.size(), [&](const auto& act) {
+  SparsePattern pattern = gather_columns(unknowns_.size(), [&](const auto& act) {
     for (std::size_t m = 0; m < placements_.size(); ++m)
       kept.for_each(m, [&](int, int row, int column) { act(row, column); });
+    for (const PairTangents& each : pairs_) each.for_each_entry([&](int row, int column, bool) { act(row, column); });
     for (int i = 0; i < unknowns_.dofs(); ++i) act(i, i);  // solvers add to the diagonal
     for (int k = 0, row = unknowns_.first_multiplier(); row < unknowns_.size(); ++k, ++row)
-      if (may_be_idle[static_cast<std::size_t>(k)]) act(row, row);
+      if (may_be_idle_[static_cast<std::size_t>(k)]) act(row, row);
   });
-  find_intermittent(kept, may_be_idle);
+  find_intermittent(kept, pattern);
+  pattern_ = std::make_shared<const TangentPattern>(std::move(pattern), lone_amplitudes());
   small_.clear();
-  for (std::size_t m = 0; m < placements_.size(); ++m) set_places(kept, m);
+  for (std::size_t m = 0; m < placements_.size(); ++m) {
+    if (number_of_pairs_[m] < 0)
+      set_places(kept, m);
+    else
+      small_.push_back(m);
+  }
+  for (PairTangents& each : pairs_) each.find_places(pattern_->whole);
   waiting_.assign(1, 0);
   for (const std::size_t m : work_.costly()) waiting_.push_back(waiting_.back() + placements_[m].targets.count());
 }
 
-/// Finds the global entries that are zero most of the time: those for which every contribution is declared as
-/// intermittent.
-void TangentAssembly::find_intermittent(const KeptEntries& kept, const std::vector<bool>& may_be_idle) {
-  bool any = false;
-  for (std::size_t m = 0; m < placements_.size(); ++m) any = any || kept.any_intermittent(m);
-  if (!any) return;
-  std::vector<char> lasts(static_cast<std::size_t>(pattern_.entry_count()), 0);
-  const auto last = [&](int row, int column) { lasts[static_cast<std::size_t>(pattern_.find(row, column))] = 1; };
+/// Finds the global entries that are zero most of the time: those to which only pairs contribute, beside the diagonal.
+void TangentAssembly::find_intermittent(const KeptEntries& kept, SparsePattern& pattern) const {
+  if (pairs_.empty()) return;
+  std::vector<char> lasts(static_cast<std::size_t>(pattern.entry_count()), 0);
+  const auto last = [&](int row, int column) { lasts[static_cast<std::size_t>(pattern.find(row, column))] = 1; };
   for (std::size_t m = 0; m < placements_.size(); ++m)
-    kept.for_each(m, [&](int entry, int row, int column) {
-      if (!kept.is_intermittent(m, entry)) last(row, column);
+    kept.for_each(m, [&](int, int row, int column) { last(row, column); });
+  for (const PairTangents& each : pairs_)
+    each.for_each_entry([&](int row, int column, bool lasting) {
+      if (lasting) last(row, column);
     });
   for (int i = 0; i < unknowns_.dofs(); ++i) last(i, i);
-  for (std::size_t k = 0; k < may_be_idle.size(); ++k)
-    if (may_be_idle[k])
+  for (std::size_t k = 0; k < may_be_idle_.size(); ++k)
+    if (may_be_idle_[k])
       last(unknowns_.first_multiplier() + static_cast<int>(k), unknowns_.first_multiplier() + static_cast<int>(k));
   std::vector<int> intermittent;
   for (std::size_t k = 0; k < lasts.size(); ++k)
     if (!lasts[k]) intermittent.push_back(static_cast<int>(k));
-  pattern_.set_intermittent(std::move(intermittent));
+  pattern.set_intermittent(std::move(intermittent));
 }
 
 void TangentAssembly::set_places(const KeptEntries& kept, std::size_t member) {
   std::vector<Targets::Target> targets;
-  const std::vector<int>& rows = pattern_.row();
+  const SparsePattern& pattern = pattern_->whole;
+  const std::vector<int>& rows = pattern.row();
   int place = -1;
   kept.for_each(member, [&](int entry, int row, int column) {
     // Consecutive rows are frequent.
-    const bool follows = place >= 0 && place + 1 < pattern_.column_start()[static_cast<std::size_t>(column) + 1] &&
-                         place >= pattern_.column_start()[static_cast<std::size_t>(column)] &&
+    const bool follows = place >= 0 && place + 1 < pattern.column_start()[static_cast<std::size_t>(column) + 1] &&
+                         place >= pattern.column_start()[static_cast<std::size_t>(column)] &&
                          rows[static_cast<std::size_t>(place) + 1] == row;
-    place = follows ? place + 1 : pattern_.find(row, column);
+    place = follows ? place + 1 : pattern.find(row, column);
     targets.push_back({entry, place});
   });
   placements_[member].set_places(kinematics_, unknowns_.slots()[member], targets);
@@ -190,11 +208,23 @@ TangentWorkspace& workspace(int rows) {
 
 }  // namespace
 
-void TangentAssembly::set_values(const State& state, const Environment& environment, const TangentWeights& weights,
+bool TangentAssembly::set_values(const State& state, const Environment& environment, const TangentWeights& weights,
+                                 const VectorX* dq, std::vector<double>& values) {
+  if (add_values(state, environment, weights, dq, values)) return false;
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    pairs_[k].choose(LocalState(state, unknowns_.slots()[pairs_member_[k]], environment));
+  build_pattern();
+  if (!add_values(state, environment, weights, dq, values))
+    throw std::logic_error("a component acts between two nodes that are no near pair of its own");
+  return true;
+}
+
+/// @returns false if a pair acts that has no entries
+bool TangentAssembly::add_values(const State& state, const Environment& environment, const TangentWeights& weights,
                                  const VectorX* dq, std::vector<double>& values) const {
   thread_local std::vector<Matrix3> step_tangent;
   thread_local std::vector<double> waiting_entries;
-  values.assign(static_cast<std::size_t>(pattern_.entry_count()), 0.0);
+  values.assign(static_cast<std::size_t>(pattern_->whole.entry_count()), 0.0);
   if (dq) {
     step_tangent.resize(state.nodes.size());
     for (const auto [node, begin] : kinematics_.all_free())
@@ -206,7 +236,7 @@ void TangentAssembly::set_values(const State& state, const Environment& environm
   const auto evaluate_costly = [&](std::size_t k) {
     const std::size_t m = work_.costly()[k];
     const LocalState local(state, unknowns_.slots()[m], environment);
-    TangentWorkspace& work = workspace(unknowns_.largest_local());
+    TangentWorkspace& work = workspace(largest_local_);
     if (weights.velocity_level && local.slots().multipliers > 0) work.probe = state;
     MemberTangent member(request, placements_[m], local, *model_.members()[m].component, work);
     const double* entries = placements_[m].contributes() ? member.reduced() : nullptr;
@@ -214,25 +244,33 @@ void TangentAssembly::set_values(const State& state, const Environment& environm
     placements_[m].lone.scatter(entries, values);
     placements_[m].targets.collect(entries, waiting.data() + waiting_[k]);
   };
-  work_.share(evaluate_costly, [&] { add_small(state, environment, request, values); });
+  bool complete = true;
+  work_.share(evaluate_costly, [&] { complete = add_small(state, environment, request, values); });
   for (std::size_t k = 0; k < work_.costly().size(); ++k)
     placements_[work_.costly()[k]].targets.scatter_collected(waiting.data() + waiting_[k], values);
+  return complete;
 }
 
-/// Adds the entries of all members that are not costly.
-void TangentAssembly::add_small(const State& state, const Environment& environment, const TangentRequest& request,
+/// Adds the entries of all members that are not costly. @returns false if a pair acts that has no entries
+bool TangentAssembly::add_small(const State& state, const Environment& environment, const TangentRequest& request,
                                 std::vector<double>& values) const {
-  TangentWorkspace& work = workspace(unknowns_.largest_local());
+  TangentWorkspace& work = workspace(largest_local_);
   if (request.weights.velocity_level) work.probe = state;
+  bool complete = true;
   for (const std::size_t m : small_) {
     const LocalToGlobal& placement = placements_[m];
     const LocalState local(state, unknowns_.slots()[m], environment);
+    if (const PairTangents* pairs = pairs_of(m)) {
+      if (!request.weights.velocity_level) complete = pairs->add(local, request, values) && complete;
+      continue;
+    }
     const Component& component = *model_.members()[m].component;
     if (placement.in_place && !request.weights.velocity_level)
       add_in_place(placement, local, request.weights, component, request.turns, values);
     else
       MemberTangent(request, placement, local, component, work).add_to(values);
   }
+  return complete;
 }
 
 }  // namespace bielle::mechanism

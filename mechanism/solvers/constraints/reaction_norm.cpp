@@ -41,12 +41,7 @@ SparsePattern make_pattern(const System& system) {
 }  // namespace
 
 ReactionNorm::ReactionNorm(const System& system) : system_(system), pattern_(make_pattern(system)), factors_(pattern_) {
-  from_.assign(2 * static_cast<std::size_t>(system.pattern().entry_count()), -1);
-  system.pattern().for_each([&](int k, int row, int column) {
-    if (!is_constraint(system, row, column)) return;
-    from_[2 * static_cast<std::size_t>(k)] = pattern_.find(number(system, row), column);
-    from_[2 * static_cast<std::size_t>(k) + 1] = pattern_.find(column, number(system, row));
-  });
+  find_entries();
   const int n = system.dofs();
   for (const Slots& slots : system.slots()) {
     norm_begin_.push_back(static_cast<int>(norm_places_.size()));
@@ -57,6 +52,17 @@ ReactionNorm::ReactionNorm(const System& system) : system_(system), pattern_(mak
   for (int i = 0; i < n; ++i) diagonal_.push_back(pattern_.find(i, i));
   values_.resize(static_cast<std::size_t>(pattern_.entry_count()));
   scale_.setOnes(pattern_.size());
+}
+
+/// Finds the entries of the system's pattern: those of constraints are the same in all its patterns.
+void ReactionNorm::find_entries() {
+  of_ = system_.shared_pattern();
+  from_.assign(2 * static_cast<std::size_t>(of_->whole.entry_count()), -1);
+  of_->whole.for_each([&](int k, int row, int column) {
+    if (!is_constraint(system_, row, column)) return;
+    from_[2 * static_cast<std::size_t>(k)] = pattern_.find(number(system_, row), column);
+    from_[2 * static_cast<std::size_t>(k) + 1] = pattern_.find(column, number(system_, row));
+  });
 }
 
 bool ReactionNorm::needed(const System& system, const State& state) {
@@ -71,9 +77,10 @@ void ReactionNorm::factor(const Environment& environment, const State& state) {
   for (int k = 0; k < static_cast<int>(state.idle.size()); ++k)
     if (system_.yields(k)) whole.idle[static_cast<std::size_t>(k)] = state.idle[static_cast<std::size_t>(k)];
   system_.tangent(whole, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, tangent_);
+  if (of_ != system_.shared_pattern()) find_entries();
   const double arm = redundancy_arm(system_, environment, whole);
   std::fill(values_.begin(), values_.end(), 0.0);
-  system_.pattern().for_each([&](int k, int row, int column) {
+  of_->whole.for_each([&](int k, int row, int column) {
     if (!is_constraint(system_, row, column)) return;
     for (const std::size_t side : {0U, 1U})
       values_[static_cast<std::size_t>(from_[2 * static_cast<std::size_t>(k) + side])] =
@@ -118,7 +125,7 @@ VectorX ReactionNorm::smallest(const VectorX& multiplier) const {
   const int n = system_.dofs(), m = system_.multipliers();
   VectorX f = VectorX::Zero(n), Bu(m), u = VectorX::Zero(n), solution(n + m);
   const auto for_each_constraint = [&](const auto& act) {
-    system_.pattern().for_each([&](int k, int row, int column) {
+    of_->whole.for_each([&](int k, int row, int column) {
       if (is_constraint(system_, row, column))
         act(number(system_, row) - n, column, tangent_[static_cast<std::size_t>(k)]);
     });

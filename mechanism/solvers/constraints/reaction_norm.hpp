@@ -31,14 +31,16 @@ class ReactionNorm {
   std::vector<int> not_unique(const Environment& environment, const State& state);
 
  private:
+  void find_entries();
   void factor(const Environment& environment, const State& state);
   VectorX smallest(const VectorX& multiplier) const;
 
   const System& system_;
   SparsePattern pattern_;
   SparseLU factors_;
-  std::vector<int> from_;        ///< places in this matrix of each entry of the system's pattern, -1 if it has none
-  std::vector<int> norm_begin_;  ///< for each member, first index in the list of places of its H
+  std::shared_ptr<const TangentPattern> of_;  ///< the system's pattern
+  std::vector<int> from_;                     ///< places in this matrix of each of its entries, -1 if it has none
+  std::vector<int> norm_begin_;               ///< for each member, first index in the list of places of its H
   std::vector<int> norm_places_;
   std::vector<int> diagonal_;  ///< places of D
   std::vector<double> tangent_, values_;

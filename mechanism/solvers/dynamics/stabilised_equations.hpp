@@ -11,6 +11,8 @@
 // Math. 129 (2015) 149 (with generalised-alpha).
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "mechanism/solvers/dynamics/step_equations.hpp"
@@ -21,6 +23,7 @@ namespace bielle::mechanism {
 class StabilisedEquations final : public StepEquations {
  public:
   explicit StabilisedEquations(const System& system);
+  ~StabilisedEquations() override;
 
   int size() const override { return system_.size() + system_.dofs() + system_.multipliers(); }
   /// Computes B_n and W at the start of a step. Dofs without mass get a minimum mass.
@@ -38,26 +41,17 @@ class StabilisedEquations final : public StepEquations {
   void choose_pivots_anew() override;
 
  private:
-  /// An entry of the system's pattern with its places in the large one, -1 if it has none.
-  struct Places {
-    int tangent = -1;                           ///< place in J
-    int position = -1;                          ///< place in J_q
-    int velocity = -1, velocity_position = -1;  ///< constraint rows: places in J_v and N T
-    int constraint = -1;                        ///< constraint rows: place in -B_n^T
-  };
+  struct LargeMatrix;
   bool holds(int multiplier) const { return active_[static_cast<std::size_t>(multiplier)]; }
   void put_values();
 
   std::vector<bool> holonomic_;  ///< multipliers of position constraints that are not set aside permanently
   std::vector<bool> active_;     ///< those of them in the equations of the present step
-  SparsePattern pattern_;
-  std::vector<Places> places_;                    ///< for each entry of the system's pattern
-  std::vector<int> weight_places_, idle_places_;  ///< diagonals of W, and of mu (used if it has no constraint)
-  CondensedPattern condensed_;
-  CondensedLU factors_;
+  std::vector<std::pair<int, int>> constraint_entries_;  ///< multiplier and dof of each entry of B_n, by columns
+  std::unique_ptr<LargeMatrix> large_;
   VectorX eta_, mu_;  ///< values of the trial
   VectorX weight_, scale_, judged_;
-  std::vector<double> constraint_;  ///< B_n, in the order of the system's pattern
+  std::vector<double> constraint_;  ///< B_n, in the order of its entries
   std::vector<double> position_, velocity_, velocity_position_, values_;
 };
 

@@ -17,8 +17,10 @@ constexpr double solution_per_equation = 3, solution_per_entry = 0.85, solution_
 
 StepCosts count_costs(const System& system, int equations, int tangents, const FactorCost& factors) {
   const EvaluationSize& size = system.evaluation_size();
+  // Entries of bodies that are near to each other are not counted: they depend on earlier states.
+  const double lasting = system.pattern().entry_count() - static_cast<double>(system.pattern().intermittent().size());
   const double tangent = tangent_per_block_row * size.block_rows + tangent_per_dense_entry * size.dense_entries +
-                         tangent_per_entry * system.pattern().entry_count();
+                         tangent_per_entry * lasting;
   StepCosts costs;
   costs.evaluation = residual_per_block_row * size.block_rows + residual_per_dense_entry * size.dense_entries +
                      residual_per_equation * equations;

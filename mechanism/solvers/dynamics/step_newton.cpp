@@ -25,6 +25,7 @@ StepNewton::StepNewton(const System& system, const Environment& environment, std
 }
 
 void StepNewton::begin_anew() {
+  system_.forget_pairs();
   equations_->choose_pivots_anew();
   policy_.begin_anew();
   reactions_.begin_anew();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "mechanism/model/coupled_pairs.hpp"
 #include "mechanism/solvers/linearised/variations.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 
@@ -81,6 +82,26 @@ double mean_energy(const MatrixX& A, const Eigen::VectorXcd& x) {
   return 0.25 * (real.dot(A * real) + imag.dot(A * imag));
 }
 
+/// Adds up the potential energies of pairs of a member's nodes, in each mode.
+class PairEnergies final : public PairDerivatives {
+ public:
+  /// @param u  variations of the member's positions in each mode
+  explicit PairEnergies(const std::vector<Eigen::VectorXcd>& u)
+      : u_(u), sums_(VectorX::Zero(static_cast<Eigen::Index>(u.size()))) {}
+  const VectorX& sums() const { return sums_; }
+  void add(int a, int b, const Vector12& /*r*/, const Matrix12& K, const Matrix12& /*C*/) override {
+    Eigen::VectorXcd both(12);
+    for (std::size_t k = 0; k < u_.size(); ++k) {
+      both << u_[k].segment<6>(6 * a), u_[k].segment<6>(6 * b);
+      sums_[static_cast<Eigen::Index>(k)] += mean_energy(K, both);
+    }
+  }
+
+ private:
+  const std::vector<Eigen::VectorXcd>& u_;
+  VectorX sums_;
+};
+
 }  // namespace
 
 MemberEnergies member_energies(const System& system, const Environment& environment, const State& state,
@@ -104,6 +125,17 @@ MemberEnergies member_energies(const System& system, const Environment& environm
     if (declaration.passive || positions == 0) continue;
     const bool constrains = slots.multipliers > 0;
     if (!declaration.stiffness && !declaration.mass && !constrains) continue;
+    if (const auto* pairs = dynamic_cast<const CoupledPairs*>(&component)) {
+      std::vector<Eigen::VectorXcd> u;
+      for (std::size_t k = 0; k < modes.size(); ++k) {
+        u.push_back(member_variation(system, slots, modes[k], nodes[k]).u);
+        if (modes[k].kind == ModeKind::rigid) u.back().setZero();
+      }
+      PairEnergies sum(u);
+      pairs->add_pair_tangents(LocalState(state, slots, environment), sum);
+      energies.potential.row(m) = sum.sums().transpose();
+      continue;
+    }
     MatrixX K = MatrixX::Zero(size, size), C = MatrixX::Zero(size, size), M = MatrixX::Zero(size, size);
     LocalTangent tangent{LocalMatrix(K),      LocalMatrix(C),  LocalMatrix(M), declaration.stiffness || constrains,
                          declaration.damping, declaration.mass};

@@ -25,11 +25,11 @@ double model_extent(const State& state) {
 }
 
 VectorX constraint_sizes(const System& system, const Environment& environment, const State& state) {
-  const SparsePattern& pattern = system.pattern();
   const int first = system.size() - system.multipliers();
   const double length = model_length(state);
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{0, 0, 0, 0, 1, true}, nullptr, values);
+  const SparsePattern& pattern = system.pattern();
   VectorX sizes = VectorX::Zero(system.multipliers());
   for (int column = 0; column < first; ++column)
     for (int k = pattern.column_start()[static_cast<std::size_t>(column)];

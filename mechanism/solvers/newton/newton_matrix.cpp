@@ -7,21 +7,32 @@
 
 namespace bielle::mechanism {
 
-NewtonMatrix::NewtonMatrix(const System& system) : system_(system), factors_(system.condensed_pattern()) {
-  const SparsePattern& pattern = system.pattern();
-  for (int column = 0; column < pattern.size(); ++column) diagonal_.push_back(pattern.find(column, column));
+NewtonMatrix::NewtonMatrix(const System& system) : system_(system) {
+  take_pattern();
+  scales_.setOnes(system.size());
+}
+
+/// Finds the diagonal in the system's pattern.
+void NewtonMatrix::take_pattern() {
+  pattern_ = system_.shared_pattern();
+  diagonal_.clear();
+  for (std::vector<int>& places : diagonal_by_kind_) places.clear();
+  for (int i = 0; i < system_.size(); ++i) diagonal_.push_back(pattern_->whole.find(i, i));
   for (std::size_t k = 0; k < diagonal_by_kind_.size(); ++k)
-    for (int i = 0; i < system.dofs(); ++i)
-      if (const int place = diagonal_[static_cast<std::size_t>(i)]; place >= 0 && system.kind(i) == scaling_kinds[k])
+    for (int i = 0; i < system_.dofs(); ++i)
+      if (const int place = diagonal_[static_cast<std::size_t>(i)]; place >= 0 && system_.kind(i) == scaling_kinds[k])
         diagonal_by_kind_[k].push_back(place);
-  scales_.setOnes(pattern.size());
 }
 
 void NewtonMatrix::assemble(const State& state, const Environment& environment, const TangentWeights& weights,
                             const VectorX* dq, const VectorX* extra) {
+  const bool algebraic = weights.stiffness != 1 && !system_.algebraic().empty();
+  // The stiffness comes first: no later tangent at the same state has entries that it lacks.
+  if (algebraic) system_.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, stiffness_);
   system_.tangent(state, environment, weights, dq, values_);
   weights_ = weights;
-  if (weights.stiffness != 1 && !system_.algebraic().empty()) take_algebraic_columns(state, environment);
+  if (system_.shared_pattern() != pattern_) take_pattern();
+  if (algebraic) take_algebraic_columns();
   if (extra)
     for (int i = 0; i < system_.dofs(); ++i)
       if (const int place = diagonal_[static_cast<std::size_t>(i)]; place >= 0)
@@ -37,10 +48,9 @@ void NewtonMatrix::assemble(const State& state, const Environment& environment, 
   scales_.tail(system_.multipliers()).setConstant(scale_);
 }
 
-void NewtonMatrix::take_algebraic_columns(const State& state, const Environment& environment) {
-  system_.tangent(state, environment, TangentWeights{1, 0, 0, 0, 0}, nullptr, stiffness_);
+void NewtonMatrix::take_algebraic_columns() {
   for (const int k : system_.algebraic()) {
-    const auto column = system_.pattern().column_start().begin() + system_.dofs() + k;
+    const auto column = pattern_->whole.column_start().begin() + system_.dofs() + k;
     std::copy(stiffness_.begin() + column[0], stiffness_.begin() + column[1], values_.begin() + column[0]);
   }
 }
@@ -48,7 +58,12 @@ void NewtonMatrix::take_algebraic_columns(const State& state, const Environment&
 bool NewtonMatrix::try_factor(const State& state, const Environment& environment, const TangentWeights& weights,
                               const VectorX* dq, const VectorX* extra) {
   assemble(state, environment, weights, dq, extra);
-  return factors_.factor(values_, scales_, system_.workers()) == FactorStatus::good;
+  if (!factors_ || factored_pattern_ != pattern_) {
+    factors_.reset();  // its pattern must outlive it
+    factored_pattern_ = pattern_;
+    factors_.emplace(factored_pattern_->condensed);
+  }
+  return factors_->factor(values_, scales_, system_.workers()) == FactorStatus::good;
 }
 
 void NewtonMatrix::factor(const State& state, const Environment& environment, const TangentWeights& weights,
@@ -56,10 +71,10 @@ void NewtonMatrix::factor(const State& state, const Environment& environment, co
   if (!try_factor(state, environment, weights, dq)) throw_singular(state.time);
 }
 
-bool NewtonMatrix::nearly_singular() const { return factors_.reciprocal_condition() < 1e-13; }
+bool NewtonMatrix::nearly_singular() const { return factors_->reciprocal_condition() < 1e-13; }
 
 void NewtonMatrix::throw_singular(double time) const {
-  const int column = factors_.singular_column();
+  const int column = factors_ ? factors_->singular_column() : -1;
   const std::string what = column >= 0 ? system_.unknown_name(column) : "an unknown";
   const char* why = "it has no mass, or nothing holds it, or constraints next to it are redundant";
   if (column >= system_.size() - system_.multipliers())
@@ -71,11 +86,11 @@ void NewtonMatrix::throw_singular(double time) const {
 
 void NewtonMatrix::solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const {
   delta = -r;
-  factors_.solve(delta);
+  factors_->solve(delta);
 }
 
 void NewtonMatrix::row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const {
-  const SparsePattern& pattern = system_.pattern();
+  const SparsePattern& pattern = pattern_->whole;
   sums.setZero();
   for (int column = 0; column < pattern.size(); ++column)
     for (int k = pattern.column_start()[static_cast<std::size_t>(column)];

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "mechanism/system/system.hpp"
@@ -27,23 +29,26 @@ class NewtonMatrix {
   void assemble(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
                 const VectorX* extra = nullptr);
   const TangentWeights& weights() const { return weights_; }     ///< weights of the last tangent
-  const std::vector<double>& values() const { return values_; }  ///< last tangent, in the system's pattern
+  const std::vector<double>& values() const { return values_; }  ///< last tangent, in the order of `pattern`
+  /// Pattern of the last tangent: that of the system then.
+  const std::shared_ptr<const TangentPattern>& pattern() const { return pattern_; }
   /// Does the same as `factor`, with `extra` added to the diagonal of the dofs; returns false if the matrix is
   /// singular.
   bool try_factor(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
                   const VectorX* extra = nullptr);
   /// Discards the pivots: the next factorisation chooses new ones.
-  void choose_pivots_anew() { factors_.forget(); }
+  void choose_pivots_anew() { factors_.reset(); }
   /// delta = -J^-1 r. @param r,delta (size)
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const;
 
   /// Whether the last factors have a pivot that is only rounding. The factors must exist.
   bool nearly_singular() const;
   /// Unknown at which the last factorisation found no pivot, or -1.
-  int singular_unknown() const { return factors_.singular_column(); }
-  FactorCost factor_cost() const { return factors_.cost(); }            ///< cost of the last successful factorisation
-  double scale() const { return scale_; }                               ///< k
-  int determinant_sign() const { return factors_.determinant_sign(); }  ///< for the last (scaled) tangent
+  int singular_unknown() const { return factors_->singular_column(); }
+  /// Cost of the last successful factorisation.
+  FactorCost factor_cost() const { return factors_ ? factors_->cost() : FactorCost{}; }
+  double scale() const { return scale_; }                                ///< k
+  int determinant_sign() const { return factors_->determinant_sign(); }  ///< for the last (scaled) tangent
   /// Computes the sums over columns |J_ij| s_j of the last (unscaled) tangent: the effect of rounding of the unknowns
   /// on equation i.
   void row_sums(const Eigen::Ref<const VectorX>& unknown_scale, Eigen::Ref<VectorX> sums) const;
@@ -52,10 +57,12 @@ class NewtonMatrix {
   [[noreturn]] void throw_singular(double time) const;
 
  private:
-  void take_algebraic_columns(const State& state, const Environment& environment);
+  void take_pattern();
+  void take_algebraic_columns();
 
   const System& system_;
-  CondensedLU factors_;
+  std::shared_ptr<const TangentPattern> pattern_, factored_pattern_;  ///< those of the tangent and of the factors
+  std::optional<CondensedLU> factors_;
   std::vector<double> values_, stiffness_;
   TangentWeights weights_;
   std::vector<int> diagonal_;  ///< places of the diagonal among the values, -1 where absent

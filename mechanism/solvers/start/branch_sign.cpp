@@ -5,8 +5,9 @@
 namespace bielle::mechanism {
 
 void BranchSign::choose_rows(const State& state) {
-  if (chosen_ && idle_ == state.idle) return;
+  if (chosen_ && idle_ == state.idle && of_ == system_.shared_pattern()) return;
   chosen_ = true;
+  of_ = system_.shared_pattern();
   idle_ = state.idle;
   factors_.reset();
   pattern_.reset();

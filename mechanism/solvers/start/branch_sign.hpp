@@ -28,9 +28,10 @@ class BranchSign {
   void choose_rows(const State& state);
 
   const System& system_;
-  std::vector<char> idle_;                  ///< `State::idle` when the pattern was created
-  std::vector<int> places_;                 ///< places of B in the system's pattern, in the order of its own entries
-  std::unique_ptr<SparsePattern> pattern_;  ///< nullptr if B is not square
+  std::vector<char> idle_;                    ///< `State::idle` when the pattern was created
+  std::shared_ptr<const TangentPattern> of_;  ///< the system's pattern then
+  std::vector<int> places_;                   ///< places of B in the system's pattern, in the order of its own entries
+  std::unique_ptr<SparsePattern> pattern_;    ///< nullptr if B is not square
   std::unique_ptr<SparseLU> factors_;
   std::vector<double> tangent_, values_;
   bool chosen_ = false;

@@ -72,6 +72,11 @@ State ClosingEquations::at_rest(const State& state) const {
 
 void ClosingEquations::make_pattern(const State& state) {
   const int size = system_.size(), whole = size + static_cast<int>(valued_.size());
+  of_ = system_.shared_pattern();
+  factors_.reset();
+  condensed_.reset();
+  from_system_.clear();
+  diagonal_.clear();
   std::vector<std::pair<int, int>> entries;
   entries.reserve(static_cast<std::size_t>(system_.pattern().entry_count() + whole));
   system_.pattern().for_each([&](int, int row, int column) { entries.emplace_back(row, column); });
@@ -160,6 +165,7 @@ void ClosingEquations::assemble(const State& state, const VectorX* forces) {
     for (int k = 0; k < system_.multipliers(); ++k)
       if (takes_part(k)) still.multiplier[k] = (*forces)[k];
   system_.tangent(still, unloaded_, closing_weights, nullptr, tangent_);
+  if (of_ != system_.shared_pattern()) make_pattern(state);
   if (bare_) {
     elastic_.head(system_.dofs()) = drawn_.head(system_.dofs());
     system_.pattern().for_each([&](int place, int row, int column) {

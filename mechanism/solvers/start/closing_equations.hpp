@@ -96,6 +96,7 @@ class ClosingEquations {
   double half_extent_ = 1, stiffness_ = 1;
   VectorX sizes_, weights_, drawn_;
 
+  std::shared_ptr<const TangentPattern> of_;  ///< the system's pattern when this one was made
   SparsePattern pattern_;
   std::unique_ptr<CondensedPattern> condensed_;
   std::unique_ptr<CondensedLU> factors_;

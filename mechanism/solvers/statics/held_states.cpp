@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -39,6 +40,7 @@ std::optional<Answers> calc_answers(const System& system, const Environment& env
   std::fill(state.held.begin(), state.held.end(), char{0});
   std::vector<double> values;
   system.tangent(state, environment, TangentWeights{1, 0, 0, 0, 1, true}, nullptr, values);
+  const std::shared_ptr<const TangentPattern> pattern = system.shared_pattern();
   for (const int k : some) state.held[static_cast<std::size_t>(k)] = 1;
   NewtonMatrix linear(system);
   const double inertia = some_inertia(system, environment, state, linear);
@@ -51,7 +53,7 @@ std::optional<Answers> calc_answers(const System& system, const Environment& env
     r.setZero();
     r[first + some[static_cast<std::size_t>(j)]] = -1;
     linear.solve(r, answer);
-    system.pattern().for_each([&](int place, int row, int column) {
+    pattern->whole.for_each([&](int place, int row, int column) {
       if (row < first || row >= first + system.first_orders()) return;
       const Eigen::Index i = row_of[static_cast<std::size_t>(row - first)];
       if (i < 0) return;

@@ -75,7 +75,7 @@ Stability::Stability(const System& system, const VectorX* held)
 /// Extracts the parts of the tangent. @returns no value if forces depend on first-order unknowns
 std::optional<Stability::Parts> Stability::parts() const {
   const std::vector<double>& values = linear_.values();
-  const SparsePattern& pattern = system_.pattern();
+  const SparsePattern& pattern = linear_.pattern()->whole;
   const int dofs = system_.dofs(), first = system_.size() - system_.multipliers();
   std::vector<int> number(static_cast<std::size_t>(system_.multipliers()), -1);
   int constraints = 0;
