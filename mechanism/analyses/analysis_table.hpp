@@ -15,7 +15,7 @@ using AnalysisReader = std::unique_ptr<Analysis>(const YamlValue& entry, const M
 struct AnalysisType {
   const char* name;  ///< value of the entry's `type`
   AnalysisReader* read;
-  const KeyTable& (*keys)();  ///< what an entry may contain
+  const KeyTable& (*keys)();  ///< keys that an entry may contain
 };
 
 /// Returns the key that names the type of an analysis.

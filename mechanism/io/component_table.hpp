@@ -13,7 +13,7 @@ struct ComponentType {
   Section section;   ///< one of elements, joints, drives, loads or states
   const char* name;  ///< the entry's `type`; drives, loads and states have one type each and no `type` key
   ComponentReader read;
-  const KeyTable& (*keys)();  ///< what an entry may contain
+  const KeyTable& (*keys)();  ///< keys that an entry may contain
 };
 
 const std::vector<ComponentType>& component_table();

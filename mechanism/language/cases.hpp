@@ -13,7 +13,7 @@ namespace bielle::mechanism {
 std::vector<std::string> case_names(const Tree& root, const std::string& file);
 
 /// Puts the parameters, analyses and output of a case in place of the file's.
-/// @param keys    of a mechanism file
+/// @param keys    keys of a mechanism file
 /// @param chosen  name of the case; empty: none
 /// @returns the tree without `cases`
 Tree with_case(const Tree& root, const std::string& file, const KeyTable& keys, const std::string& chosen);

@@ -8,7 +8,7 @@
 
 namespace bielle::mechanism {
 
-/// @param name   of the entry, with its numbers
+/// @param name   name of the entry, with its numbers
 /// @param value  without `if` and `repeat`
 /// @param scope  the one of the section, or one that knows the numbers of this repetition
 using UseEntry = std::function<void(const std::string& name, const Tree& value, const Scope& scope)>;

@@ -18,7 +18,7 @@ class EntryWriter {
 
   EntryWriter(const Scope& scope, const MakePoint& make_point) : scope_(scope), make_point_(make_point) {}
 
-  /// @param path  of the value in the model, for messages
+  /// @param path  path of the value in the model, for messages
   Tree write(const Tree& value, const KeyForms& forms, const std::string& path) const;
   Tree write_map(const YamlNode& map, const KeyTable& table, const std::string& path) const;
 

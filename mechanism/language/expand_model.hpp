@@ -26,9 +26,9 @@ struct ExpandedModel {
 
 /// Expands `include`, `cases`, `if`, `repeat`, `parts` and points of bodies. The time grows with the number of entries
 /// that result.
-/// @param root  of the file, as it is written
+/// @param root  tree of the file, as it is written
 /// @param file  its name
-/// @param keys  of a mechanism file: the tables tell which texts are names, formulas and vectors
+/// @param keys  keys of a mechanism file: the tables tell which texts are names, formulas and vectors
 /// @throws InputError with the file and the line in which the error stands, and the path in the model
 ExpandedModel expand_model(const Tree& root, const std::string& file, const KeyTable& keys,
                            const ModelOptions& options);

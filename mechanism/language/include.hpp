@@ -12,7 +12,7 @@ namespace bielle::mechanism {
 /// Entries of a section are put together, those of included files first; files are read in their order, each once. A
 /// parameter may be given again: the including file, or the file that is included later, has the last word. Any other
 /// key or entry must not stand in two files.
-/// @param root  of the file
+/// @param root  tree of the file
 /// @param file  its name, relative to which the names of included files are
 /// @throws InputError for a file that is missing or includes itself, and for an entry that two files have
 Tree with_includes(const Tree& root, const std::string& file);

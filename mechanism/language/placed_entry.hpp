@@ -20,7 +20,7 @@ void check_placed(const YamlNode& entry, const std::string& section, const Scope
 
 /// Adds the axes of a joint, and the orientation of a beam, that would follow from the inertial axes.
 /// @param placed  the entry in the model
-/// @param table   of the entry
+/// @param table   table of the entry
 Tree with_explicit_axes(const Tree& placed, const KeyTable& table, const Scope& scope, const NodeFrame& node_frame,
                         const std::string& path);
 

@@ -12,7 +12,7 @@ namespace bielle::mechanism {
 /// are reflected like those of the part. Vectors of a translation (`polar`) are reflected; those of a rotation
 /// (`axial`) as well, and turned round, so that angles, angular velocities and moments about them keep their signs.
 struct Placement {
-  Frame frame;        ///< of the part's axes, in inertial ones
+  Frame frame;        ///< frame of the part's axes, in inertial ones
   int mirrored = -1;  ///< axis that is normal to the plane of the reflection; -1: none
 
   bool is_identity() const;

@@ -14,7 +14,7 @@ namespace bielle::mechanism {
 
 class WrittenModel {
  public:
-  /// @param parameters  of the model, which outlive this
+  /// @param parameters  parameters of the model, which outlive this
   WrittenModel(std::string main_file, const Parameters& parameters);
 
   /// Adds an entry. @throws InputError if the section has one of this name

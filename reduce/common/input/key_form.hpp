@@ -48,7 +48,7 @@ struct KeyForm {
   bool reads_state = false;           ///< a formula that may contain measures
   std::string of;                     ///< "a direction": a word with its article; "node": a name; "STL": a file
   std::size_t fewest = 0, most_items = std::numeric_limits<std::size_t>::max();  ///< number of items of a list
-  std::vector<KeyForms> items;  ///< of a list: forms of all items, or of each one; of entries: forms of their values
+  std::vector<KeyForms> items;  ///< forms of all items of a list, or of each one; forms of the values of entries
   const KeyTable& (*table)() = nullptr;
 
   // Ranges, which return the form so that they can be chained.
@@ -105,7 +105,7 @@ KeyForm direction();
 KeyForm matrix(std::size_t rows, std::size_t columns, std::string unit);
 /// A map with the keys of a table.
 KeyForm nested(const KeyTable& (*table)());
-/// @param of  what a key names: "direction", "node"
+/// @param of  the kind of thing that a key names: "direction", "node"
 KeyForm entries(std::string of, KeyForms value);
 KeyForm null();
 

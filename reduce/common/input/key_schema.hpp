@@ -8,7 +8,7 @@
 
 namespace bielle {
 
-/// What files may contain in addition to the tables.
+/// Keys and maps that files may contain in addition to the tables.
 struct SchemaAdditions {
   std::vector<Key> entry_keys;  ///< keys that every named entry of a section may have
   std::map<std::string, const KeyTable& (*)()> in_place_of_names;  ///< maps in place of names of things: "node"

@@ -86,7 +86,7 @@ class YamlValue {
   Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) const;
   /// Returns a formula of the parameters and the given variables (e.g. {"t"}).
   Expression expression(const std::vector<std::string>& variables) const;
-  Expression expression() const;  ///< of the variables of the value's form
+  Expression expression() const;  ///< a formula of the variables of the value's form
   /// Returns the text of a number or formula with its references; `variables` and the parameters are plain names.
   FormulaText formula_text(const std::vector<std::string>& variables, const std::vector<std::string>& functions) const;
   /// Returns the formula of such a text; its arguments are the variables, then the references.
@@ -128,8 +128,8 @@ class YamlValue {
   std::shared_ptr<const YamlNode> node_;
   std::string path_;
   int line_ = 0;
-  const KeyTable* table_ = nullptr;  ///< of a bound map
-  const KeyForms* forms_ = nullptr;  ///< that the value may have; null if they are not known
+  const KeyTable* table_ = nullptr;  ///< table of a bound map
+  const KeyForms* forms_ = nullptr;  ///< forms that the value may have; null if they are not known
 };
 
 }  // namespace bielle
