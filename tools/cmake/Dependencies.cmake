@@ -51,6 +51,7 @@ bielle_find_package(CLI11 "CLI11" libcli11-dev)
 bielle_find_package(muparser "muParser" libmuparser-dev)
 bielle_find_pkgconfig(yaml yaml-0.1 "libyaml" libyaml-dev)
 bielle_find_pkgconfig(udunits udunits "UDUNITS" libudunits2-dev)
+bielle_find_package(nlohmann_json "nlohmann JSON" nlohmann-json3-dev)
 # If an MPI build of HDF5 is installed as well, plain `hdf5` may be the parallel one: name the serial one.
 bielle_find_pkgconfig(hdf5_shared hdf5-serial "HDF5, serial" libhdf5-dev)
 # Debian's shared HDF5 loads curl and, with it, thirty libraries: half of the start of a program. Programs link the
