@@ -178,10 +178,6 @@ std::vector<std::pair<int, int>> pairs_of(const ReadShapes& read, const YamlValu
   return pairs;
 }
 
-}  // namespace
-
-namespace {
-
 const KeyTable& contact_friction_keys() {
   static const KeyTable table{"the friction of a contact", "Friction of the surfaces that touch.",
                               keys_of_friction_law({"coulomb", "lugre"})};

@@ -14,18 +14,24 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Returns the table of the entries of a section: a variant for each type.
-KeyTable by_type(Section section, const char* of, const char* about) {
+/// Returns a table with a variant for each type. @param of_word  the word `type`: "a type of analysis"
+template <class Types, class Is>
+KeyTable by_type(const Types& types, const Is& is, const char* of, const char* about, const std::string& of_word) {
   KeyTable table{of, about, {}, {}};
   std::vector<std::string> names;
-  for (const ComponentType& type : component_table())
-    if (type.section == section) {
+  for (const auto& type : types)
+    if (is(type)) {
       names.emplace_back(type.name);
       table.variants.push_back({"type", type.name, type.keys});
     }
-  table.keys = {{"type", keys::word(names, std::string("a type of the ") + section_name(section)), keys::required,
-                 "The type of the entry."}};
+  table.keys = {{"type", keys::word(names, of_word), keys::required, "The type of the entry."}};
   return table;
+}
+
+/// Returns the table of the entries of a section.
+KeyTable of_section(Section section, const char* of, const char* about) {
+  const auto is = [=](const ComponentType& type) { return type.section == section; };
+  return by_type(component_table(), is, of, about, std::string("a type of the ") + section_name(section));
 }
 
 /// Returns the table of the only type of a section.
@@ -38,27 +44,20 @@ const KeyTable& (*keys_of(Section section))() {
 }  // namespace
 
 const KeyTable& element_keys() {
-  static const KeyTable table = by_type(Section::elements, "an element", "A body, a spring, a field or an actuator.");
+  static const KeyTable table =
+      of_section(Section::elements, "an element", "A body, a spring, a field or an actuator.");
   return table;
 }
 
 const KeyTable& joint_keys() {
-  static const KeyTable table = by_type(Section::joints, "a joint", "A connection of nodes, or of joints.");
+  static const KeyTable table = of_section(Section::joints, "a joint", "A connection of nodes, or of joints.");
   return table;
 }
 
 const KeyTable& analysis_keys() {
-  static const KeyTable table = [] {
-    KeyTable all{
-        "an analysis", "A computation; analyses follow one another from the state that the last one left.", {}, {}};
-    std::vector<std::string> names;
-    for (const AnalysisType& type : analysis_table()) {
-      names.emplace_back(type.name);
-      all.variants.push_back({"type", type.name, type.keys});
-    }
-    all.keys = {{"type", keys::word(names, "a type of analysis"), keys::required, "The type of analysis."}};
-    return all;
-  }();
+  static const KeyTable table = by_type(
+      analysis_table(), [](const AnalysisType&) { return true; }, "an analysis",
+      "A computation; analyses follow one another from the state that the last one left.", "a type of analysis");
   return table;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mechanism/math/axes_along.hpp"
 #include "mechanism/reading/names.hpp"
 
 namespace bielle::mechanism {
@@ -63,10 +64,8 @@ std::array<Matrix3, 2> read_axes(const YamlValue& entry, const Frame& first, con
     const OnNodes given = read_directions(*second_axis, first, second);
     for (std::size_t k = 0; k < 2; ++k) x[k] = normal_part(given[k], z[k], *second_axis);
   } else {
-    // x is the inertial axis that is most normal to z.
-    Eigen::Index least = 0;
-    z[0].cwiseAbs().minCoeff(&least);
-    x[0] = Vector3::Unit(least) - z[0] * z[0][least];
+    const Vector3 along = most_normal_axis(z[0]);
+    x[0] = along - z[0] * z[0].dot(along);
     x[1] = z[0] == z[1] ? x[0] : turned_along(x[0], z[0], z[1]);
   }
   return {axes_of(x[0], z[0]), axes_of(x[1], z[1])};

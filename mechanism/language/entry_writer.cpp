@@ -13,16 +13,6 @@ namespace {
 
 using Kind = KeyForm::Kind;
 
-const KeyForm* form_of(const KeyForms& forms, Kind kind) {
-  const auto found = std::find_if(forms.begin(), forms.end(), [&](const KeyForm& form) { return form.kind == kind; });
-  return found == forms.end() ? nullptr : &*found;
-}
-
-const KeyForm* numeric_form(const KeyForms& forms) {
-  const auto found = std::find_if(forms.begin(), forms.end(), [](const KeyForm& form) { return form.is_numeric(); });
-  return found == forms.end() ? nullptr : &*found;
-}
-
 bool has_all_keys(const KeyTable& table, const YamlNode& map) {
   return std::all_of(map.pairs.begin(), map.pairs.end(),
                      [&](const YamlNode::Pair& pair) { return table.find(pair.key->scalar) != nullptr; });
@@ -123,7 +113,8 @@ Tree EntryWriter::write_map(const YamlNode& map, const KeyTable& table, const st
     pairs.push_back({pair.key, std::move(value)});
   }
   Tree written = make_map(std::move(pairs), map);
-  return scope_.placement.is_identity() ? written : place_frame(*written, table);
+  const bool placed = !scope_.placement.is_identity() && table.find("matrix");
+  return placed ? place_frame(*written, table) : written;
 }
 
 Tree EntryWriter::write_entries(const YamlNode& map, const KeyForm& form, const std::string& path) const {
@@ -190,8 +181,7 @@ Tree EntryWriter::mirrored_inertia(const Tree& value) const {
 }
 
 Tree EntryWriter::write_list(const YamlNode& list, const KeyForms& forms, const std::string& path) const {
-  const auto fitting = std::find_if(forms.begin(), forms.end(), [&](const KeyForm& form) { return form.fits(list); });
-  const KeyForm* form = fitting != forms.end() ? &*fitting : form_of(forms, Kind::list);
+  const KeyForm* form = form_of_list(forms, list);
   std::vector<Tree> items;
   static const KeyForms unknown;
   for (std::size_t k = 0; k < list.items.size(); ++k) {
@@ -240,7 +230,6 @@ Tree EntryWriter::place_vector(const Tree& list, const KeyForm& form, const std:
 
 /// Gives an entry with an orientation that of its place.
 Tree EntryWriter::place_frame(const YamlNode& map, const KeyTable& table) const {
-  if (!table.find("matrix")) return make_map(map.pairs, map);
   const bool inertial = has_inertial_orientation(table) && !is_relative_frame(table, map);
   Pairs orientation, others;
   for (const YamlNode::Pair& pair : map.pairs)

@@ -18,27 +18,22 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Sections whose entries have names.
-const std::vector<std::string> sections = {"nodes", "points", "elements", "joints", "drives",
-                                           "loads", "states", "measures", "inputs", "events"};
-/// Those whose names are words in formulas.
+/// Sections whose names are words in formulas.
 const std::vector<std::string> measure_sections = {"states", "measures", "inputs", "events"};
 /// Sections of a file that a part does not bring along: they belong to the model in which it is placed.
 const std::vector<std::string> sections_of_model = {"mechanism", "gravity", "analysis", "output", "cases"};
 
 /// Returns the forms of the entries of a key; null if its value has none.
 const KeyForms* entry_forms(const KeyTable& table, const std::string& key) {
-  if (const Key* found = table.find(key))
-    for (const KeyForm& form : found->forms)
-      if (form.kind == KeyForm::Kind::entries) return &form.items.front();
-  return nullptr;
+  const Key* found = table.find(key);
+  const KeyForm* form = found ? form_of(found->forms, KeyForm::Kind::entries) : nullptr;
+  return form ? &form->items.front() : nullptr;
 }
 
 /// Returns the table of a map among forms; null if there is none.
 const KeyTable* table_of_entry(const KeyForms& forms, const YamlNode& map) {
-  const auto found =
-      std::find_if(forms.begin(), forms.end(), [](const KeyForm& form) { return form.table != nullptr; });
-  return found == forms.end() ? nullptr : &found->table().of_map(map);
+  const KeyForm* form = form_of(forms, KeyForm::Kind::table);
+  return form ? &form->table().of_map(map) : nullptr;
 }
 
 class Expander {
@@ -63,7 +58,7 @@ class Expander {
                           [](const YamlNode::Pair& pair) { return pair.key->scalar == "nodes"; });
     for (const YamlNode::Pair& pair : ordered) {
       const std::string& section = pair.key->scalar;
-      if (is_among(section, sections))
+      if (is_among(section, sections_of_entries()))
         write_section(section, *pair.value, scope);
       else if (section == "hydraulics")
         write_hydraulics(*pair.value, scope);
@@ -193,7 +188,8 @@ class Expander {
       const UseEntry collect = [&](const std::string& name, const Tree&, const Scope&) {
         names.emplace_back(name, is_among(section, measure_sections));
       };
-      if (is_among(section, sections) || section == "parts") for_each_entry(*pair.value, scope, section, collect);
+      if (is_among(section, sections_of_entries()) || section == "parts")
+        for_each_entry(*pair.value, scope, section, collect);
       if (section == "hydraulics")
         for (const YamlNode::Pair& list : pair.value->pairs)
           if (list.value->kind == YamlNode::Kind::map) for_each_entry(*list.value, scope, section, collect);
@@ -257,7 +253,7 @@ bool uses_language(const YamlNode& root) {
   };
   for (const YamlNode::Pair& pair : root.pairs) {
     if (pair.key->scalar == "parts" || pair.key->scalar == "definitions") return true;
-    if (is_among(pair.key->scalar, sections) && any_of(*pair.value)) return true;
+    if (is_among(pair.key->scalar, sections_of_entries()) && any_of(*pair.value)) return true;
     if (pair.key->scalar == "hydraulics")
       for (const YamlNode::Pair& list : pair.value->pairs)
         if (any_of(*list.value)) return true;

@@ -4,6 +4,12 @@
 
 namespace bielle::mechanism {
 
+const std::vector<std::string>& sections_of_entries() {
+  static const std::vector<std::string> sections = {"nodes", "points", "elements", "joints", "drives",
+                                                    "loads", "states", "measures", "inputs", "events"};
+  return sections;
+}
+
 const KeyTable& repeat_keys() {
   using namespace keys;
   static const KeyTable table{

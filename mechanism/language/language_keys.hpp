@@ -2,10 +2,15 @@
 // readers of entries.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "reduce/common/input/key_table.hpp"
 
 namespace bielle::mechanism {
 
+/// Sections whose entries have names, in the usual order; `hydraulics` has lists of them.
+const std::vector<std::string>& sections_of_entries();
 /// Keys that every entry of a section may have: `if`, `repeat`.
 std::vector<Key> entry_keys();
 const KeyTable& repeat_keys();

@@ -7,11 +7,6 @@
 namespace bielle::mechanism {
 namespace {
 
-double evaluate(const std::string& formula, const Parameters& parameters) {
-  if (const auto quantity = quantity_of(formula)) return to_si(*quantity, "any");
-  return Expression(formula, {}, parameters)(std::span<const double>());
-}
-
 double read_parameter(const YamlValue& value) {
   const auto quantity = value.is_scalar() ? quantity_of(value.text()) : std::nullopt;
   if (!quantity) return value.number();
@@ -23,6 +18,11 @@ double read_parameter(const YamlValue& value) {
 }
 
 }  // namespace
+
+double evaluate(const std::string& number, const Parameters& parameters) {
+  if (const auto quantity = quantity_of(number)) return to_si(*quantity, "any");
+  return Expression(number, {}, parameters)(std::span<const double>());
+}
 
 Parameters read_parameters(YamlValue root, const std::map<std::string, std::string>& overrides) {
   std::vector<std::string> names;

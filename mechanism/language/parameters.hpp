@@ -8,6 +8,9 @@
 
 namespace bielle::mechanism {
 
+/// Evaluates a number with or without a unit, or a formula. @throws InputError without file or line
+double evaluate(const std::string& number, const Parameters& parameters);
+
 /// Evaluates the parameters; each may use those written before it, and have a unit.
 /// @param overrides  formulas in place of those of the file, by names (`--set`)
 /// @throws InputError for a wrong formula, and for an override without a parameter

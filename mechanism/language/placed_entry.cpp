@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/math/axes_along.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -74,13 +76,6 @@ bool are_all_or_none(const YamlNode& fixed) {
 
 Tree make_vector(const Vector3& v, const YamlNode& place) { return make_numbers({v[0], v[1], v[2]}, place); }
 
-/// Returns the inertial axis that is most normal to a direction.
-Vector3 most_normal(const Vector3& direction) {
-  Eigen::Index least = 0;
-  direction.cwiseAbs().minCoeff(&least);
-  return Vector3::Unit(least);
-}
-
 /// Reads three numbers of an entry in the model; nothing if they are something else.
 std::optional<Vector3> read_vector(const YamlNode& list, const Scope& scope, const std::string& path) {
   if (list.kind != YamlNode::Kind::sequence || list.items.size() != 3) return {};
@@ -113,7 +108,7 @@ Tree with_joint_axes(const Tree& placed, const std::string& axis_key, const KeyF
     if (const auto own = read_vector(*given->items[0], scope, path + "." + axis_key))
       z = node_frame(*nodes->items[0], path + ".nodes").R * *own;
   if (!z) return placed;  // the reader of the joint refuses it
-  return with_second(placed, most_normal((of_axis.transpose() * *z).normalized()));
+  return with_second(placed, most_normal_axis((of_axis.transpose() * *z).normalized()));
 }
 
 Tree with_beam_orientation(const Tree& placed, const Scope& scope, const NodeFrame& node_frame,
@@ -125,7 +120,7 @@ Tree with_beam_orientation(const Tree& placed, const Scope& scope, const NodeFra
   const Vector3 along =
       node_frame(*nodes->items[1], path + ".nodes").x - node_frame(*nodes->items[0], path + ".nodes").x;
   const Matrix3 A = scope.placement.matrix(Geometry::vector, true);
-  const Vector3 y = most_normal(A.transpose() * along);
+  const Vector3 y = most_normal_axis(A.transpose() * along);
   return with(*placed, "orientation", make_vector(scope.placement.matrix(Geometry::axial, true) * y, *placed));
 }
 

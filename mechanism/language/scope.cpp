@@ -6,14 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/language/parameters.hpp"
+#include "mechanism/reading/functions_of_names.hpp"
 #include "reduce/common/formula/formula_references.hpp"
 #include "reduce/common/input/unit.hpp"
 
 namespace bielle::mechanism {
 namespace {
-
-/// Functions of formulas whose operands are names.
-const std::vector<std::string> functions_of_names = {"distance", "angle"};
 
 std::string literal(double value) { return value < 0 ? fmt::format("({})", value) : fmt::format("{}", value); }
 
@@ -54,7 +53,7 @@ std::string Scope::formula(const std::string& text, const std::vector<std::strin
     return {};
   };
   return rename_in_formula(
-      text, functions_of_names, [&](const std::string& name) { return name_of(name); }, replaced);
+      text, functions_of_names(), [&](const std::string& name) { return name_of(name); }, replaced);
 }
 
 std::string Scope::text(const YamlNode& node, const std::string& path) const {
@@ -83,8 +82,7 @@ double Scope::number(const YamlNode& node, const std::string& path) const {
       error == std::errc() && stopped == end && std::isfinite(value))
     return value;
   try {
-    if (const auto quantity = quantity_of(node.scalar)) return to_si(*quantity, "any");
-    return Expression(formula(node.scalar, {}), {}, *parameters)(std::span<const double>());
+    return evaluate(quantity_of(node.scalar) ? node.scalar : formula(node.scalar, {}), *parameters);
   } catch (const std::runtime_error& error) {
     fail_at(node, *main_file, path, fmt::format("'{}': {}", node.scalar, error.what()));
   }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/input/place.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -83,8 +85,7 @@ Tree in_file(const Tree& tree, const std::shared_ptr<const std::string>& file) {
 }
 
 void fail_at(const YamlNode& node, const std::string& main_file, const std::string& path, const std::string& message) {
-  throw InputError(fmt::format("{}:{}: {}{}{}", node.file ? *node.file : main_file, node.line, path,
-                               path.empty() ? "" : ": ", message));
+  throw InputError(located_at(node.file ? *node.file : main_file, node.line, path, message));
 }
 
 }  // namespace bielle::mechanism

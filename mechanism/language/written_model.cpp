@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/language/language_keys.hpp"
 #include "mechanism/reading/read_frame.hpp"
 
 namespace bielle::mechanism {
 namespace {
-
-/// Order of sections that only parts have.
-const std::vector<std::string> usual_order = {"nodes",  "points",   "elements", "joints", "drives",    "loads",
-                                              "states", "measures", "inputs",   "events", "hydraulics"};
 
 /// Returns a name for the node at a point of a body: "spring.point_2" for "elements.spring.nodes[2]".
 std::string name_of_point(const std::string& path) {
@@ -121,13 +118,15 @@ Tree WrittenModel::finish(const YamlNode& root) {
     if (name == "parts" || name == "definitions") continue;
     const auto found = sections_.find(name);
     if (found == sections_.end()) {
-      if (!is_among(name, usual_order)) pairs.push_back(pair);
+      if (name != "hydraulics" && !is_among(name, sections_of_entries())) pairs.push_back(pair);
       continue;
     }
     pairs.push_back({pair.key, make_map(std::move(found->second.pairs), *pair.value)});
     sections_.erase(found);
   }
-  for (const std::string& name : usual_order)
+  std::vector<std::string> sections_of_parts = sections_of_entries();
+  sections_of_parts.emplace_back("hydraulics");
+  for (const std::string& name : sections_of_parts)
     if (const auto found = sections_.find(name); found != sections_.end() && !found->second.pairs.empty())
       pairs.push_back({make_scalar(name, root), make_map(std::move(found->second.pairs), root)});
   return make_map(std::move(pairs), root);

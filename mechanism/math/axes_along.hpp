@@ -7,12 +7,18 @@
 
 namespace bielle::mechanism {
 
+/// Returns the axis x, y or z that is most normal to a vector. @param v  not zero
+inline Vector3 most_normal_axis(const Vector3& v) {
+  Eigen::Index least = 0;
+  v.cwiseAbs().minCoeff(&least);
+  return Vector3::Unit(least);
+}
+
 /// Columns x, y, z: z as given, x normal to it in the plane of z and the inertial axis that is most normal to z.
 /// @param z  unit vector
 inline Matrix3 axes_along(const Vector3& z) {
-  Eigen::Index least = 0;
-  z.cwiseAbs().minCoeff(&least);
-  const Vector3 x = (Vector3::Unit(least) - z * z[least]).normalized();
+  const Vector3 least = most_normal_axis(z);
+  const Vector3 x = (least - z * z.dot(least)).normalized();
   Matrix3 axes;
   axes << x, z.cross(x), z;
   return axes;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/math/axes_along.hpp"
 #include "mechanism/measures/orientation_measures.hpp"
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/measures/pair_rotation.hpp"
@@ -150,12 +151,10 @@ class AngleMeasure final : public NodePairMeasure {
 };
 
 /// Returns axes with e as the first one.
-Matrix3 axes_along(const Vector3& e) {
-  Eigen::Index least = 0;
-  e.cwiseAbs().minCoeff(&least);
+Matrix3 axes_with_first(const Vector3& e) {
   Matrix3 axes;
   axes.col(0) = e;
-  axes.col(1) = e.cross(Vector3::Unit(least)).normalized();
+  axes.col(1) = e.cross(most_normal_axis(e)).normalized();
   axes.col(2) = e.cross(axes.col(1));
   return axes;
 }
@@ -166,7 +165,7 @@ std::unique_ptr<Measure> make_node_measure(const std::string& name, const Model&
                                            NodeQuantity quantity, const Vector3& direction) {
   if (quantity == NodeQuantity::position || quantity == NodeQuantity::velocity)
     return std::make_unique<PositionMeasure>(name, pair, direction, quantity == NodeQuantity::velocity);
-  const Matrix3 A = axes_along(direction);
+  const Matrix3 A = axes_with_first(direction);
   const Matrix3 B = model.node(pair.second).frame.R.transpose() * model.node(pair.first).frame.R * A;
   return std::make_unique<RotationMeasure>(name, pair, A, B, quantity == NodeQuantity::angular_velocity);
 }

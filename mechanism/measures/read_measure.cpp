@@ -8,14 +8,13 @@
 
 #include "mechanism/measures/combined_measure.hpp"
 #include "mechanism/measures/node_measures.hpp"
+#include "mechanism/reading/functions_of_names.hpp"
 #include "mechanism/reading/names.hpp"
 #include "reduce/common/formula/formula_parser.hpp"
 #include "reduce/common/formula/units.hpp"
 
 namespace bielle::mechanism {
 namespace {
-
-const std::vector<std::string> functions = {"distance", "angle"};
 
 /// Looks up a reference of a formula in the model.
 class Lookup {
@@ -141,7 +140,7 @@ struct ReadFormula {
 
 ReadFormula read_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model) {
   Lookup lookup(value, model);
-  FormulaText formula = value.formula_text(variables, functions);
+  FormulaText formula = value.formula_text(variables, functions_of_names());
   const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -260,7 +259,7 @@ void check_measure_name(const std::string& name, const YamlValue& entry, const M
   const auto is_in = [&](const std::vector<std::string>& names) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  if (is_in(own) || is_in(built_in_names()) || is_in(functions))
+  if (is_in(own) || is_in(built_in_names()) || is_in(functions_of_names()))
     entry.fail(fmt::format("'{}' means something in formulas already; choose another name", name));
   if (!is_dotted_word(name)) entry.fail("this is a name in formulas: letters, digits and '_', no digit first");
 }

@@ -1,6 +1,6 @@
 // The part of a component of pairs (CoupledPairs) in the global tangent: entries of the pairs that are near.
 //
-// Each node has a block on the diagonal, and each near pair two blocks beside it, along the independent increments of
+// Each node has a block on the diagonal, and each near pair two blocks off it, along the independent increments of
 // the nodes or their carriers. The time of an evaluation and the memory are in proportion to the numbers of nodes and
 // of near pairs.
 #pragma once

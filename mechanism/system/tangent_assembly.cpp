@@ -143,7 +143,8 @@ void TangentAssembly::build_pattern() {
   for (const std::size_t m : work_.costly()) waiting_.push_back(waiting_.back() + placements_[m].targets.count());
 }
 
-/// Finds the global entries that are zero most of the time: those to which only pairs contribute, beside the diagonal.
+/// Finds the global entries that are zero most of the time: those to which only pairs contribute, apart from the
+/// diagonal.
 void TangentAssembly::find_intermittent(const KeptEntries& kept, SparsePattern& pattern) const {
   if (pairs_.empty()) return;
   std::vector<char> lasts(static_cast<std::size_t>(pattern.entry_count()), 0);

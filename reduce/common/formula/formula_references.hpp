@@ -46,9 +46,8 @@ FormulaText find_references(const std::string& text, const std::vector<std::stri
 
 /// Returns a formula with other names. The names within quotes and parentheses are found as above; a name in
 /// parentheses may have dots.
-/// @param subject  returns the new name of a node, joint or other thing before a dot or in parentheses, or nothing if
-/// it
-///                 stays; a name that is no word is put in quotes
+/// @param subject  returns the new name of a node, joint or other thing before a dot or in parentheses, or nothing
+///                 if it stays; a name that is no word is put in quotes
 /// @param word     returns the text in place of a plain name (a parameter, variable or function), or nothing
 std::string rename_in_formula(const std::string& text, const std::vector<std::string>& functions,
                               const std::function<std::optional<std::string>(const std::string&)>& subject,

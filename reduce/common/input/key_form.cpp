@@ -1,5 +1,6 @@
 #include "reduce/common/input/key_form.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -67,12 +68,12 @@ std::string KeyForm::range_words() const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const bool lower = least > -infinity, upper = most < infinity;
   if (lower && upper)
-    return above && below ? fmt::format("between {} and {}, both excluded", least, most)
-           : above        ? fmt::format("greater than {} and at most {}", least, most)
-           : below        ? fmt::format("of at least {} and less than {}", least, most)
-                          : fmt::format("between {} and {}", least, most);
-  if (lower) return fmt::format("{} {}", above ? "greater than" : "of at least", least);
-  if (upper) return fmt::format("{} {}", below ? "less than" : "of at most", most);
+    return above && below ? fmt::format("between {:.6g} and {:.6g}, both excluded", least, most)
+           : above        ? fmt::format("greater than {:.6g} and at most {:.6g}", least, most)
+           : below        ? fmt::format("of at least {:.6g} and less than {:.6g}", least, most)
+                          : fmt::format("between {:.6g} and {:.6g}", least, most);
+  if (lower) return fmt::format("{} {:.6g}", above ? "greater than" : "of at least", least);
+  if (upper) return fmt::format("{} {:.6g}", below ? "less than" : "of at most", most);
   return {};
 }
 
@@ -94,6 +95,29 @@ bool KeyForm::fits(const YamlNode& node) const {
     default:
       return node.kind == YamlNode::Kind::scalar;
   }
+}
+
+namespace {
+
+template <class Is>
+const KeyForm* first_form(const KeyForms& forms, const Is& is) {
+  const auto found = std::find_if(forms.begin(), forms.end(), is);
+  return found == forms.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const KeyForm* form_of(const KeyForms& forms, KeyForm::Kind kind) {
+  return first_form(forms, [&](const KeyForm& form) { return form.kind == kind; });
+}
+
+const KeyForm* numeric_form(const KeyForms& forms) {
+  return first_form(forms, [](const KeyForm& form) { return form.is_numeric(); });
+}
+
+const KeyForm* form_of_list(const KeyForms& forms, const YamlNode& list) {
+  const KeyForm* fitting = first_form(forms, [&](const KeyForm& form) { return form.fits(list); });
+  return fitting ? fitting : form_of(forms, KeyForm::Kind::list);
 }
 
 namespace keys {

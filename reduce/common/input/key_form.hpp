@@ -77,6 +77,12 @@ struct KeyForm {
   KeyForm with_geometry(Geometry is) const;
 };
 
+// -- the form among several; null if there is none
+const KeyForm* form_of(const KeyForms& forms, KeyForm::Kind kind);
+const KeyForm* numeric_form(const KeyForms& forms);
+/// Returns the form that a list has, if none fits that of some list.
+const KeyForm* form_of_list(const KeyForms& forms, const YamlNode& list);
+
 namespace keys {
 
 KeyForm number(std::string unit = {});

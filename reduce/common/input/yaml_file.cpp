@@ -5,13 +5,12 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <map>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/input/place.hpp"
 #include "reduce/common/input/unit.hpp"
 #include "reduce/common/input/yaml_node.hpp"
 #include "reduce/common/shortened.hpp"
@@ -25,12 +24,6 @@ struct YamlValue::Document {
 };
 
 namespace {
-
-std::string joined(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
-
-std::string located_at(const std::string& file, int line, const std::string& path, const std::string& message) {
-  return fmt::format("{}:{}: {}{}{}", file, line, path, path.empty() ? "" : ": ", message);
-}
 
 /// Explains an unknown key that is a number: it is probably the second half of "1,5", or of a formula.
 std::string hint_at_comma(const std::string& key) {
@@ -99,7 +92,7 @@ YamlValue YamlValue::at(const std::string& key) const {
   if (auto value = find(key)) return *value;
   if (table_)
     if (const Key& known = key_of_table(key); known.preset)
-      return YamlValue(document_, known.preset, joined(path_, key), line_).with_forms(known.forms);
+      return YamlValue(document_, known.preset, path_of_key(path_, key), line_).with_forms(known.forms);
   fail(fmt::format("the key '{}' is missing", key));
 }
 
@@ -120,15 +113,15 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
 
 YamlValue YamlValue::child(const YamlNode& key, std::shared_ptr<const YamlNode> value) const {
   const int line = value->kind == YamlNode::Kind::null ? key.line : value->line;  // nothing stands somewhere after it
-  YamlValue below(document_, std::move(value), joined(path_, key.scalar), line);
+  YamlValue below(document_, std::move(value), path_of_key(path_, key.scalar), line);
   if (table_) return below.with_forms(key_of_table(key.scalar).forms);
-  const KeyForm* form = form_of([](const KeyForm& each) { return each.kind == KeyForm::Kind::entries; });
+  const KeyForm* form = form_of(forms(), KeyForm::Kind::entries);
   return form ? below.with_forms(form->items.front()) : below;
 }
 
 void YamlValue::check_map(const std::string& expected) const {
   if (is_map() || is_null()) return;
-  const KeyForm* form = form_of([](const KeyForm& each) { return each.kind == KeyForm::Kind::table; });
+  const KeyForm* form = form_of(forms(), KeyForm::Kind::table);
   if (form && expected == keys_with_values) fail(fmt::format("expected {} as {}", form->table().of, expected));
   fail("expected " + expected);
 }
@@ -166,28 +159,16 @@ YamlValue YamlValue::keyed(const KeyTable& table) const {
 
 // -- forms
 
-const KeyForm* YamlValue::form_of(bool (*is)(const KeyForm& form)) const {
-  if (!forms_) return nullptr;
-  const auto found = std::find_if(forms_->begin(), forms_->end(), is);
-  return found == forms_->end() ? nullptr : &*found;
-}
-
-const KeyForm* YamlValue::form_that_fits() const {
-  if (!forms_) return nullptr;
-  const auto found =
-      std::find_if(forms_->begin(), forms_->end(), [&](const KeyForm& form) { return form.fits(*node_); });
-  return found == forms_->end() ? nullptr : &*found;
-}
-
-const KeyForm* YamlValue::numeric_form() const {
-  return form_of([](const KeyForm& form) { return form.is_numeric(); });
+const KeyForms& YamlValue::forms() const {
+  static const KeyForms unknown;
+  return forms_ ? *forms_ : unknown;
 }
 
 /// Converts a text that is a number with a unit; returns NaN for any other text.
 double YamlValue::in_si(const std::string& written) const {
   const auto quantity = quantity_of(written);
   if (!quantity) return std::numeric_limits<double>::quiet_NaN();
-  const KeyForm* form = numeric_form();
+  const KeyForm* form = numeric_form(forms());
   try {
     return to_si(*quantity, form ? form->unit : "");
   } catch (const InputError& error) {
@@ -196,7 +177,7 @@ double YamlValue::in_si(const std::string& written) const {
 }
 
 void YamlValue::check_range(double value) const {
-  const KeyForm* form = numeric_form();
+  const KeyForm* form = numeric_form(forms());
   if (form && !form->in_range(value)) fail(fmt::format("expected a number {}, found {}", form->range_words(), value));
 }
 
@@ -216,8 +197,7 @@ YamlValue YamlValue::at(std::size_t index) const {
 std::vector<YamlValue> YamlValue::items() const {
   std::vector<YamlValue> result;
   result.reserve(size());
-  const KeyForm* form = form_that_fits();
-  if (!form) form = form_of([](const KeyForm& each) { return each.kind == KeyForm::Kind::list; });
+  const KeyForm* form = form_of_list(forms(), *node_);
   for (const std::shared_ptr<const YamlNode>& item : node_->items) {
     const int line = item->kind == YamlNode::Kind::null ? line_ : item->line;
     const std::size_t k = result.size();
@@ -294,7 +274,7 @@ std::string YamlValue::word(const std::vector<std::string>& allowed, const std::
 }
 
 std::string YamlValue::word() const {
-  const KeyForm* form = form_of([](const KeyForm& each) { return each.kind == KeyForm::Kind::word; });
+  const KeyForm* form = form_of(forms(), KeyForm::Kind::word);
   if (!form) throw std::logic_error(fmt::format("the form of {} is no word, but a word is read", path_));
   return word(form->words, form->of);
 }
@@ -352,7 +332,7 @@ Expression YamlValue::expression(const std::vector<std::string>& variables) cons
 }
 
 Expression YamlValue::expression() const {
-  const KeyForm* form = numeric_form();
+  const KeyForm* form = numeric_form(forms());
   if (!form) throw std::logic_error(fmt::format("the form of {} is no formula, but a formula is read", path_));
   return expression(form->words);
 }

@@ -118,9 +118,7 @@ class YamlValue {
   YamlValue child(const YamlNode& key, std::shared_ptr<const YamlNode> value) const;
   const Key& key_of_table(const std::string& key) const;
   YamlValue with_forms(const KeyForms& forms) const;
-  const KeyForm* form_of(bool (*is)(const KeyForm& form)) const;
-  const KeyForm* form_that_fits() const;
-  const KeyForm* numeric_form() const;
+  const KeyForms& forms() const;
   double in_si(const std::string& written) const;
   void check_range(double value) const;
   void check_map(const std::string& expected) const;

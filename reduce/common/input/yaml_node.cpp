@@ -10,6 +10,7 @@
 #include <yaml.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/input/place.hpp"
 #include "reduce/common/shortened.hpp"
 
 namespace bielle {
@@ -198,12 +199,6 @@ class Parser {
   std::map<std::string, std::shared_ptr<const YamlNode>> anchors_;
 };
 
-std::string below(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
-
-std::string place_of_fault(const std::string& file, int line, const std::string& path, const std::string& message) {
-  return fmt::format("{}:{}: {}{}{}", file, line, path, path.empty() ? "" : ": ", message);
-}
-
 /// Upper bound of nodes that aliases repeat; larger files are not input files but attempts to exhaust the memory.
 constexpr std::size_t most_repeated = 100'000;
 
@@ -212,23 +207,23 @@ constexpr std::size_t most_repeated = 100'000;
 void check_keys_of_all_maps(const YamlNode& node, const std::string& file, const std::string& path,
                             std::size_t& budget) {
   if (budget-- == 0)
-    throw InputError(place_of_fault(file, node.line, path.substr(0, 60),
-                                    fmt::format("aliases (`*name`) repeat more than {} values", most_repeated)));
+    throw InputError(located_at(file, node.line, path.substr(0, 60),
+                                fmt::format("aliases (`*name`) repeat more than {} values", most_repeated)));
   for (std::size_t k = 0; k < node.items.size(); ++k)
     check_keys_of_all_maps(*node.items[k], file, fmt::format("{}[{}]", path, k + 1), budget);
   std::map<std::string_view, int> lines;
   for (const auto& [key, value] : node.pairs) {
     if (key->kind != YamlNode::Kind::scalar)
       throw InputError(
-          place_of_fault(file, key->line, path, "a key must be a word; is something missing in front of ':'?"));
+          located_at(file, key->line, path, "a key must be a word; is something missing in front of ':'?"));
     if (key->scalar == "<<")
       throw InputError(
-          place_of_fault(file, key->line, path, "'<<' (merging of maps) is not supported; write the keys out"));
+          located_at(file, key->line, path, "'<<' (merging of maps) is not supported; write the keys out"));
     const auto [first, is_new] = lines.emplace(key->scalar, key->line);
     if (!is_new)
-      throw InputError(place_of_fault(file, key->line, below(path, key->scalar),
-                                      fmt::format("this key stands here twice; first on line {}", first->second)));
-    check_keys_of_all_maps(*value, file, below(path, key->scalar), budget);
+      throw InputError(located_at(file, key->line, path_of_key(path, key->scalar),
+                                  fmt::format("this key stands here twice; first on line {}", first->second)));
+    check_keys_of_all_maps(*value, file, path_of_key(path, key->scalar), budget);
   }
 }
 
