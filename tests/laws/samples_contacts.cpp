@@ -27,22 +27,15 @@ joints:
                 std::move(bad)};
   const bool between = shapes.rfind("between", 0) == 0;
   if (!between)
-    sample.bad.insert(sample.bad.end(), {{"shapes", "[{node: a, sphere: 1}]", "at least two"},
-                                         {"shapes", "[{node: a, sphere: 1}, {node: a, sphere: 1}]", "same node"}});
-  sample.bad.insert(sample.bad.end(), {{"stiffness", "0", ""},
-                                       {"friction", "{coefficient: -1}", ""},
-                                       {"friction.static", "0.1", "no smaller"},
-                                       {"friction.stribeck_velocity", "0", ""},
-                                       {"friction.viscous", "-1", ""},
-                                       {"friction.coefficient", "", ""}});
-  if (law.find("lugre") == std::string::npos) sample.bad.push_back({"friction.velocity", "0", ""});
-  if (law.find(" damping: ") != std::string::npos) sample.bad.push_back({"damping", "-1", ""});
+    sample.bad.insert(sample.bad.end(), {{"shapes", "[{node: a, sphere: 1}, {node: a, sphere: 1}]", "same node"}});
+  sample.bad.insert(sample.bad.end(),
+                    {{"friction.static", "0.1", "no smaller"}, {"friction.stribeck_velocity", "0", ""}});
   sample.scales.deformation = 0.12;
   sample.scales.smooth_within = 0.02;
   return sample;
 }
 
-const BadValue bad_node = {"shapes.0.node", "c", "no node 'c'"}, bad_at = {"shapes.0.at", "[1, 2]", ""};
+const BadValue bad_node = {"shapes.0.node", "c", "no node 'c'"};
 
 /// A roof of two triangles, in millimetres: a ridge along x at z = 0, open below.
 void write_roof(const std::string& folder) {
@@ -65,18 +58,14 @@ void add_on_surfaces(std::vector<Sample>& list) {
         std::move(bad)));
     list.back().files = write_roof;
   };
-  on_roof("capsule, surface, across its ridge", "capsule: [1.4, 3], axes: {x: [0, 0, 1], y: [1, 0.3, 0]}",
-          {{"shapes.1.capsule", "[1]", ""}});
+  on_roof("capsule, surface, across its ridge", "capsule: [1.4, 3], axes: {x: [0, 0, 1], y: [1, 0.3, 0]}", {});
   on_roof("capsule, surface, on its end",
-          "capsule: [1.4, 2], axes: {x: [0.3, 1, 0], y: [0, 0.2, 1]}, at: [0.07, 1.1, 0.33]",
-          {{"shapes.1.capsule", "[1, 0]", ""}});
+          "capsule: [1.4, 2], axes: {x: [0.3, 1, 0], y: [0, 0.2, 1]}, at: [0.07, 1.1, 0.33]", {});
   on_roof("cylinder, surface, across its ridge",
           "cylinder: [1.5, 4], rounding: 0.7, axes: {x: [0, 0, 1], y: [1, 0.3, 0]}", {{"shapes.1.rounding", "2", ""}});
   on_roof("cylinder, surface, on its rim",
-          "cylinder: [1.2, 2.6], rounding: 0.6, axes: {z: [0.4, 0.5, 1], x: [1, 0, 0]}",
-          {{"shapes.1.cylinder", "[0, 1]", ""}});
-  on_roof("box, surface", "box: [2, 1.8, 2.4], rounding: 0.7, axes: {x: [1, 0.3, 0.1], y: [0, 1, 0.2]}",
-          {{"shapes.1.box", "[1, 1]", ""}});
+          "cylinder: [1.2, 2.6], rounding: 0.6, axes: {z: [0.4, 0.5, 1], x: [1, 0, 0]}", {});
+  on_roof("box, surface", "box: [2, 1.8, 2.4], rounding: 0.7, axes: {x: [1, 0.3, 0.1], y: [0, 1, 0.2]}", {});
   on_roof("plane, surface", "plane: [0, 0.1, -1], at: [0, 0, -1.3]", {{"shapes.1.plane", "[0, 0, 0]", ""}});
 }
 
@@ -88,19 +77,19 @@ void add_cylinders(std::vector<Sample>& list) {
   list.push_back(touching("cylinder, cylinder, nearly parallel",
                           "shapes: [{node: a, cylinder: [0.9, 2], rounding: 0.4, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
                           "{node: b, cylinder: [0.9, 3], rounding: 0.4, axes: {x: [0, 0, 1], y: [0.1, 1, 0]}}]",
-                          {{"shapes.1.cylinder", "[1]", ""}}));
+                          {}));
   list.push_back(touching("cylinder, cylinder, rim on side",
                           "shapes: [{node: a, cylinder: [0.9, 4], rounding: 0.6, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
                           "{node: b, cylinder: [1.1, 1.6], rounding: 0.6, axes: {z: [0.6, 0.3, 1], x: [1, 0, 0]}}]",
-                          {{"shapes.1.cylinder", "[1, -1]", ""}}));
+                          {}));
   list.push_back(touching("cylinder, cylinder, standing",
                           "shapes: [{node: a, cylinder: [1, 1.6], rounding: 0.6}, {node: b, cylinder: [1.3, 1.8], "
                           "rounding: 0.7, at: [0.3, 0, 0]}]",
-                          {{"shapes.0.cylinder", "[1, 0]", ""}}));
+                          {}));
   list.push_back(touching("box, cylinder, lying",
                           "shapes: [{node: a, box: [3, 3, 1.6], rounding: 0.5}, {node: b, cylinder: [1, 2], rounding: "
                           "0.5, axes: {x: [0, 0, 1], y: [0.4, 1, 0]}}]",
-                          {{"shapes.0.box", "[1, 1]", ""}}));
+                          {}));
   list.push_back(touching("box, cylinder, across an edge",
                           "shapes: [{node: a, box: [3, 1.4, 1.4], rounding: 0.5, axes: {x: [1, 0, 0], y: [0, 1, 1]}}, "
                           "{node: b, cylinder: [0.9, 4], rounding: 0.5, axes: {x: [0, 0, 1], y: [1, 0.3, 0]}}]",
@@ -116,27 +105,17 @@ void add_cylinders(std::vector<Sample>& list) {
 std::vector<Sample> contact_samples() {
   std::vector<Sample> list;
   list.push_back(touching("sphere, sphere", "shapes: [{node: a, sphere: 1.1, at: [0.1, 0, 0]}, {node: b, sphere: 0.9}]",
-                          {bad_node,
-                           bad_at,
-                           {"shapes.0.sphere", "-1", ""},
-                           {"shapes", "[{node: a}, {node: b, sphere: 1}]", "give the shape"},
-                           {"shapes", "[{node: a, sphere: 1, box: [1, 1, 1]}]", "two shapes"},
-                           {"shapes", "[{node: a, sphere: 1, rounding: 0.1}]", "box or a cylinder"},
-                           {"shapes", "[{node: a, sphere: 1, units: mm}]", "surface"}}));
+                          {bad_node, {"shapes", "[{node: a}, {node: b, sphere: 1}]", "give the shape"}}));
   list.push_back(touching("sphere, plane",
                           "shapes: [{node: a, plane: [0, 0.1, 1], at: [0, 0, 0.2]}, {node: b, sphere: 2}]",
                           {bad_node,
-                           bad_at,
                            {"shapes.0.plane", "[0, 0, 0]", ""},
-                           {"shapes.1.sphere", "0", ""},
                            {"shapes", "[{node: a, plane: [0, 0, 1]}, {node: b, plane: [0, 0, 1]}]",
                             "a plane can touch: sphere, capsule, cylinder, box, surface"}}));
   list.push_back(touching("sphere, capsule",
                           "shapes: [{node: a, capsule: [1, 3], axes: {x: [0, 0, 1], y: [0.1, 1, 0]}}, "
                           "{node: b, sphere: 1}]",
                           {bad_node,
-                           {"shapes.0.capsule", "[1, 0]", ""},
-                           {"shapes.0.capsule", "[1]", "[radius, length]"},
                            {"shapes.0.axes", "{x: [0, 0, 1]}", "two of the axes"},
                            {"shapes.0.axes.x", "[0, 0, 0]", ""},
                            {"shapes.0.axes.y", "[0, 0, 1]", "parallel"}}));
@@ -145,18 +124,15 @@ std::vector<Sample> contact_samples() {
         side ? "sphere, side of a cylinder" : "sphere, end of a cylinder",
         std::string("shapes: [{node: a, cylinder: [1.2, ") + (side ? "6" : "1.2") + "], rounding: 0.5, axes: {" +
             (side ? "x: [0, 0, 1], y: [0.1, 1, 0]" : "x: [1, 0, 0.1], y: [0, 1, 0]") + "}}, {node: b, sphere: 1}]",
-        {{"shapes.0.cylinder", "[0, 1]", ""},
-         {"shapes.0.rounding", "1.3", "less than half"},
-         {"shapes.0.rounding", "0", ""},
+        {{"shapes.0.rounding", "1.3", "less than half"},
          {"shapes", "[{node: a, surface: none.stl}, {node: b, cylinder: [1, 1]}]", "there is no such file"}}));
-  list.push_back(touching(
-      "sphere, box", "shapes: [{node: a, box: [1.2, 1.1, 1.3], rounding: 0.3}, {node: b, sphere: 1.2}]",
-      {{"shapes.0.box", "[1, 1]", ""}, {"shapes.0.box", "[1, 1, -1]", ""}, {"shapes.0.rounding", "0.55", ""}}));
+  list.push_back(touching("sphere, box",
+                          "shapes: [{node: a, box: [1.2, 1.1, 1.3], rounding: 0.3}, {node: b, sphere: 1.2}]",
+                          {{"shapes.0.rounding", "0.55", ""}}));
   list.push_back(touching("sphere, surface",
                           "shapes: [{node: a, surface: roof.stl, units: mm}, {node: b, sphere: 1.9}]",
                           {{"shapes.0.surface", "none.stl", "there is no such file"},
                            {"shapes.0.surface", "model.yaml", "no STL file"},
-                           {"shapes.0.units", "miles", ""},
                            {"shapes", "[{node: a, surface: roof.stl}, {node: b, surface: roof.stl}]",
                             "a surface can touch: sphere, plane, capsule, cylinder, box"}}));
   list.back().files = write_roof;
@@ -165,14 +141,13 @@ std::vector<Sample> contact_samples() {
   list.push_back(touching("capsule, plane",
                           "shapes: [{node: a, plane: [0, 0, 1]}, {node: b, capsule: [1.2, 2], at: "
                           "[0.1, 0, -1], axes: {x: [0, 0, 1], y: [0, 1, 0]}}]",
-                          {{"shapes.0.plane", "[1, 2]", ""}, {"shapes.1.capsule", "[1, 1, 1]", ""}}));
+                          {}));
   list.push_back(touching("cylinder, plane, standing",
-                          "shapes: [{node: a, plane: [0, 0, 1]}, {node: b, cylinder: [0.8, 2], at: [0, 0, -1]}]",
-                          {{"shapes.1.cylinder", "much", ""}}));
+                          "shapes: [{node: a, plane: [0, 0, 1]}, {node: b, cylinder: [0.8, 2], at: [0, 0, -1]}]", {}));
   list.push_back(touching("cylinder, plane, lying",
                           "shapes: [{node: a, plane: [0, 0, 1], at: [0, 0, 1]}, {node: b, "
                           "cylinder: [1.2, 2], axes: {z: [1, 0, 0], y: [0, 1, 0]}}]",
-                          {{"shapes.0.at", "[1]", ""}, {"shapes.1.axes.z", "[0, 0, 0]", ""}}));
+                          {{"shapes.1.axes.z", "[0, 0, 0]", ""}}));
   list.push_back(touching("box, plane",
                           "shapes: [{node: a, plane: [0, 0, 1], at: [0, 0, 0.6]}, {node: b, box: [2, 1.5, 2.4]}]",
                           {{"shapes.1.box", "[1, 2, x]", ""}}));
@@ -180,64 +155,53 @@ std::vector<Sample> contact_samples() {
       touching("capsule, capsule, crossing",
                "shapes: [{node: a, capsule: [0.9, 4], axes: {x: [0, 0, 1], y: [0, 1, 0]}}, {node: b, capsule: "
                "[0.9, 4], axes: {x: [0, 0, 1], y: [1, 0.2, 0]}}]",
-               {{"shapes.1.capsule", "[0, 1]", ""}}));
+               {}));
   list.push_back(
       touching("capsule, capsule, nearly parallel",
                "shapes: [{node: a, capsule: [0.9, 2], axes: {x: [0, 0, 1], y: [0, 1, 0]}}, {node: b, capsule: "
                "[0.9, 3], axes: {x: [0, 0, 1], y: [0.1, 1, 0]}}]",
-               {{"shapes.1.capsule", "[1, -1]", ""}}));
+               {}));
   list.push_back(touching("capsule, side of a cylinder",
                           "shapes: [{node: a, cylinder: [1.2, 5], rounding: 0.4, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
                           "{node: b, capsule: [0.9, 4], axes: {x: [0, 0, 1], y: [1, 0.4, 0]}}]",
-                          {{"shapes.0.rounding", "1.2", ""}, {"shapes.1.capsule", "[0, 1]", ""}}));
+                          {{"shapes.0.rounding", "1.2", ""}}));
   list.push_back(touching("capsule, rim of a cylinder",
                           "shapes: [{node: a, capsule: [0.9, 5], axes: {x: [0, 0, 1], y: [0.2, 1, 0]}}, {node: b, "
                           "cylinder: [1.2, 1.6], rounding: 0.4, axes: {z: [0.5, 0.1, 1], x: [1, 0, 0]}}]",
-                          {{"shapes.1.cylinder", "[1]", ""}}));
+                          {}));
   list.push_back(touching("capsule, nearly parallel to a cylinder",
                           "shapes: [{node: a, cylinder: [1.1, 4], rounding: 0.4, axes: {x: [0, 0, 1], y: [0, 1, 0]}}, "
                           "{node: b, capsule: [0.9, 3], axes: {x: [0, 0, 1], y: [0.05, 1, 0]}}]",
-                          {{"shapes.1.capsule", "[1, -1]", ""}}));
+                          {}));
   list.push_back(touching("capsule, box",
                           "shapes: [{node: a, box: [3, 2, 1.6], rounding: 0.6}, {node: b, capsule: [0.9, 2.5], "
                           "axes: {x: [0, 0, 1], y: [0.5, 1, 0]}}]",
-                          {{"shapes.0.rounding", "1", ""}, {"shapes.1.capsule", "[1, 0]", ""}}));
+                          {{"shapes.0.rounding", "1", ""}}));
   list.push_back(touching("box, box, faces",
                           "shapes: [{node: a, box: [2, 2.2, 1.6], rounding: 0.7}, {node: b, box: [3, 2.6, "
                           "1.7], rounding: 0.7}]",
-                          {{"shapes.0.rounding", "-0.1", ""}, {"shapes.1.box", "[0, 1, 1]", ""}}));
+                          {}));
   list.push_back(
       touching("box, box, edges",
                "shapes: [{node: a, box: [3, 1.6, 1.6], rounding: 0.7, axes: {x: [1, 0, 0], y: [0, 1, 1]}}, {node: "
                "b, box: [1.6, 3, 1.6], rounding: 0.7, axes: {x: [1, 0, 1], y: [0, 1, 0]}}]",
-               {{"shapes.1.box", "[1, 1, 0]", ""}}));
+               {}));
   // The damping follows from the speed at which they touch; before they touch there is none.
   list.push_back(
       touching("restitution, groups",
                "between: [[{node: a, sphere: 0.9}, {node: a, sphere: 1, at: [1, 0, 0]}], [{node: b, sphere: 1}, "
                "{node: ground, plane: [0, 0, 1], at: [0, 0, -0.2]}]], exponent: 2, restitution: 0.6",
-               {{"between", "[[{node: a, sphere: 1}]]", "two lists"},
-                {"between", "[[{node: a, sphere: 1}], []]", "at least one"},
-                {"between", "[[{node: a, sphere: 1}], [{node: a, sphere: 1}]]", "same node"},
+               {{"between", "[[{node: a, sphere: 1}], [{node: a, sphere: 1}]]", "same node"},
                 {"between.0.0.node", "c", "no node"},
-                {"between.0.0.sphere", "0", ""},
-                {"between.0.1.at", "1", ""},
-                {"between.1.1.plane", "[1]", ""},
                 {"shapes", "[{node: a, sphere: 1}, {node: b, sphere: 1}]", "either `shapes`"},
-                {"exponent", "0.5", "at least 1"},
-                {"damping", "1", "either `damping` or `restitution`"},
-                {"restitution", "1.1", ""},
-                {"restitution", "0", ""}},
+                {"damping", "1", "either `damping` or `restitution`"}},
                "stiffness: 3, friction: {coefficient: 0.4, static: 0.6, stribeck_velocity: 2, velocity: 1.5, "
                "viscous: 0.1}"));
   // Bristles that have bent within a step: tests/benchmarks/contacts/test_bristles.cpp.
   list.push_back(touching("bristles",
                           "shapes: [{node: a, capsule: [0.9, 4], axes: {x: [0, 0, 1], y: [0, 1, 0]}}, {node: b, "
                           "capsule: [0.9, 4], axes: {x: [0, 0, 1], y: [1, 0.2, 0]}}]",
-                          {{"friction.bristle_stiffness", "0", ""},
-                           {"friction.bristle_stiffness", "", ""},
-                           {"friction.bristle_damping", "-1", ""},
-                           {"friction.velocity", "1", "model: coulomb"}},
+                          {{"friction.bristle_stiffness", "", ""}, {"friction.velocity", "1", "model: coulomb"}},
                           "stiffness: 3, damping: 0.1, friction: {model: lugre, coefficient: 0.4, static: 0.6, "
                           "stribeck_velocity: 2, viscous: 0.1, bristle_stiffness: 1.5, bristle_damping: 0.8}"));
   // Quantities of a contact in formulas: a spring between the nodes uses them.
@@ -256,14 +220,11 @@ elements:
 )yaml",
                   {{"nodes", "[a, a]", "two different nodes"},
                    {"nodes", "[a, c]", "no node 'c'"},
-                   {"at", "[[1, 2], [0, 0, 0]]", ""},
                    {"force", "c.gapp", "did you mean 'gap'"}}};
   measured.inertial = true;  // components of the force
   measured.scales.deformation = 0.12;
   measured.scales.smooth_within = 0.02;
   list.push_back(std::move(measured));
-  for (Sample& sample : list)
-    if (sample.variant == "sphere, sphere") sample.bad.push_back({"friction.model", "stick_slip", ""});
   return list;
 }
 

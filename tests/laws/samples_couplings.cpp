@@ -11,7 +11,6 @@ using mechanism::Section;
 /// Joints of a moving carrier with three others.
 Sample coupling(const std::string& type, const std::string& variant, const std::string& keys,
                 std::vector<BadValue> bad) {
-  bad.push_back({"joints", "[one]", "expected"});
   Sample sample{Section::joints, type, variant,
                 "nodes:\n"
                 "  carrier: {position: [0.3, 0.1, -0.2], rotation_vector: [0.3, -0.5, 0.8]}\n"
@@ -74,16 +73,11 @@ std::vector<Sample> coupling_samples() {
                            {"joints", "[one, twoo]", "did you mean 'two'"},
                            {"joints", "[one, two.angel]", "did you mean 'angle'"},
                            {"joints", "[one, it]", "no joint between two nodes"}}));
-  list.push_back(coupling("gear", "teeth",
-                          "joints: [one, {joint: three, coordinate: angle}], teeth: [20, 31], internal: true",
-                          {{"teeth", "[20]", "teeth"},
-                           {"teeth", "[20, -3]", ""},
-                           {"internal", "5", ""},
-                           {"joints.1.joint", "thre", "did you mean 'three'"},
-                           {"joints.1.coordinate", "displacement", "no angle"}}));
+  list.push_back(coupling(
+      "gear", "teeth", "joints: [one, {joint: three, coordinate: angle}], teeth: [20, 31], internal: true",
+      {{"joints.1.joint", "thre", "did you mean 'three'"}, {"joints.1.coordinate", "displacement", "no angle"}}));
   list.push_back(coupling("gear", "factors", "joints: [one, two.displacement, three], factors: [1, -0.7, 2.5]",
-                          {{"factors", "[1]", "two or more"},
-                           {"factors", "[1, 0, 2]", "other than 0"},
+                          {{"factors", "[1, 0, 2]", "other than 0"},
                            {"factors", "[1, 2]", "as many"},
                            {"joints", "[one, two, three]", "several coordinates"}}));
   list.push_back(coupling("differential", "", "joints: [one, two, three], ratio: 3.5", {{"ratio", "0", ""}}));
@@ -94,24 +88,15 @@ std::vector<Sample> coupling_samples() {
                       {{"carrier", "a", "its own carrier"},
                        {"carrier", "d", "no node 'd'"},
                        {"radii", "[0.4, 0.5]", "1 m apart"},
-                       {"radii", "[0.4]", "pitch radius"},
-                       {"pressure_angle", "-0.1", "at least 0"},
                        {"pressure_angle", "20", "[rad]"},
                        {"helix_angle", "30", "[rad]"}}));
-  list.push_back(mesh("rigid, crossed, on the ground",
-                      "axes: [[0.8, -0.6, 0], [0, 0, 1]], position: [0.18, 0.24, 0], helix_angle: 0.7",
-                      {{"position", "[0, 0, 0]", "axis of the first wheel"},
-                       {"position", "[0.3, 0.3, 0.1]", "common perpendicular"},
-                       {"helix_angle", "[1]", ""}}));
+  list.push_back(mesh(
+      "rigid, crossed, on the ground", "axes: [[0.8, -0.6, 0], [0, 0, 1]], position: [0.18, 0.24, 0], helix_angle: 0.7",
+      {{"position", "[0, 0, 0]", "axis of the first wheel"}, {"position", "[0.3, 0.3, 0.1]", "common perpendicular"}}));
   list.push_back(mesh(
       "elastic, internal",
       "carrier: carrier, axes: [0, 0, 1], radii: [1.5, 0.5], internal: true, stiffness: 5, damping: 0.4, backlash: 0",
-      {{"carrier", "b", "its own carrier"},
-       {"radii", "[1, 1]", "apart"},
-       {"internal", "2", ""},
-       {"stiffness", "0", ""},
-       {"damping", "-1", ""},
-       {"backlash", "-1", ""}}));
+      {{"carrier", "b", "its own carrier"}, {"radii", "[1, 1]", "apart"}}));
   Sample lift = coupling("cam", "lift", "joints: [one, two.displacement], lift: lift.csv",
                          {{"lift", "profile.csv", "the last value must repeat the first"},
                           {"lift", "none.csv", "no such file"},
@@ -119,41 +104,31 @@ std::vector<Sample> coupling_samples() {
   Sample knife =
       coupling("cam", "knife edge",
                "joints: [one, three], profile: profile.csv, follower: roller, radius: 0, at: [0.1, 0.2, 0.3]",
-               {{"profile", "lift.csv", "greater than 0"},
-                {"follower", "round", ""},
-                {"radius", "-1", ""},
-                {"at", "[1, 2]", ""}});
+               {{"profile", "lift.csv", "greater than 0"}});
   knife.scales.amplitude = 0.1;
   const std::string creeps = ", friction: {coefficient: 0.3, velocity: 0.4";
-  const std::vector<BadValue> rollers = {
-      {"profile", "lift.csv", "greater than 0"}, {"follower", "round", ""}, {"radius", "-1", ""}};
-  const std::vector<BadValue> faces = {
-      {"profile", "hollow.csv", "hollow"}, {"follower", "round", ""}, {"normal", "[1, 2, 3]", "right angles"}};
+  const std::vector<BadValue> rollers = {{"profile", "lift.csv", "greater than 0"}};
+  const std::vector<BadValue> faces = {{"profile", "hollow.csv", "hollow"}, {"normal", "[1, 2, 3]", "right angles"}};
   const auto both = [](std::vector<BadValue> first, const std::vector<BadValue>& second) {
     first.insert(first.end(), second.begin(), second.end());
     return first;
   };
   Sample edge = coupling("cam", "knife edge that rubs",
                          "joints: [one, three], profile: profile.csv, follower: roller, radius: 0" + creeps + "}",
-                         both(rollers, {{"friction.radius", "1", "does not turn"},
-                                        {"friction", "0.3", "expected a map"},
-                                        {"friction.velocity", "0", ""}}));
-  Sample roller = coupling(
-      "cam", "roller on its pin",
-      "joints: [one, three], profile: profile.csv, follower: roller, radius: 0.2" + creeps + ", radius: 0.1}",
-      both(
-          rollers,
-          {{"friction.radius", "", "radius"}, {"friction.arm", "1", "no moment"}, {"friction.coefficient", "-1", ""}}));
+                         both(rollers, {{"friction.radius", "1", "does not turn"}}));
+  Sample roller =
+      coupling("cam", "roller on its pin",
+               "joints: [one, three], profile: profile.csv, follower: roller, radius: 0.2" + creeps + ", radius: 0.1}",
+               both(rollers, {{"friction.radius", "", "radius"}, {"friction.arm", "1", "no moment"}}));
   for (Sample* sample : {&edge, &roller}) {
     sample->scales.amplitude = 0.1;
     sample->scales.smooth_within = 0.25;
   }
   const std::string normal = "joints: [one, three], profile: round.csv, follower: flat, normal: [2, -1, 0]";
-  Sample face = coupling("cam", "flat face", normal + ", at: [0.1, 0.2, 0.3]",
-                         both(faces, {{"at", "[1, 2]", ""}, {"radius", "1", "roller"}}));
-  Sample rubbing_face =
-      coupling("cam", "flat face that rubs", normal + creeps + "}",
-               both(faces, {{"friction.radius", "1", "does not turn"}, {"friction.coefficient", "", "coefficient"}}));
+  Sample face =
+      coupling("cam", "flat face", normal + ", at: [0.1, 0.2, 0.3]", both(faces, {{"radius", "1", "roller"}}));
+  Sample rubbing_face = coupling("cam", "flat face that rubs", normal + creeps + "}",
+                                 both(faces, {{"friction.radius", "1", "does not turn"}}));
   // The support function is a spline of 48 pieces, whose third derivative jumps.
   for (Sample* sample : {&face, &rubbing_face}) sample->scales.smooth_within = 0.02;
   for (Sample* sample : {&edge, &roller, &rubbing_face}) sample->scales.kinks_unloaded = true;  // |F| where it vanishes
@@ -178,22 +153,14 @@ std::vector<Sample> coupling_samples() {
                  "  it: {type: node_force, nodes: [a, b], at: [0.2, -0.1, 0.3], axes: " +
                      axes +
                      ", force: [2, 1 + t, \"0.5*distance(a, b)\"], moment: [0.4, \"0.3*distance(a, b)^2\", -1]}\n",
-                 {{"nodes", "[a, a]", "two different nodes"},
-                  {"at", "[1]", ""},
-                  {"axes", "third", "first"},
-                  {"force", "[1, 2]", "three components"},
-                  {"moment", "[1, 2, 'x']", "x"}}};
+                 {{"nodes", "[a, a]", "two different nodes"}, {"moment", "[1, 2, 'x']", "x"}}};
     force.inertial = axes == "inertial";
     list.push_back(force);
   }
-  const std::vector<BadValue> bad_rope = {{"nodes", "[a]", "two or more"},
-                                          {"nodes", "[a, b, b]", "follows itself"},
+  const std::vector<BadValue> bad_rope = {{"nodes", "[a, b, b]", "follows itself"},
                                           {"nodes", "[a, b, d]", "no node 'd'"},
                                           {"radii", "[1, 2]", "expected 3 radii"},
-                                          {"axis", "[0, 0, 0]", ""},
-                                          {"EA", "0", ""},
-                                          {"pretension", "-1", ""},
-                                          {"damping", "-1", ""}};
+                                          {"axis", "[0, 0, 0]", ""}};
   const auto with = [&](std::vector<BadValue> more) {
     more.insert(more.end(), bad_rope.begin(), bad_rope.end());
     return more;
@@ -207,12 +174,11 @@ std::vector<Sample> coupling_samples() {
            "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], at: [[0.1, 0.2, -0.1], ~, ~], EA: 6, "
            "pretension: 12, damping: 0.3",
            with({{"at", "[[0, 0, 0]]", "3 points"}})));
-  list.push_back(rope("cable", "with a turn round a pulley",
-                      "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], turns: [~, 1, ~], EA: 6, "
-                      "pretension: 12, damping: 0.3",
-                      with({{"turns", "[~, 1]", "3 numbers of turns"},
-                            {"turns", "[~, -1, ~]", "at least 0"},
-                            {"turns", "[~, ~, 1]", "on which the rope slides"}})));
+  list.push_back(
+      rope("cable", "with a turn round a pulley",
+           "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], turns: [~, 1, ~], EA: 6, "
+           "pretension: 12, damping: 0.3",
+           with({{"turns", "[~, 1]", "3 numbers of turns"}, {"turns", "[~, ~, 1]", "on which the rope slides"}})));
   list.push_back(rope(
       "cable", "gripped",
       "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], grips: [b], EA: 6, pretension: 14, damping: 0.1",

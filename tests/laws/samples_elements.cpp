@@ -24,15 +24,11 @@ Sample rigid_body() {
 elements:
   it: {type: rigid_body, node: a, mass: 2, centre: [0.2, -0.3, 0.5], inertia: [1, 1.5, 2, 0.1, -0.2, 0.3], also: [b]}
 )yaml",
-          {{"mass", "0", "greater than 0"},
-           {"mass", "", ""},
+          {{"mass", "", ""},
            {"node", "c", "no node 'c'"},
-           {"centre", "[1, 2]", ""},
            {"inertia", "[1, 1, 3]", "exceeds the sum"},
            {"inertia", "[-1, 1, 1]", "positive definite"},
            {"inertia", "", ""},
-           {"inertia_about", "origin", "'centre'"},
-           {"inertia_axes", "{x: [1, 0, 0]}", "'x'"},
            {"also", "[a]", "own node"}}};
 }
 
@@ -51,12 +47,7 @@ elements:
     inertia_about: node
     inertia_axes: {bryant: [0.3, -0.2, 0.5]}
 )yaml",
-          {{"node", "", ""},
-           {"mass", "-1", "greater than 0"},
-           {"inertia", "[0.1, 0.1, 0.1]", "positive definite"},
-           {"inertia_about", "body", "'node'"},
-           {"centre", "[5, 0, 0]", "inertia"},
-           {"inertia_axes.bryant", "[1, 2]", ""}}};
+          {{"inertia", "[0.1, 0.1, 0.1]", "positive definite"}, {"centre", "[5, 0, 0]", "inertia"}}};
 }
 
 Sample solid_body() {
@@ -67,11 +58,7 @@ Sample solid_body() {
 elements:
   it: {type: rigid_body, node: a, solid: {box: [1, 2, 0.5], density: 2}, centre: [0.1, 0, 0]}
 )yaml",
-          {{"solid.density", "-1", "greater than 0"},
-           {"solid.box", "[1, 2, 0]", "greater than 0"},
-           {"solid.position", "[1, 2, 0]", "positions of their own"},
-           {"centre", "x", ""},
-           {"node", "", ""}}};
+          {{"solid.position", "[1, 2, 0]", "positions of their own"}}};
 }
 
 Sample drilled_body() {
@@ -89,17 +76,9 @@ elements:
       - {cylinder: [0.1, 0.5], density: 2, cut: true}
 )yaml",
           {{"node", "c", "no node 'c'"},
-           {"solid", "[]", "at least one"},
            {"solid", "[{sphere: 1, density: 1, cut: true}]", "no mass"},
-           {"solid", "[{sphere: 0, density: 1}]", "greater than 0"},
-           {"solid.0.box", "[1, 2]", "three edges"},
            {"solid.0.density", "", ""},
-           {"solid.0.position", "[1, 2]", ""},
-           {"solid.0.bryant", "[1, 2]", ""},
-           {"solid.1.cone", "[0, 0, 1]", "radii"},
-           {"solid.1.mass", "0", "greater than 0"},
-           {"solid.2.cylinder", "[1, 2, 3]", "[radius, length]"},
-           {"solid.2.cut", "maybe", "true or false"}}};
+           {"solid.1.cone", "[0, 0, 1]", "radii"}}};
 }
 
 Sample point_mass() {
@@ -110,27 +89,16 @@ Sample point_mass() {
 elements:
   it: {type: point_mass, node: b, mass: 2, centre: [0.3, 0.1, -0.2]}
 )yaml",
-          {{"mass", "-2", "at least 0"}, {"centre", "[1, 2]", ""}, {"node", "c", "no node 'c'"}}};
+          {{"node", "c", "no node 'c'"}}};
 }
 
 const std::vector<BadValue> bad_beam = {{"nodes", "[a, a]", "two different nodes"},
-                                        {"nodes", "[a]", "2 node names"},
-                                        {"elements", "0", "between 1 and 100000"},
-                                        {"elements", "1.5", ""},
                                         {"orientation", "[0.8, 0.4, 0.6]", "parallel"},
-                                        {"twist", "100", "more `elements`"},
-                                        {"damping", "-0.1", "at least 0"},
-                                        {"bending", "stiff", "'residual'"},
-                                        {"section", "", ""}};
+                                        {"twist", "100", "more `elements`"}};
 
 Sample beam() {
   std::vector<BadValue> bad = bad_beam;
-  bad.insert(bad.end(), {{"section.rectangle", "[1, 0]", "greater than 0"},
-                         {"section.young", "0", "greater than 0"},
-                         {"section.poisson", "0.7", "greater than -1 and at most 0.5"},
-                         {"section.density", "-1", "at least 0"},
-                         {"section.offset", "[1, 2, 3]", "[y, z]"},
-                         {"section.shear_factors", "[0, 1]", "greater than 0"}});
+  bad.insert(bad.end(), {});
   return {Section::elements, "beam", "offset section, damped", two_nodes + R"yaml(
 elements:
   it:
@@ -162,12 +130,7 @@ elements:
       stiffness: [[3, .1, .2, .3, -.2, .1], [.1, 2, .1, -.2, .3, .2], [.2, .1, 2, .1, .1, .4], [.3, -.2, .1, 1, .1, .2], [-.2, .3, .1, .1, 1.5, -.1], [.1, .2, .4, .2, -.1, 2]]
       mass: [[2, 0, 0, 0, 0.4, -0.2], [0, 2, 0, -0.4, 0, 0], [0, 0, 2, 0.2, 0, 0], [0, -0.4, 0.2, 1, 0, 0], [0.4, 0, 0, 0, 0.8, 0.1], [-0.2, 0, 0, 0, 0.1, 0.6]]
 )yaml",
-          {{"nodes", "[a, c]", "no node 'c'"},
-           {"elements", "-1", "between 1 and 100000"},
-           {"arc_through", "[0.7, 0.3, 0.1]", "one line"},
-           {"bending", "none", "'constant'"},
-           {"section.stiffness", "[[1, 2], [2, 1]]", ""},
-           {"section.mass", "[[1]]", ""}}};
+          {{"nodes", "[a, c]", "no node 'c'"}, {"arc_through", "[0.7, 0.3, 0.1]", "one line"}}};
 }
 
 Sample tapered_beam() {
@@ -189,15 +152,8 @@ elements:
       - {EA: 3, GAy: 1, GAz: 2, GJ: 2, EIy: 1, EIz: 1}
 )yaml",
           {{"nodes", "[a, 3]", "no node '3'"},
-           {"section.0.EA", "0", "greater than 0"},
-           {"section.0.GAy", "", "GAy"},
-           {"section.0.GAz", "-1", "greater than 0"},
-           {"section.1.GJ", "0", "greater than 0"},
-           {"section.1.EIy", "[1]", ""},
-           {"section.1.EIz", "0", "greater than 0"},
            {"elements", "x", ""},
-           {"arc_centre", "[0, 0, 0.1]", "not at one distance"},
-           {"section", "[{circle: 1, young: 1, shear: 1}]", "pair"}}};
+           {"arc_centre", "[0, 0, 0.1]", "not at one distance"}}};
 }
 
 /// Inclined principal axes, a shear centre of its own, taper.
@@ -216,21 +172,14 @@ elements:
       - {l: {width: 1, height: 1.1, thickness: 0.3}, young: 2, poisson: 0.2, density: 1.5, stress_points: [[0, -0.2]]}
 )yaml",
           {{"nodes", "[a, c]", "no node 'c'"},
-           {"elements", "0", "between 1 and 100000"},
-           {"section.0.l", "[1, 2]", "section"},
-           {"section.0.l.width", "0", "greater than 0"},
-           {"section.0.l.height", "", "height"},
            {"section.1.l.thickness", "2", "thinner"},
-           {"section.0.stress_points", "[]", "at least one point"},
            {"section", "{l: {width: 1, height: 1, thickness: 2}, young: 1, shear: 1}", "thinner"},
-           {"section", "{l: {width: 1, height: 1, thicknes: 0.2}, young: 1, shear: 1}", "did you mean 'thickness'"},
-           {"section", "{circle: 1, young: 1, shear: 1, stress_points: [[2, 0]]}", "outside of the section"},
-           {"section", "{circle: 1, young: 1, shear: 1, stress_points: [[0]]}", "a point [y, z]"}}};
+           {"section", "{circle: 1, young: 1, shear: 1, stress_points: [[2, 0]]}", "outside of the section"}}};
 }
 
 /// Every other kind of section, with all of its keys.
 Sample beam_of(const std::string& variant, const std::string& section, std::vector<BadValue> bad) {
-  bad.insert(bad.end(), {{"nodes", "[a, c]", "no node 'c'"}, {"elements", "0", "between 1 and 100000"}});
+  bad.insert(bad.end(), {{"nodes", "[a, c]", "no node 'c'"}});
   return {Section::elements, "beam", variant,
           two_nodes + "elements:\n  it: {type: beam, nodes: [a, b], elements: 1, section: " + section + "}\n",
           std::move(bad)};
@@ -238,31 +187,18 @@ Sample beam_of(const std::string& variant, const std::string& section, std::vect
 
 std::vector<Sample> beams_of_sections() {
   const std::string steel = ", young: 2, shear: 1, density: 1.5}";
-  return {beam_of("circle", "{circle: 0.4" + steel,
-                  {{"section.circle", "0", "greater than 0"}, {"section.shear", "-1", "greater than 0"}}),
+  return {beam_of("circle", "{circle: 0.4" + steel, {}),
           beam_of("tube", "{tube: [0.5, 0.3]" + steel, {{"section.tube", "[0.3, 0.5]", "must be smaller"}}),
           beam_of("i section", "{i: {width: [0.8, 0.6], height: 1, web: 0.1, flange: [0.2, 0.15]}" + steel,
-                  {{"section.i.width", "[1, 2, 3]", "pair [below, above]"},
-                   {"section.i.height", "0.3", "room for a web"},
-                   {"section.i.web", "0.7", "thinner"},
-                   {"section.i.flange", "[0, 1]", "greater than 0"}}),
+                  {{"section.i.height", "0.3", "room for a web"}, {"section.i.web", "0.7", "thinner"}}),
           beam_of("t section", "{t: {width: 0.8, height: 1, web: 0.1, flange: 0.2}" + steel,
-                  {{"section.t.width", "", "width"},
-                   {"section.t.height", "0.1", "room for a web"},
-                   {"section.t.web", "1", "thinner"},
-                   {"section.t.flange", "0", "greater than 0"}}),
+                  {{"section.t.height", "0.1", "room for a web"}, {"section.t.web", "1", "thinner"}}),
           beam_of("box section", "{box: {width: 0.8, height: 1, thickness: [0.1, 0.2]}" + steel,
-                  {{"section.box.width", "0", "greater than 0"},
-                   {"section.box.height", "0", "greater than 0"},
-                   {"section.box.thickness", "[0.5, 0.1]", "hollow"}}),
+                  {{"section.box.thickness", "[0.5, 0.1]", "hollow"}}),
           beam_of("constants with mass",
                   "{EA: 4, GAy: 2, GAz: 3, GJ: 1, EIy: 2, EIz: 1, mass_per_length: 1, Jx: 0.4, Jy: 0.3, Jz: 0.2, "
                   "offset: [0.1, 0.2]}",
-                  {{"section.mass_per_length", "-1", "at least 0"},
-                   {"section.Jx", "0", "mass moments > 0"},
-                   {"section.Jy", "", "Jy"},
-                   {"section.Jz", "x", "x"},
-                   {"section.offset", "[1]", "[y, z]"}})};
+                  {{"section.Jx", "0", "mass moments > 0"}, {"section.Jy", "", "Jy"}, {"section.Jz", "x", "x"}})};
 }
 
 /// Loads per length, dead and follower, off the centre of a curved and twisted beam.
@@ -282,15 +218,9 @@ elements:
     distributed: )yaml" +
                     load + "\n",
                 {{"nodes", "[a, c]", "no node 'c'"},
-                 {"elements", "0", "between 1 and 100000"},
                  {"arc_through", "[0.7, 0.3, 0.1]", "one line"},
                  {"twist", "100", "more `elements`"},
-                 {"section", "[1, 2]", ""},
-                 {"distributed.force", "[1, 2]", "three components"},
                  {"distributed.force", "[x, 1, 2]", "x"},
-                 {"distributed.moment", "1", "three components"},
-                 {"distributed.at", "[1, 2, 3]", "[y, z]"},
-                 {"distributed.follower", "maybe", ""},
                  {"distributed", "{at: [1, 2]}", "`force` or `moment`"}}};
   sample.inertial = inertial;
   return sample;
@@ -318,11 +248,7 @@ Sample spring() {
 elements:
   it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0.1, 0.3, 0.2]], stiffness: 3, damping: 0.7, length: 0.6}
 )yaml",
-          {{"nodes", "[a, a]", "two different nodes"},
-           {"at", "[[0, 0, 0]]", "two points"},
-           {"stiffness", "-1", "at least 0"},
-           {"damping", "-1", "at least 0"},
-           {"length", "-1", "at least 0"}}};
+          {{"nodes", "[a, a]", "two different nodes"}}};
 }
 
 Sample spring_by_formula() {
@@ -333,7 +259,7 @@ Sample spring_by_formula() {
 elements:
   it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0, 0, 0]], force: "2*e + e^3 + 0.4*v + 0.1*v^3"}
 )yaml",
-          {{"nodes", "b", ""}, {"at", "[1, 2]", ""}, {"force", "2*x", "x"}, {"force", "2*(e", ""}}};
+          {{"force", "2*x", "x"}, {"force", "2*(e", ""}}};
 }
 
 Sample timed_spring() {
@@ -369,12 +295,9 @@ elements:
                  {"nodes", "{a: c}", "no node 'c'"},
                  {"nodes", "{z: tip}", "no interface"},
                  {"nodes.a", "ground", "m away"},
-                 {"damping", "{ratio: -1}", "at least 0"},
-                 {"damping.rayleigh", "[0.1]", "[alpha, beta]"},
                  {"loads", "{pull: 1}", "no load pattern"},
                  {"loads.push", "'x*t'", "x"},
-                 {"loads.spread.factor", "'x*t'", "x"},
-                 {"loads.spread.follower", "maybe", "true or false"}}};
+                 {"loads.spread.factor", "'x*t'", "x"}}};
   // Second-order displacements make forces vary on a shorter scale than the body's length: half of it, so that
   // differences are as accurate as the law requires.
   sample.scales.length = 0.5;
@@ -411,8 +334,7 @@ nodes:
 elements:
   it: {type: superelement, file: body.h5, nodes: {a: root, b: tip, c: middle}}
 )yaml",
-                {{"file", "", ""},
-                 {"nodes", "{a: root, b: tip}", "leaves some directions of its node free"},
+                {{"nodes", "{a: root, b: tip}", "leaves some directions of its node free"},
                  {"nodes.b", "root", "m away"},
                  {"nodes.c", "tip", "m away"}}};
   sample.scales.length = 0.5;  // held this loosely, the body turns about its slender axis when the middle moves by less
@@ -445,10 +367,7 @@ points:
 elements:
   it: {type: superelement, file: body.h5, nodes: {a: tip}, frame: mean_axes}
 )yaml",
-                {{"file", "", ""},
-                 {"nodes", "{z: tip}", "no interface"},
-                 {"frame", "middle", "not a frame of a superelement"},
-                 {"frame", "{interface: z}", "no interface"}}};
+                {{"nodes", "{z: tip}", "no interface"}, {"frame", "{interface: z}", "no interface"}}};
   sample.scales.length = 0.25;  // see above; points are nearer still
   sample.scales.deformation = 0.1;
   sample.scales.amplitude = 0.1;
@@ -472,10 +391,7 @@ Sample dead_load() {
 loads:
   it: {node: a, force: ["1 + t", 2, "cos(t)"], moment: [0.3, "t", 1], at: [0.2, 0.1, -0.3]}
 )yaml",
-                {{"node", "c", "no node 'c'"},
-                 {"force", "[1, 2]", "three components"},
-                 {"moment", "['x', 1, 2]", "x"},
-                 {"at", "[1]", ""}}};
+                {{"node", "c", "no node 'c'"}, {"moment", "['x', 1, 2]", "x"}}};
   sample.inertial = true;
   return sample;
 }
@@ -488,11 +404,7 @@ Sample follower_load() {
 loads:
   it: {node: a, force: ["1 + t", 2, "cos(t)"], moment: [0.3, "t", 1], at: [0.2, 0.1, -0.3], follower: true}
 )yaml",
-          {{"node", "", ""},
-           {"force", "1", "three components"},
-           {"moment", "[]", ""},
-           {"at", "a", ""},
-           {"follower", "maybe", ""}}};
+          {}};
 }
 
 }  // namespace

@@ -38,13 +38,8 @@ Sample bushing_of_matrices() {
               ", preload: [0.5, -0.3, 0.2, 0.1, 0.4, -0.2], maxwell: [{factor: 0.4, time: 0.7}, {stiffness: [1, 0, 2, "
               "0.5, 0, 1], time: 2}]"),
           {{"nodes", "[a, a]", "two different nodes"},
-           {"position", "[1, 2]", ""},
            {"axis", "[0, 0, 0]", ""},
            {"second_axis", "[1, 2, 3]", ""},
-           {"stiffness", "5", "six numbers"},
-           {"stiffness", "[1, 2, 3]", "six numbers"},
-           {"stiffness", "[1, 2, 3, 4, 5, -1]", "at least 0"},
-           {"stiffness", "[[1, 2], [2, 1]]", ""},
            {"stiffness", "{file: none.csv}", "no such file"},
            {"stiffness",
             "[[1, 0.5, 0, 0, 0, 0], [0.2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], "
@@ -61,14 +56,7 @@ Sample bushing_of_matrices() {
             "0, 0, 0, "
             "0, 1]]",
             "drives the motion"},
-           {"damping", "-0.1", "at least 0"},
-           {"preload", "5", ""},
-           {"preload", "[1, 2, 3]", "six numbers"},
-           {"maxwell", "[]", "at least one"},
-           {"maxwell.0.factor", "-1", "at least 0"},
-           {"maxwell.0.time", "-1", "at least 0"},
-           {"maxwell.0.stiffness", "[1, 1, 1, 1, 1, 1]", "either"},
-           {"maxwell.1.stiffness", "[1, 1]", "six numbers"}}};
+           {"maxwell.0.stiffness", "[1, 1, 1, 1, 1, 1]", "either"}}};
 }
 
 Sample plain_bushing() {
@@ -76,9 +64,7 @@ Sample plain_bushing() {
           "bushing",
           "numbers",
           flexible_joint("type: bushing, stiffness: [1, 2, 1, 0.5, 0, 1]"),
-          {{"nodes", "[a, a]", "two different nodes"},
-           {"stiffness", "[0, 0, 0, 0, 0, 0]", "does nothing"},
-           {"stiffness", "[1]", "six numbers"}}};
+          {{"nodes", "[a, a]", "two different nodes"}, {"stiffness", "[0, 0, 0, 0, 0, 0]", "does nothing"}}};
 }
 
 Sample bushing_of_curves() {
@@ -90,11 +76,8 @@ Sample bushing_of_curves() {
                      "0.2, curves: {x: x.csv, y: {table: x.csv}, z: \"3*q^3 + 0.2*v\", rx: \"q*(1 + 0.2*sin(t))\", rz: "
                      "\"2*q + 0.1*it.x.rate + 0.2*b.position.x\"}, start: {rx: 0.1}"),
       {{"nodes", "[a, c]", "no node 'c'"},
-       {"at", "[1, 2, 3]", "the first node and of the second"},
        {"stiffness", "", "which is missing"},
        {"stiffness.file", "x.csv", ""},
-       {"damping", "[1, 1, 1, 1, 1, -1]", "at least 0"},
-       {"curves", "{q: x.csv}", "names directions"},
        {"curves.x", "none.csv", "no such file"},
        {"curves.x", "falling.csv", "ascend"},
        {"curves.y.table", "one.csv", "at least two points"},
@@ -102,8 +85,7 @@ Sample bushing_of_curves() {
        {"curves.rx", "-3", "at least 0"},
        {"curves.rz", "it.w", ""},
        {"start", "{angle: 1}", "angle"},
-       {"start.rx", "far", ""},
-       {"rest", "{x: 1}", "rest"}}};
+       {"start.rx", "far", ""}}};
   sample.inertial = true;  // a position of a node
   sample.scales.deformation = 0.2;
   sample.files = [](const std::string& folder) {
@@ -126,24 +108,10 @@ Sample bearing_of_all() {
               "{stiffness: [3, 2], damping: 0.3}, axial: {stiffness: 2, damping: 0.1}, tilting: {stiffness: 1.5, "
               "damping: [0.2, 0.4]}, stiffness: {angle: 2, z: \"q^3\"}, damping: {angle: 0.1}, preload: {z: 0.5}"),
           {{"nodes", "[a, c]", "no node 'c'"},
-           {"position", "[1, 2]", ""},
-           {"axis", "", "axis"},
            {"second_axis", "[1, 2, 3]", ""},
-           {"radial", "", "radial"},
-           {"radial", "-1", "at least 0"},
            {"radial", "{}", "expected `stiffness` or `damping`"},
-           {"radial.stiffness", "[1, 2, 3]", "two"},
-           {"radial.damping", "-1", "at least 0"},
-           {"axial", "[1, 2]", "a number"},
-           {"axial.stiffness", "-1", "at least 0"},
-           {"axial.damping", "[1, 1]", "a number"},
-           {"tilting", "-2", "at least 0"},
-           {"tilting.stiffness", "-2", "at least 0"},
-           {"tilting.damping", "[1]", "two"},
            {"stiffness", "5", "several coordinates"},
-           {"stiffness.angle", "-1", ""},
            {"stiffness.z", "'q*w'", "w"},
-           {"damping.angle", "-1", ""},
            {"preload.z", "much", ""}}};
 }
 
@@ -152,19 +120,12 @@ Sample plain_bearing() {
           "bearing",
           "numbers",
           flexible_joint("type: bearing, axis: [1, 2, 3], radial: 3, axial: 2, tilting: 1"),
-          {{"nodes", "[a, a]", "two different nodes"},
-           {"axis", "[0, 0, 0]", ""},
-           {"radial", "[1]", "two"},
-           {"axial", "-1", "at least 0"},
-           {"tilting", "[-1, 1]", "at least 0"}}};
+          {{"nodes", "[a, a]", "two different nodes"}, {"axis", "[0, 0, 0]", ""}}};
 }
 
 Sample clearance(const std::string& type, const std::string& variant, const std::string& keys,
                  std::vector<BadValue> bad) {
-  bad.insert(bad.end(), {{"nodes", "[a, a]", "two different nodes"},
-                         {"radial_gap", "-1e-3", "at least 0"},
-                         {"radial_gap", "", "radial_gap"},
-                         {"contact", "", "contact"}});
+  bad.insert(bad.end(), {{"nodes", "[a, a]", "two different nodes"}});
   Sample sample{Section::joints, type, variant, flexible_joint("type: " + type + ", " + keys), std::move(bad)};
   // Surfaces touch nearly everywhere, and forces vary smoothly over the differences.
   sample.scales.kinks_unloaded = true;
@@ -181,83 +142,35 @@ std::vector<Sample> clearances() {
               "radial_gap: 0.01, axial_gap: 0.02, length: 0.6, radius: 0.3, contact: {stiffness: 3, exponent: 2, "
               "damping: 0.1}, axial_contact: {stiffness: 2, exponent: 3, restitution: 0.999}, friction: {coefficient: "
               "0.3, static: 0.4, stribeck_velocity: 3, viscous: 0.1, velocity: 2, model: coulomb}",
-          {{"position", "[1, 2]", ""},
-           {"axis", "", "axis"},
-           {"second_axis", "[1, 2, 3]", ""},
-           {"axial_gap", "-1", "at least 0"},
+          {{"second_axis", "[1, 2, 3]", ""},
            {"axial_gap", "", "which is missing"},
-           {"length", "-1", "at least 0"},
-           {"radius", "-1", "at least 0"},
            {"radius", "", "which is missing"},
-           {"contact.stiffness", "0", "greater than 0"},
-           {"contact.exponent", "0.5", "at least 1"},
-           {"contact.damping", "-1", "at least 0"},
-           {"axial_contact.stiffness", "-1", "greater than 0"},
-           {"axial_contact.exponent", "0", "at least 1"},
-           {"axial_contact.restitution", "2", "at most 1"},
-           {"friction.coefficient", "-1", "at least 0"},
-           {"friction.static", "0.1", "no smaller"},
-           {"friction.stribeck_velocity", "-1", ""},
-           {"friction.viscous", "-1", ""},
-           {"friction.velocity", "0", ""},
-           {"friction.model", "stick_slip", "coulomb"}}),
+           {"friction.static", "0.1", "no smaller"}}),
       clearance("clearance_hinge", "one contact",
-                "axis: [1, 2, 3], radial_gap: 0.01, contact: {stiffness: 2, exponent: 1}",
-                {{"axis", "[0, 0, 0]", ""}, {"contact.exponent", "0.5", "at least 1"}}),
+                "axis: [1, 2, 3], radial_gap: 0.01, contact: {stiffness: 2, exponent: 1}", {{"axis", "[0, 0, 0]", ""}}),
       clearance("clearance_hinge", "materials",
                 "axis: [1, 2, 3], radial_gap: 0.01, length: 0.5, contact: {young: [2, 3], poisson: 0.3, damping: 0.1}",
-                {{"axis", "", "axis"},
-                 {"length", "", "which is missing"},
-                 {"contact.young", "[1, 2, 3]", "bush and journal"},
-                 {"contact.young", "-1", "greater than 0"},
-                 {"contact.poisson", "0.6", "greater than -1 and at most 0.5"},
-                 {"contact.stiffness", "5", "follows from"}}),
+                {{"length", "", "which is missing"}, {"contact.stiffness", "5", "follows from"}}),
       clearance("clearance_spherical", "friction",
                 "at: [[0.2, 0.1, 0.3], [-0.6, -0.2, -0.1]], radial_gap: 0.01, radius: 0.2, contact: {stiffness: 3, "
                 "exponent: 2, "
                 "damping: 0.1}, friction: {coefficient: 0.3, velocity: 2}, stiffness: {x: 0.5}",
-                {{"at", "[1, 2, 3]", "the first node and of the second"},
-                 {"radius", "", "which is missing"},
-                 {"contact.stiffness", "0", "greater than 0"},
-                 {"contact.exponent", "0.5", "at least 1"},
-                 {"contact.damping", "-1", "at least 0"},
-                 {"friction.velocity", "0", "greater than 0"},
-                 {"friction.coefficient", "-1", "at least 0"},
-                 {"stiffness.x", "-1", ""}}),
+                {{"radius", "", "which is missing"}}),
       clearance("clearance_hinge", "bristles",
                 "axis: [1, 2, 3], radial_gap: 0.01, length: 0.6, radius: 0.3, contact: {stiffness: 3, exponent: 2, "
                 "damping: 0.1}, friction: {model: lugre, coefficient: 0.3, static: 0.4, stribeck_velocity: 3, viscous: "
                 "0.1, bristle_stiffness: 1.5, bristle_damping: 0.4}",
-                {{"axis", "", "axis"},
-                 {"length", "-1", "at least 0"},
-                 {"radius", "", "which is missing"},
-                 {"contact.stiffness", "-1", "greater than 0"},
-                 {"contact.exponent", "0", "at least 1"},
-                 {"contact.damping", "-1", "at least 0"},
-                 {"friction.model", "bristles", "lugre"},
+                {{"radius", "", "which is missing"},
                  {"friction.static", "0.1", "no smaller"},
-                 {"friction.stribeck_velocity", "-1", ""},
-                 {"friction.viscous", "-1", ""},
-                 {"friction.coefficient", "", ""},
-                 {"friction.bristle_stiffness", "0", "greater than 0"},
                  {"friction.bristle_stiffness", "", "bristle_stiffness"},
-                 {"friction.bristle_damping", "-1", "at least 0"},
                  {"friction.velocity", "1", "model: coulomb"}}),
       clearance("clearance_spherical", "bristles",
                 "radial_gap: 0.01, radius: 0.2, contact: {stiffness: 3, exponent: 2}, friction: {model: lugre, "
                 "coefficient: 0.3, bristle_stiffness: 2, bristle_damping: 0.3}",
-                {{"radius", "", "which is missing"},
-                 {"contact.stiffness", "-1", "greater than 0"},
-                 {"contact.exponent", "0", "at least 1"},
-                 {"friction.model", "stick_slip", "lugre"},
-                 {"friction.coefficient", "-1", "at least 0"},
-                 {"friction.bristle_stiffness", "-1", "greater than 0"},
-                 {"friction.bristle_damping", "-1", "at least 0"}}),
+                {{"radius", "", "which is missing"}}),
       clearance("clearance_spherical", "materials",
                 "radial_gap: 0.1, radius: 0.2, contact: {young: 2, poisson: [0.3, 0.2]}",
-                {{"radius", "", "which is missing"},
-                 {"contact.young", "0", "greater than 0"},
-                 {"contact.poisson", "[2, 0]", "greater than -1 and at most 0.5"}})};
+                {{"radius", "", "which is missing"}})};
 }
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
@@ -300,12 +213,9 @@ Sample field() {
               by_rows(between(some_matrix(0.2), way)) + ", damping: 0.3}\n",
           {{"nodes", "[a, a]", "two different nodes"},
            {"nodes", "[a, c]", "no node 'c'"},
-           {"stiffness", "", "stiffness"},
-           {"stiffness", "[[1]]", ""},
            {"stiffness", by_rows(to_ground), "resists rigid motions"},
            {"stiffness", by_rows(Matrix12::Zero()), "does nothing"},
-           {"stiffness", by_rows(-between(some_matrix(0.2), way)), "not positive semidefinite"},
-           {"damping", "-1", "at least 0"}}};
+           {"stiffness", by_rows(-between(some_matrix(0.2), way)), "not positive semidefinite"}}};
 }
 
 Sample field_of_files() {
@@ -316,12 +226,10 @@ Sample field_of_files() {
       flexible_nodes +
           "elements:\n  it: {type: stiffness_field, nodes: [a, b], stiffness: {file: k.csv}, damping: {file: d.csv}, "
           "rotation_vector: [0.3, 0.2, -0.4]}\n",
-      {{"nodes", "[a]", "2 node names"},
-       {"stiffness.file", "none.csv", "no such file"},
+      {{"stiffness.file", "none.csv", "no such file"},
        {"stiffness.file", "short.csv", ""},
        {"stiffness", "{file: skew.csv}", "not symmetric"},
-       {"damping.file", "short.csv", ""},
-       {"rotation_vector", "[1]", ""}}};
+       {"damping.file", "short.csv", ""}}};
   sample.files = [](const std::string& folder) {
     const mechanism::Matrix3 axes = mechanism::exp_so3(mechanism::Vector3(0.3, 0.2, -0.4));
     const mechanism::Vector3 way = axes.transpose() * mechanism::Vector3(0.8, 0.4, 0.6);

@@ -46,14 +46,9 @@ Sample line(const std::string& type, const std::string& variant, const std::stri
               circuit("  lines:\n    it: {from: p, to: t, " + type + ": {" + keys + "}}\n", fluid), std::move(bad));
 }
 
-const std::vector<BadValue> bad_orifice = {{"coefficient", "1.2", "between 0 and 1"},
-                                           {"coefficient", "-1", "between 0 and 1"},
-                                           {"density", "0", "greater than 0"}};
-
 std::vector<BadValue> within(const std::string& type, const std::vector<BadValue>& list) {
   std::vector<BadValue> bad;
   for (const BadValue& each : list) bad.push_back({type + "." + each.key, each.value, each.says});
-  for (const BadValue& each : bad_orifice) bad.push_back({type + "." + each.key, each.value, each.says});
   return bad;
 }
 
@@ -81,78 +76,41 @@ Sample reader(const std::string& type, const std::string& variant, const std::st
 std::vector<Sample> lines() {
   return {
       line("orifice", "area by a formula", law + ", area: \"0.3 + 0.1*sin(axle.angle + t)\", transition_pressure: 2",
-           within("orifice",
-                  {{"area", "axle.angel", "did you mean 'angle'"}, {"transition_pressure", "0", "greater than 0"}})),
-      line("orifice", "by Reynolds number", law + ", diameter: 0.5, transition_reynolds: 1e-2",
-           within("orifice", {{"diameter", "-1", "at least 0"}, {"transition_reynolds", "0", "greater than 0"}}),
+           within("orifice", {{"area", "axle.angel", "did you mean 'angle'"}})),
+      line("orifice", "by Reynolds number", law + ", diameter: 0.5, transition_reynolds: 1e-2", within("orifice", {}),
            conserving),
-      line("laminar", "", "conductance: 0.3", {{"laminar.conductance", "-1", "at least 0"}}),
-      line("laminar", "a gap", "length: 2, diameter: 3",
-           {{"laminar.length", "", "length"}, {"laminar.diameter", "-1", "at least 0"}}, conserving),
-      line("check", "", law + ", area: 0.4, pressure: 0.2, range: 3, transition_pressure: 2",
-           within("check", {{"area", "-1", "at least 0"},
-                            {"pressure", "-1", "at least 0"},
-                            {"range", "0", "greater than 0"},
-                            {"transition_pressure", "0", "greater than 0"}})),
+      line("laminar", "", "conductance: 0.3", {}),
+      line("laminar", "a gap", "length: 2, diameter: 3", {{"laminar.length", "", "length"}}, conserving),
+      line("check", "", law + ", area: 0.4, pressure: 0.2, range: 3, transition_pressure: 2", within("check", {})),
       following(line("relief", "that follows",
                      law + ", diameter: 0.4, pressure: 0.2, range: 3, time_constant: 0.7, transition_reynolds: 0.1",
-                     within("relief", {{"diameter", "-1", "at least 0"},
-                                       {"pressure", "-1", "at least 0"},
-                                       {"range", "0", "greater than 0"},
-                                       {"time_constant", "-1", "at least 0"},
-                                       {"transition_reynolds", "0", "greater than 0"}}))),
+                     within("relief", {}))),
       line("relief", "vented", law + ", area: 0.4, pressure: 0.2, range: 5, vented: true, transition_pressure: 1",
-           within("relief", {{"area", "-1", "at least 0"},
-                             {"pressure", "-1", "at least 0"},
-                             {"range", "0", "greater than 0"},
-                             {"vented", "often", ""},
-                             {"transition_pressure", "0", "greater than 0"}})),
+           within("relief", {})),
       following(line("counterbalance", "",
                      law + ", area: 0.4, pressure: 0.1, pilot: x, pilot_ratio: 0.7, range: 5, check_pressure: 0.3, "
                            "time_constant: 0.3, "
                            "transition_pressure: 2",
-                     within("counterbalance", {{"area", "-1", "at least 0"},
-                                               {"pressure", "-1", "at least 0"},
-                                               {"pilot", "y", "no place"},
-                                               {"pilot_ratio", "-1", "at least 0"},
-                                               {"range", "0", "greater than 0"},
-                                               {"check_pressure", "-1", "at least 0"},
-                                               {"time_constant", "-1", "at least 0"},
-                                               {"transition_pressure", "0", "greater than 0"}}))),
-      line("flow_valve", "", "flow: \"0.3 + 0.1*axle.angle.rate^2 + 0.1*t\", pressure: 3",
-           {{"flow_valve.flow", "", "flow"}, {"flow_valve.pressure", "0", "greater than 0"}}),
+                     within("counterbalance", {{"pilot", "y", "no place"}}))),
+      line("flow_valve", "", "flow: \"0.3 + 0.1*axle.angle.rate^2 + 0.1*t\", pressure: 3", {}),
       reader("flow_valve", "that reads another line", "flow_valve: {flow: \"0.2 + 0.3*other.flow\", pressure: 3}",
              "flow_valve: {flow: \"0.3 + 0.1*axle.angle\", pressure: 2}",
-             {{"flow_valve.flow", "other.flaw", "did you mean"}, {"flow_valve.pressure", "0", "greater than 0"}}),
+             {{"flow_valve.flow", "other.flaw", "did you mean"}}),
       reader("orifice", "of the opening of another line",
              "orifice: {" + law + ", area: \"0.3 + 0.2*other.opening\", transition_pressure: 2}",
              "valve: {" + law + ", area: 0.5, command: \"0.4 + 0.1*axle.angle\", transition_pressure: 1}",
-             within("orifice",
-                    {{"area", "other.openin", "did you mean"}, {"transition_pressure", "0", "greater than 0"}})),
+             within("orifice", {{"area", "other.openin", "did you mean"}})),
       line("valve", "second order",
            law + ", area: 0.5, overlap: -0.3, command: \"0.3*axle.angle + 0.01*t\", frequency: 0.4, damping: 0.6, "
                  "transition_pressure: 1",
-           within("valve", {{"area", "-1", "at least 0"},
-                            {"overlap", "1", "between -1 and 1"},
-                            {"command", "axle.angel", "did you mean"},
-                            {"frequency", "0", "greater than 0"},
-                            {"damping", "-1", "at least 0"},
-                            {"transition_pressure", "0", "greater than 0"}})),
+           within("valve", {{"command", "axle.angel", "did you mean"}})),
       line("pipe", "",
            "length: 3, diameter: 2, roughness: 0.01, cells: 2, pressure: 0, wall: {thickness: 0.1, young: 1e6}",
-           {{"pipe.length", "0", "greater than 0"},
-            {"pipe.diameter", "0", "greater than 0"},
-            {"pipe.roughness", "1", "well below"},
-            {"pipe.cells", "0", "between 1 and 10000"},
-            {"pipe.pressure", "", "pressure"},
-            {"pipe.wall.thickness", "0", "greater than 0"},
-            {"pipe.wall.young", "0", "greater than 0"}}),
-  };
+           {{"pipe.roughness", "1", "well below"}})};
 }
 
 Sample servo_valve(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
   for (const BadValue& each : std::vector<BadValue>{{"ports", "", "ports"},
-                                                    {"ports.P", "", "P"},
                                                     {"ports.T", "p", "another port"},
                                                     {"ports.A", "nowhere", "no place"},
                                                     {"ports.B", "nowhere", "no place"},
@@ -168,7 +126,7 @@ Sample servo_valve(const std::string& variant, const std::string& keys, std::vec
 std::vector<Sample> places() {
   std::vector<Sample> list = {
       part("volumes", "volume", "", circuit("    it: {volume: 5, pressure: 1, compliance: 3e-5}\n"),
-           {{"volume", "-1", "at least 0"}, {"pressure", "-2e5", "vacuum"}, {"compliance", "-1", "at least 0"}}),
+           {{"pressure", "-2e5", "vacuum"}}),
       part("volumes", "volume", "without air", circuit("    it: {volume: 5, pressure: 3e4}\n", conserving),
            {{"volume", "0", "has no space as drawn"}, {"pressure", "-2e5", "vacuum"}}),
       part("supplies", "supply", "pressure", circuit("  supplies:\n    it: {pressure: \"1 + axle.angle + t\"}\n"),
@@ -178,20 +136,14 @@ std::vector<Sample> places() {
            {{"to", "", "to"}, {"from", "nowhere", "no place"}, {"flow", "", "one of the two"}}),
       part("accumulators", "accumulator", "",
            circuit("  accumulators:\n    it: {at: p, gas_volume: 3, precharge: -5, exponent: 1.3}\n"),
-           {{"at", "nowhere", "no place"},
-            {"gas_volume", "-1", "at least 0"},
-            {"precharge", "-2e5", "vacuum"},
-            {"exponent", "3", "between 1 and 1.7"}}),
+           {{"at", "nowhere", "no place"}, {"precharge", "-2e5", "vacuum"}}),
       part("machines", "machine", "",
            circuit("  machines:\n    it: {joint: axle, from: p, to: t, displacement: 0.3, setting: \"0.7 + "
                    "0.1*sin(axle.angle + axle.angle.rate)\", leakage: 0.2, drag: 0.4}\n"),
            {{"joint", "axel", "did you mean"},
             {"from", "nowhere", "no place"},
             {"to", "p", "from one place to another"},
-            {"displacement", "-1", "at least 0"},
-            {"setting", "axle.angel", "did you mean"},
-            {"leakage", "-1", "at least 0"},
-            {"drag", "-1", "at least 0"}}),
+            {"setting", "axle.angel", "did you mean"}}),
       part(
           "machines", "machine", "that reads another machine and an accumulator",
           circuit("  accumulators:\n    store: {at: x, gas_volume: 3, precharge: -5}\n  machines:\n"
@@ -202,9 +154,7 @@ std::vector<Sample> places() {
           {{"joint", "axel", "did you mean"},
            {"from", "nowhere", "no place"},
            {"to", "p", "from one place to another"},
-           {"displacement", "-1", "at least 0"},
-           {"setting", "other.torqe", "did you mean"}}),
-  };
+           {"setting", "other.torqe", "did you mean"}})};
   return list;
 }
 
@@ -214,7 +164,6 @@ const std::string soft_keys =
 Sample cylinder(const std::string& variant, const std::string& keys, std::vector<BadValue> bad,
                 const std::string& hydraulics = "") {
   bad.push_back({"nodes", "[a, a]", "two different nodes"});
-  bad.push_back({"at", "[[0, 0, 0]]", "expected two points"});
   bad.push_back({"stroke", "[2, 1]", "the shortest distance first"});
   Sample sample{Section::elements, "hydraulic_actuator", variant, circuit(hydraulics), std::move(bad)};
   sample.model +=
@@ -240,72 +189,31 @@ std::vector<Sample> cylinders() {
               "accumulator: "
               "{gas_volume: 1, precharge: 1, exponent: 1.2}, cushions: {lengths: [0.1, 0.1], areas: [0.01, 0.02], "
               "port_area: 0.1}",
-          {{"ambient_pressure", "-1", "at least 0"},
-           {"bulk_modulus", "0", "greater than 0"},
-           {"density", "0", "greater than 0"},
-           {"viscosity", "0", "greater than 0"},
-           {"air_fraction", "1", "less than 1"},
-           {"air_exponent", "3", "between 1 and 1.7"},
-           {"vapour_pressure", "1e5", "between 0 and 3500"},
-           {"vapour_pressure", "-1", "between 0 and 3500"},
-           {"conserves", "energy", "what flows conserve"},
-           {"piston_areas", "[0, 1]", "greater than 0"},
-           {"dead_volumes", "[-1, 0]", "at least 0"},
-           {"pressures", "[-2e5, 0]", "vacuum"},
-           {"leakage", "-1", "at least 0"},
-           {"external_leakage", "[-1, 0]", "at least 0"},
-           {"compliances", "[-1, 0]", "at least 0"},
-           {"friction.viscous", "-1", "at least 0"},
-           {"friction.coulomb", "-1", "at least 0"},
+          {{"pressures", "[-2e5, 0]", "vacuum"},
            {"friction.static", "0.1", "no less than"},
            {"friction.stribeck_velocity", "", "needs a `stribeck_velocity`"},
-           {"friction.velocity", "0", "greater than 0"},
-           {"end_stops.stiffness", "-1", "at least 0"},
-           {"end_stops.damping", "-1", "at least 0"},
            {"supply.pressure", "", "one of the two"},
            {"supply.tank", "no", ""},
            {"valve.area", "", "needs an `area`"},
-           {"valve.coefficient", "2", "between 0 and 1"},
-           {"valve.density", "0", "greater than 0"},
-           {"valve.command", "1.2", "between -1 and 1"},
-           {"valve.overlap", "2", "between -1 and 1"},
-           {"valve.time_constant", "-1", "at least 0"},
-           {"valve.transition_pressure", "0", "greater than 0"},
-           {"relief.pressure", "-1", "at least 0"},
            {"relief.area", "", "needs an `area`"},
-           {"accumulator.gas_volume", "-1", "at least 0"},
            {"accumulator.precharge", "-2e5", "vacuum"},
-           {"accumulator.exponent", "3", "between 1 and 1.7"},
            {"cushions.lengths", "[3, 1]", "longer than the stroke"},
-           {"cushions.areas", "[1, 1]", "smaller than"},
-           {"cushions.port_area", "0", "greater than 0"}}),
+           {"cushions.areas", "[1, 1]", "smaller than"}}),
       cylinder("with cushions, in a circuit",
                "piston_areas: [1.2, 0.7], dead_volumes: [3, 4], ports: [p, t], pressures: [1.1, 0.9], compliances: "
                "[1e-5, 0], cushions: {lengths: [0.1, 0.1], areas: [0.01, 0.02], port_area: 0.1}",
-               {{"piston_areas", "[0, 1]", "greater than 0"},
-                {"dead_volumes", "[-1, 0]", "at least 0"},
-                {"ports", "[p, p]", "the same place"},
+               {{"ports", "[p, p]", "the same place"},
                 {"pressures", "[-2e5, 0]", "vacuum"},
-                {"compliances", "[-1, 0]", "at least 0"},
                 {"cushions.lengths", "[3, 1]", "longer than the stroke"},
-                {"cushions.areas", "[1, 1]", "smaller than"},
-                {"cushions.port_area", "0", "greater than 0"}}),
+                {"cushions.areas", "[1, 1]", "smaller than"}}),
       cylinder("telescopic, in a circuit",
                "stages: [{piston_areas: [1.5, 0.4], length: 0.8}, {piston_areas: [0.9, 0.2], length: 1.2}], "
                "dead_volumes: [2, "
                "3], ports: [p, t]",
-               {{"stages", "[{piston_areas: [1, 1], length: 1}]", "m long together"},
-                {"stages.0.piston_areas", "[1, 2, 3]", "expected [A1, A2]"},
-                {"stages.1.length", "0", "greater than 0"},
-                {"dead_volumes", "[1, 2, 3]", "two numbers"},
-                {"ports", "[p]", "two places"}}),
+               {{"stages", "[{piston_areas: [1, 1], length: 1}]", "m long together"}, {"ports", "[p]", "two places"}}),
       cylinder("single-acting, against a given pressure",
                "piston_areas: [1.5, 0.5], dead_volumes: [2, 0], ports: [p, tank]",
-               {{"piston_areas", "[]", "expected [A1, A2]"},
-                {"dead_volumes", "[1, 2, 3]", "two numbers"},
-                {"ports", "[p, p]", "the same place"}},
-               "  supplies: {tank: {pressure: 0}}\n"),
-  };
+               {{"ports", "[p, p]", "the same place"}}, "  supplies: {tank: {pressure: 0}}\n")};
 }
 
 }  // namespace
@@ -317,16 +225,10 @@ std::vector<Sample> hydraulic_samples() {
             "first order",
             law + ", areas: [0.3, 0.4, 0.5, 0.6], overlap: 0.17, command: \"0.3*axle.angle\", time_constant: 0.3, "
                   "transition_pressure: 1",
-            within("servo_valve", {{"areas", "[1, 2, 3]", "P-A"},
-                                   {"overlap", "1", "between -1 and 1"},
-                                   {"command", "", "command"},
-                                   {"time_constant", "-1", "at least 0"},
-                                   {"transition_pressure", "0", "greater than 0"}})),
+            within("servo_valve", {})),
         servo_valve("without dynamics",
                     "area: 0.4, command: \"0.5 + 0.4*sin(axle.angle.rate)\", transition_pressure: 1",
-                    {{"servo_valve.area", "", "needs an `area`"},
-                     {"servo_valve.command", "2", "between -1 and 1"},
-                     {"servo_valve.transition_pressure", "0", "greater than 0"}})})
+                    {{"servo_valve.area", "", "needs an `area`"}})})
     list.push_back(sample);
   for (const auto& more : {places, cylinders})
     for (Sample& sample : more()) list.push_back(std::move(sample));
