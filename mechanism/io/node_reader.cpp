@@ -200,14 +200,18 @@ const KeyTable& node_keys() {
               inertial_orientation_keys(),
               {{"at", name_of("node"), computed("the inertial axes"),
                 "Node in whose axes the position and the orientation are given."},
+               {"carried_by", name_of("element"), optional,
+                "Rigid body that carries the node, as one of those that it names `also`."},
                {"velocity", vector3("m/s").as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),
                 "Velocity at the start, in inertial components."},
                {"angular_velocity", vector3("rad/s").as_axial(), otherwise("[0, 0, 0]"),
                 "Angular velocity at the start, in the node's own axes."},
                {"fixed",
-                {boolean(), list_of(word(directions, "a direction"))},
+                {boolean(), number(), list_of(word(directions, "a direction"))},
                 otherwise("false"),
-                "Held directions, `true` for all six: displacements x, y, z and rotations rx, ry, rz."},
+                "Held directions: `true`, or a number or formula of parameters that is not zero, for all six; or a "
+                "list of "
+                "displacements x, y, z and rotations rx, ry, rz, along and about the inertial axes."},
                {"motion", nested(motion_keys), optional,
                 "Prescribed displacements from the place, each as a formula of t or by its acceleration."}}})};
   return table;

@@ -25,7 +25,7 @@ bool holds(const YamlNode& condition, const Scope& scope, const std::string& pat
   return scope.number(condition, path + ".if") != 0;
 }
 
-/// Calls `use` for every combination of the numbers of `directions[direction]` and those behind it.
+/// Calls `use` for every combination of the numbers and words of `directions[direction]` and those behind it.
 void for_each_number(const std::vector<Tree>& directions, std::size_t direction, const Scope& scope,
                      const std::string& path, const UseScope& use) {
   if (direction == directions.size()) return use(scope);
@@ -34,10 +34,23 @@ void for_each_number(const std::vector<Tree>& directions, std::size_t direction,
   const YamlValue keys =
       YamlValue::of_tree(directions[direction], "", repeat.file ? *repeat.file : *scope.main_file).keyed(repeat_keys());
   const std::string as = keys.at("as").text();
-  keys.at("count");  // refuses a repetition without it
   if (as.empty() || as == "t" || scope.parameters->count(as))
     fail_at(repeat, *scope.main_file, place,
             fmt::format("'{}' has a meaning in formulas already; choose another name", as));
+  if (const Tree over = find_value(repeat, "over")) {
+    if (find_pair(repeat, "count") || find_pair(repeat, "from"))
+      fail_at(repeat, *scope.main_file, place, "`over` lists the words: `count` and `from` do not go with it");
+    for (const YamlValue& item : keys.at("over").items()) item.text();  // refuses what is no list of words
+    for (const Tree& item : over->items) {
+      Scope local = scope.inner();
+      local.words[as] = scope.text(*item, place + ".over");
+      if (const auto number = plain_number(local.words[as])) local.values[as] = *number;
+      for_each_number(directions, direction + 1, local, path, use);
+    }
+    return;
+  }
+  if (!find_pair(repeat, "count"))
+    fail_at(repeat, *scope.main_file, place, "give the `count` of entries, or the words `over` which they go");
   const int count = whole_number(*find_value(repeat, "count"), scope, place + ".count");
   constexpr int most = 1'000'000;
   if (count < 0 || count > most)

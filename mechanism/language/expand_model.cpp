@@ -36,6 +36,11 @@ const KeyTable* table_of_entry(const KeyForms& forms, const YamlNode& map) {
   return form ? &form->table().of_map(map) : nullptr;
 }
 
+/// Returns the name of the body that carries a node; null if there is none.
+Tree carrier_of(const YamlNode& node) {
+  return node.kind == YamlNode::Kind::map ? find_value(node, "carried_by") : nullptr;
+}
+
 class Expander {
  public:
   Expander(const KeyTable& keys, const std::string& file, const Parameters& parameters)
@@ -78,7 +83,13 @@ class Expander {
     for_each_entry(entries, scope, section, [&](const std::string& name, const Tree& value, const Scope& local) {
       if (section == "nodes" && scope.merged.count(name)) return;
       const std::string full = scope.prefix + name;
-      model_.add(section, full, write_entry(section, value, forms, local, section + "." + full));
+      const std::string path = section + "." + full;
+      Tree entry = write_entry(section, value, forms, local, path);
+      if (const Tree body = section == "nodes" ? carrier_of(*entry) : nullptr) {
+        model_.carry(full, *body, path + ".carried_by");
+        entry = without(*entry, {"carried_by"});
+      }
+      model_.add(section, full, std::move(entry));
     });
   }
 
@@ -237,7 +248,8 @@ bool is_body_point(const YamlNode& node) { return node.kind == YamlNode::Kind::m
 
 /// Whether an entry has something that has to be expanded.
 bool entry_uses_language(const YamlNode& entry) {
-  if (find_pair(entry, "repeat") || find_pair(entry, "if")) return true;
+  for (const char* key : {"repeat", "if", "carried_by"})
+    if (find_pair(entry, key)) return true;
   for (const char* key : {"node", "nodes"})
     if (const Tree value = find_value(entry, key))
       if (is_body_point(*value) ||

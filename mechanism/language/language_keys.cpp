@@ -15,9 +15,10 @@ const KeyTable& repeat_keys() {
   static const KeyTable table{
       "`repeat`",
       "Makes several entries out of one. Formulas use the number, names and texts hold it in braces: `bay_{k}`, "
-      "`bay_{k+1}`.",
-      {{"count", integer().at_least(0), required, "Number of entries."},
-       {"as", text(), required, "Name of the number of the entry."},
+      "`bay_{k+1}`; words stand in braces as well: `{side}_wheel`.",
+      {{"as", text(), required, "Name of the number, or word, of the entry."},
+       {"count", integer().at_least(0), optional, "Number of entries."},
+       {"over", list_of(text()), optional, "Words, or numbers, in place of `count`: an entry for each of them."},
        {"from", integer(), otherwise("1"), "The number of the first entry."}}};
   return table;
 }

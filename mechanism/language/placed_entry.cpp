@@ -66,12 +66,22 @@ std::string fault_of_mirror(const YamlNode& entry, const std::string& section) {
   return {};
 }
 
-/// Whether held directions are the same ones in turned axes.
-bool are_all_or_none(const YamlNode& fixed) {
-  if (fixed.kind != YamlNode::Kind::sequence) return true;
+/// Whether held directions are the same ones in axes that are turned. Those of a mirror image always are.
+bool are_same_when_placed(const YamlNode& fixed, const Placement& placement) {
+  if (placement.frame.R.isIdentity(0) || fixed.kind != YamlNode::Kind::sequence) return true;
   int translations = 0, rotations = 0;
   for (const Tree& item : fixed.items) ++(item->scalar.starts_with('r') ? rotations : translations);
   return (translations == 0 || translations == 3) && (rotations == 0 || rotations == 3);
+}
+
+/// Whether a prescribed motion is the same one in a mirror: along the mirror, or turning about its normal.
+bool is_same_when_placed(const YamlNode& motion, const Placement& placement) {
+  if (!placement.frame.R.isIdentity(0)) return false;
+  const char normal = static_cast<char>('x' + placement.mirrored);
+  return std::all_of(motion.pairs.begin(), motion.pairs.end(), [&](const YamlNode::Pair& pair) {
+    const std::string& direction = pair.key->scalar;
+    return direction.starts_with('r') ? direction.ends_with(normal) : !direction.ends_with(normal);
+  });
 }
 
 Tree make_vector(const Vector3& v, const YamlNode& place) { return make_numbers({v[0], v[1], v[2]}, place); }
@@ -130,11 +140,11 @@ void check_placed(const YamlNode& entry, const std::string& section, const Scope
   if (entry.kind != YamlNode::Kind::map || !turns(scope.placement)) return;
   if (section == "nodes") {
     const Tree fixed = find_value(entry, "fixed");
-    if (fixed && !are_all_or_none(*fixed))
+    if (fixed && !are_same_when_placed(*fixed, scope.placement))
       fail_at(*fixed, *scope.main_file, path + ".fixed",
               "these directions are inertial axes, and the part is turned or mirrored: hold the node by a joint to "
               "`ground`");
-    if (const Tree motion = find_value(entry, "motion"))
+    if (const Tree motion = find_value(entry, "motion"); motion && !is_same_when_placed(*motion, scope.placement))
       fail_at(*motion, *scope.main_file, path + ".motion",
               "a motion is along inertial axes, and the part is turned or mirrored: move the node by a joint and a "
               "drive");

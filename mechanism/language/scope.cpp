@@ -18,6 +18,14 @@ std::string literal(double value) { return value < 0 ? fmt::format("({})", value
 
 }  // namespace
 
+std::optional<double> plain_number(const std::string& text) {
+  double value = 0;
+  const char *begin = text.data(), *end = begin + text.size();
+  const auto [stopped, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stopped != end || !std::isfinite(value)) return {};
+  return value;
+}
+
 Scope Scope::inner() const {
   Scope scope;
   scope.outer = this;
@@ -29,7 +37,7 @@ Scope Scope::inner() const {
 }
 
 bool Scope::replaces() const {
-  return !values.empty() || !own.empty() || !merged.empty() || (outer && outer->replaces());
+  return !words.empty() || !values.empty() || !own.empty() || !merged.empty() || (outer && outer->replaces());
 }
 
 std::optional<std::string> Scope::name_of(const std::string& name) const {
@@ -56,11 +64,22 @@ std::string Scope::formula(const std::string& text, const std::vector<std::strin
       text, functions_of_names(), [&](const std::string& name) { return name_of(name); }, replaced);
 }
 
+const std::string* Scope::word_of(const std::string& name) const {
+  for (const Scope* scope = this; scope; scope = scope->outer)
+    if (const auto found = scope->words.find(name); found != scope->words.end()) return &found->second;
+  return nullptr;
+}
+
 std::string Scope::text(const YamlNode& node, const std::string& path) const {
   std::string text = node.scalar;
   for (std::size_t begin = 0; (begin = text.find('{', begin)) != std::string::npos;) {
     const std::size_t end = text.find('}', begin);
     if (end == std::string::npos) fail_at(node, *main_file, path, fmt::format("'{}': a brace is not closed", text));
+    if (const std::string* word = word_of(text.substr(begin + 1, end - begin - 1))) {
+      text.replace(begin, end - begin + 1, *word);
+      begin += word->size();
+      continue;
+    }
     const YamlNode inside{
         YamlNode::Kind::scalar, node.line, node.file, text.substr(begin + 1, end - begin - 1), {}, {}};
     const double value = number(inside, path);
@@ -76,11 +95,7 @@ std::string Scope::text(const YamlNode& node, const std::string& path) const {
 
 double Scope::number(const YamlNode& node, const std::string& path) const {
   if (node.kind != YamlNode::Kind::scalar) fail_at(node, *main_file, path, "expected a number");
-  double value = 0;  // most are plain numbers: the parser of formulas takes 30 us
-  const char *begin = node.scalar.data(), *end = begin + node.scalar.size();
-  if (const auto [stopped, error] = std::from_chars(begin, end, value);
-      error == std::errc() && stopped == end && std::isfinite(value))
-    return value;
+  if (const auto plain = plain_number(node.scalar)) return *plain;  // most are: the parser of formulas takes 30 us
   try {
     return evaluate(quantity_of(node.scalar) ? node.scalar : formula(node.scalar, {}), *parameters);
   } catch (const std::runtime_error& error) {

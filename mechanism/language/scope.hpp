@@ -12,12 +12,16 @@
 
 namespace bielle::mechanism {
 
+/// Returns the number that a text is; nothing for a formula, a word or a number with a unit.
+std::optional<double> plain_number(const std::string& text);
+
 /// A part that is being placed, or one turn of a repeated entry.
 struct Scope {
   const Scope* outer = nullptr;
   const std::string* main_file = nullptr;     ///< file of nodes without a file of their own
   const Parameters* parameters = nullptr;     ///< of the whole model
   std::map<std::string, double> values;       ///< parameters of the part, numbers of repeated entries
+  std::map<std::string, std::string> words;   ///< words of repeated entries
   std::string prefix;                         ///< of the part's names: "blade_2."; empty in the model itself
   std::set<std::string> own;                  ///< names of the part's entries, as the part writes them
   std::set<std::string> measures;             ///< those that are plain words in formulas
@@ -33,11 +37,14 @@ struct Scope {
   /// Returns the text of a formula with names and numbers of the model.
   /// @param variables  names that the formula itself has
   std::string formula(const std::string& text, const std::vector<std::string>& variables) const;
-  /// Returns a text in which formulas in braces are replaced by whole numbers: "bay_{k+1}".
+  /// Returns a text in which words in braces, and formulas as whole numbers, are replaced: "{side}_bay_{k+1}".
   /// @param path  for messages
   std::string text(const YamlNode& node, const std::string& path) const;
   /// Evaluates a number or formula of parameters; a number may have a unit.
   double number(const YamlNode& node, const std::string& path) const;
+
+ private:
+  const std::string* word_of(const std::string& name) const;
 };
 
 }  // namespace bielle::mechanism

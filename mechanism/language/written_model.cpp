@@ -52,8 +52,13 @@ std::string WrittenModel::add_point(const YamlNode& point, const std::string& pa
   if (!body || body->kind != YamlNode::Kind::scalar)
     fail_at(point, main_file_, path, "expected the name of a node, or a point of a body: {body: name, at: [x, y, z]}");
   const std::string name = name_of_point(path);
-  points_.push_back({body->scalar, name, make_map(point.pairs, point), path});
+  carried_.push_back({body->scalar, name, make_map(point.pairs, point), true, path});
   return name;
+}
+
+void WrittenModel::carry(const std::string& node, const YamlNode& body, const std::string& path) {
+  if (body.kind != YamlNode::Kind::scalar) fail_at(body, main_file_, path, "expected the name of a rigid body");
+  carried_.push_back({body.scalar, node, make_scalar(body.scalar, body), false, path});
 }
 
 std::vector<std::string> WrittenModel::names_in(const std::string& section) const {
@@ -77,8 +82,9 @@ Frame WrittenModel::frame_of_node(const std::string& name, const YamlNode& place
 
 Frame WrittenModel::frame_of_entry(const Tree& entry, const std::string& path) const {
   if (entry->kind != YamlNode::Kind::map) return {};
-  YamlValue value = YamlValue::of_tree(without(*entry, {"velocity", "angular_velocity", "fixed", "motion", "at"}), "",
-                                       entry->file ? *entry->file : main_file_);
+  YamlValue value =
+      YamlValue::of_tree(without(*entry, {"velocity", "angular_velocity", "fixed", "motion", "at", "carried_by"}), "",
+                         entry->file ? *entry->file : main_file_);
   value.set_parameters(parameters_);
   static const KeyTable table{"a node", "", frame_keys(), {}};
   const Frame own = read_frame(value.keyed(table));
@@ -86,30 +92,34 @@ Frame WrittenModel::frame_of_entry(const Tree& entry, const std::string& path) c
   return at ? frame_of_node(at->scalar, *at, path) * own : own;
 }
 
-void WrittenModel::carry_points() {
-  for (const Point& point : points_) {
-    Section& elements = sections_["elements"];
-    const auto found = elements.places.find(point.body);
-    if (found == elements.places.end())
-      fail_at(*point.entry, main_file_, point.path,
-              fmt::format("there is no element '{}'{}", point.body, did_you_mean(point.body, names_in("elements"))));
-    Tree& body = elements.pairs[found->second].value;
-    const Tree type = find_value(*body, "type"), node = find_value(*body, "node");
-    if (!type || type->scalar != "rigid_body" || !node)
-      fail_at(*point.entry, main_file_, point.path,
-              fmt::format("'{}' is no rigid_body; points of superelements stand in the section `points`", point.body));
-    Tree entry = with(*without(*point.entry, {"body", "at"}), "at", node);
-    if (const Tree at = find_value(*point.entry, "at")) entry = with(*entry, "position", at);
-    add("nodes", point.node, entry);
-    const Tree also = find_value(*body, "also");
-    std::vector<Tree> carried = also ? also->items : std::vector<Tree>{};
-    carried.push_back(make_scalar(point.node, *point.entry));
-    body = with(*body, "also", make_list(std::move(carried), *point.entry));
+void WrittenModel::carry_nodes() {
+  for (const Carried& carried : carried_) carry_node(carried);
+}
+
+void WrittenModel::carry_node(const Carried& carried) {
+  Section& elements = sections_["elements"];
+  const auto found = elements.places.find(carried.body);
+  if (found == elements.places.end())
+    fail_at(*carried.place, main_file_, carried.path,
+            fmt::format("there is no element '{}'{}", carried.body, did_you_mean(carried.body, names_in("elements"))));
+  Tree& body = elements.pairs[found->second].value;
+  const Tree type = find_value(*body, "type"), node = find_value(*body, "node");
+  if (!type || type->scalar != "rigid_body" || !node)
+    fail_at(*carried.place, main_file_, carried.path,
+            fmt::format("'{}' is no rigid_body; points of superelements stand in the section `points`", carried.body));
+  if (carried.is_new) {
+    Tree entry = with(*without(*carried.place, {"body", "at"}), "at", node);
+    if (const Tree at = find_value(*carried.place, "at")) entry = with(*entry, "position", at);
+    add("nodes", carried.node, entry);
   }
+  const Tree also = find_value(*body, "also");
+  std::vector<Tree> nodes = also ? also->items : std::vector<Tree>{};
+  nodes.push_back(make_scalar(carried.node, *carried.place));
+  body = with(*body, "also", make_list(std::move(nodes), *carried.place));
 }
 
 Tree WrittenModel::finish(const YamlNode& root) {
-  carry_points();
+  carry_nodes();
   for (auto& [name, list] : hydraulic_lists_)
     sections_["hydraulics"].pairs.push_back({make_scalar(name, root), make_map(std::move(list.pairs), root)});
   Pairs pairs;

@@ -25,6 +25,8 @@ class WrittenModel {
   void set_hydraulic(const YamlNode::Pair& pair, Tree value);
   /// Adds a node at a point of a body and returns its name. @param point  a map of body_point_keys
   std::string add_point(const YamlNode& point, const std::string& path);
+  /// Notes that a rigid body carries a node. @param body  its name in the file
+  void carry(const std::string& node, const YamlNode& body, const std::string& path);
 
   /// Returns the frame of a node. @param place  the node's name in the file
   Frame frame_of_node(const std::string& name, const YamlNode& place, const std::string& path) const;
@@ -39,19 +41,22 @@ class WrittenModel {
     Pairs pairs;
     std::map<std::string, std::size_t> places;
   };
-  struct Point {
+  /// A node that a body carries.
+  struct Carried {
     std::string body, node;
-    Tree entry;
+    Tree place;           ///< the body's name in the file, or the point of the body
+    bool is_new = false;  ///< whether the node has to be made, at the point
     std::string path;
   };
-  void carry_points();
+  void carry_nodes();
+  void carry_node(const Carried& carried);
   std::vector<std::string> names_in(const std::string& section) const;
 
   std::string main_file_;
   const Parameters& parameters_;
   std::map<std::string, Section> sections_;
   std::map<std::string, Section> hydraulic_lists_;
-  std::vector<Point> points_;
+  std::vector<Carried> carried_;
 };
 
 }  // namespace bielle::mechanism

@@ -73,7 +73,11 @@ std::vector<Key> coordinate_keys(Moves moves) {
       {"rest", number(units.value), otherwise("0"), "Value of the coordinate at which the spring is free."},
       {"preload", number(units.force), otherwise("0"), "Resisting force of the spring at `rest`."},
       {"stops", stops_form(moves), optional, "Ends of the way of the coordinate."},
-      {"locked", {boolean(), lock_form(moves)}, optional, "Lock of the coordinate; `true` locks it for the whole run."},
+      {"locked",
+       {boolean(), number(), lock_form(moves)},
+       optional,
+       "Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for the whole "
+       "run."},
       {"start", number(units.value), optional, "Value of the coordinate at the start of the first analysis."},
       {"start_rate", number(units.rate), optional, "Rate of the coordinate at the start of the first analysis."}};
 }

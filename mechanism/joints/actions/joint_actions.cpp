@@ -85,7 +85,7 @@ StopRange read_stop_range(const YamlValue& given, Moves moves) {
 }
 
 LockTimes read_lock_times(const YamlValue& given, Moves moves) {
-  if (given.is_scalar() && given.boolean()) return {};  // always locked
+  if (given.is_scalar()) return {};  // always locked
   if (!given.is_map()) given.fail("expected `true`, or times: {from, to, release}");
   const YamlValue entry = given.keyed(lock_keys(moves));
   LockTimes times;
@@ -111,7 +111,7 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, cons
         stops->fail("a component of a rotation vector has no stops; take a joint with angles");
       model.add(std::make_unique<JointStop>(joint.name(), joint, k, read_stop_range(*stops, moves)), of_joint);
     }
-    if (const auto locked = find(sorted[k], "locked")) {
+    if (const auto locked = find(sorted[k], "locked"); locked && (!locked->is_scalar() || locked->boolean())) {
       const LockTimes times = read_lock_times(*locked, moves);
       auto lock = std::make_unique<JointLock>(joint.name(), joint, k, times);
       if (const auto start = find(sorted[k], "start"); start && times.from == 0) lock->close_at(start->number());

@@ -249,7 +249,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that fixes two nodes to each other.
@@ -277,8 +278,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
         m]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -298,7 +300,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves turning about an axis free.
@@ -325,8 +328,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N m]; or map by coordinate: number [N m]; default:
         0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -346,7 +350,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis free.
@@ -372,8 +377,9 @@ class Entries:
         default: 0)
         preload: Resisting force of the spring at `rest`. (number [N]; or map by coordinate: number [N]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -393,7 +399,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis and turning about it free.
@@ -421,8 +428,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
         m]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -442,7 +450,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point and leaves turning free.
@@ -469,8 +478,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N m]; or map by coordinate: number [N m]; default:
         0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -490,7 +500,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding across an axis and turning about it free.
@@ -518,8 +529,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
         m]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -539,7 +551,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that slides along its axis as it turns about it.
@@ -568,8 +581,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
         m]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -589,7 +603,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A cross between two shafts, which turns about its two arms.
@@ -615,8 +630,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N m]; or map by coordinate: number [N m]; default:
         0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -636,7 +652,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint between two shafts that turn at equal rates at any bend below 180 degrees.
@@ -665,8 +682,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N m]; or map by coordinate: number [N m]; default:
         0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -711,7 +729,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A rod without mass that hinges on the first node, with a ball joint on the second.
@@ -733,8 +752,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N m]; or map by coordinate: number [N m]; default:
         0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -754,7 +774,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a line and leaves turning free.
@@ -780,8 +801,9 @@ class Entries:
         default: 0)
         preload: Resisting force of the spring at `rest`. (number [N]; or map by coordinate: number [N]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -801,7 +823,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point in a plane and leaves turning free.
@@ -827,8 +850,9 @@ class Entries:
         default: 0)
         preload: Resisting force of the spring at `rest`. (number [N]; or map by coordinate: number [N]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -847,7 +871,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a curve of the first node and leaves turning free.
@@ -870,8 +895,9 @@ class Entries:
         default: 0)
         preload: Resisting force of the spring at `rest`. (number [N]; or map by coordinate: number [N]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -891,7 +917,7 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a node on a beam that deforms, along which it slides.
@@ -915,8 +941,9 @@ class Entries:
         default: 0)
         preload: Resisting force of the spring at `rest`. (number [N]; or map by coordinate: number [N]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
@@ -934,7 +961,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A thin wheel of the second node on a plane of the first.
@@ -958,8 +986,9 @@ class Entries:
         default: 0)
         preload: Resisting force of the spring at `rest`. (number [N]; or map by coordinate: number [N]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -979,7 +1008,8 @@ class Entries:
             damping: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
             preload: Sequence[Any] | None = None, curves: Mapping[str, Any] | None = None,
             maxwell: Sequence[Any] | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             **more: Any) -> None:
         """An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.
@@ -1007,8 +1037,9 @@ class Entries:
         curves: Further forces as tables or formulas, by directions. (keys of `curves`, which names directions)
         maxwell: Branches of a spring and a damper in series. (list of at least 1: keys of a branch)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1029,7 +1060,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """An elastic hinge, whose shaft turns freely.
@@ -1064,8 +1096,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
         m]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1087,7 +1120,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             length: float | str | None = None, axial_gap: float | str | None = None,
             axial_contact: Mapping[str, Any] | None = None, **more: Any) -> None:
@@ -1122,8 +1156,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
         m]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1150,7 +1185,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             **more: Any) -> None:
         """A ball with play in a socket.
@@ -1184,8 +1220,9 @@ class Entries:
         preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
         m]; default: 0)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
-        locked: Lock of the coordinate; `true` locks it for the whole run. (true or false; or keys of `locked`; or
-        map by coordinate: true or false; or keys of `locked`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1393,7 +1430,7 @@ class Entries:
         scheme: Scheme of integration. (`generalized_alpha`, `hht`, `newmark`; default: generalized_alpha)
         rho: Spectral radius of `generalized_alpha` at infinite frequency; 1 is without dissipation. (number between
         0 and 1; default: 0.8)
-        alpha: Parameter of `hht`; 0 is without dissipation. (number between 0 and 0.3333333333333333; default: 0.1)
+        alpha: Parameter of `hht`; 0 is without dissipation. (number between 0 and 0.333333; default: 0.1)
         constraints: Form of the joints' constraints: `corrected` positions and, in fast turns, velocities;
         `stabilized` positions and velocities together; `position` alone. (`corrected`, `position`, `stabilized`;
         default: corrected)

@@ -256,6 +256,7 @@ bool YamlValue::boolean() const {
     const std::string& written = node_->scalar;
     if (written == "true" || written == "True" || written == "TRUE") return true;
     if (written == "false" || written == "False" || written == "FALSE") return false;
+    if (numeric_form(forms())) return number() != 0;
     fail(fmt::format("expected true or false, found '{}'", shortened(written)));
   }
   fail("expected true or false");

@@ -124,3 +124,28 @@ elements:
                      "  s: {type: spring_damper, nodes: [{body: m}, ground]}\n"),
              Contains("no rigid_body"));
 }
+
+TEST_CASE("a node is carried by a rigid body, also by one outside of its part") {
+  const std::string text = R"yaml(
+nodes: {hub: {}}
+elements: {hub: {type: rigid_body, node: hub, mass: 1, inertia: [1, 1, 1]}}
+definitions:
+  blade:
+    nodes:
+      root: {position: [1, 0, 0], carried_by: hub}
+      mid: {}
+      pin: {at: mid, position: [0, 2, 0], carried_by: spar}
+    elements: {spar: {type: rigid_body, node: mid, mass: 2, inertia: [1, 1, 1], also: [own]}}
+parts: {a: {part: blade}, b: {part: blade, rotation_vector: [0, 0, "pi/2"]}}
+)yaml";
+  const std::string written = expanded(text);
+  CHECK_THAT(written,
+             Contains("hub: {type: rigid_body, node: hub, mass: 1, inertia: [1, 1, 1], also: [a.root, b.root]}"));
+  CHECK_THAT(written, Contains("also: [b.own, b.pin]") || Contains("also: [own, b.pin]"));
+  CHECK_THAT(written, !Contains("carried_by"));
+  CHECK_THAT(refusal("nodes:\n  a: {carried_by: wheel}\nelements: {whel: {}}\n"),
+             Contains("model.yaml:2: nodes.a.carried_by") && Contains("'wheel'") && Contains("whel"));
+  CHECK_THAT(refusal("nodes:\n  a: {carried_by: m}\n  b: {}\nelements: {m: {type: point_mass, node: b, mass: 1}}\n"),
+             Contains("nodes.a.carried_by") && Contains("no rigid_body"));
+  CHECK_THAT(refusal("nodes:\n  a: {carried_by: [m]}\n"), Contains("nodes.a.carried_by") && Contains("name"));
+}

@@ -54,7 +54,7 @@ TEST_CASE("repetitions that mean nothing are refused where they stand") {
   CHECK_THAT(repeat("count: 1.5, as: k"), Contains("nodes.a.repeat.count") && Contains("whole number"));
   CHECK_THAT(repeat("count: -1, as: k"), Contains("nodes.a.repeat.count"));
   CHECK_THAT(repeat("count: 1e9, as: k"), Contains("nodes.a.repeat.count"));
-  CHECK_THAT(repeat("as: k"), Contains("'count' is missing"));
+  CHECK_THAT(repeat("as: k"), Contains("give the `count`"));
   CHECK_THAT(repeat("count: 2"), Contains("'as' is missing"));
   CHECK_THAT(repeat("count: 2, as: k, form: 1"), Contains("'form'") && Contains("from"));
   CHECK_THAT(refusal("nodes:\n  \"a_{k/2}\": {repeat: {count: 1, as: k}}\n"), Contains("{k/2}") && Contains("0.5"));
@@ -94,6 +94,41 @@ cases:
   CHECK_THAT(refusal("nodes: {a: {}}\ncases:\n  c: {parameters: {x: 1}}\n", "c"),
              Contains("model.yaml:3: cases.c.parameters") && Contains("'x'"));
   CHECK_THAT(refusal("nodes: {a: {}}\ncases:\n  c: {prameters: {x: 1}}\n", "c"), Contains("parameters"));
+}
+
+TEST_CASE("an entry is repeated over words, which stand in its names and texts") {
+  const std::string text = R"yaml(
+nodes:
+  "{side}_{k}": {repeat: [{over: [left, right], as: side}, {count: 2, as: k}], position: [k, 0, 0]}
+elements:
+  "body_{side}": {repeat: {over: [left, right], as: side}, type: point_mass, node: "{side}_2", mass: 1}
+measures:
+  "{side}_height": {repeat: {over: [left, right], as: side}, formula: "{side}_1.position.z"}
+)yaml";
+  const std::string written = expanded(text);
+  for (const char* expected : {"left_1: {position: [1, 0, 0]", "right_2: {position: [2, 0, 0]", "node: right_2",
+                               "left_height: {formula: left_1.position.z"})
+    CHECK_THAT(written, Contains(expected));
+}
+
+TEST_CASE("words that are numbers stand in formulas as well") {
+  const std::string written =
+      expanded("nodes:\n  'n_{a}': {repeat: {over: [-1, 2.5], as: a}, position: [2*a, 0, 0]}\n");
+  CHECK_THAT(written, Contains("n_-1: {position: [2*(-1), 0, 0]") && Contains("n_2.5: {position: [2*2.5, 0, 0]"));
+}
+
+TEST_CASE("a repetition goes either over words or over a count") {
+  const auto refused = [](const std::string& repeat) {
+    return refusal("nodes:\n  'n{k}': {repeat: " + repeat + "}\n");
+  };
+  CHECK_THAT(refused("{as: k}"),
+             Contains("model.yaml:2: nodes.n{k}.repeat") && Contains("`count`") && Contains("`over`"));
+  CHECK_THAT(refused("{as: k, over: [a], count: 2}"), Contains("nodes.n{k}.repeat") && Contains("do not go with it"));
+  CHECK_THAT(refused("{as: k, over: [a], from: 2}"), Contains("do not go with it"));
+  CHECK_THAT(refused("{as: k, over: 3}"), Contains("expected a list"));
+  CHECK_THAT(refused("{as: k, over: [[a]]}"), Contains("expected a text"));
+  CHECK_THAT(refused("{as: k, over: [a, a]}"), Contains("nodes.na") && Contains("two entries with this name"));
+  CHECK(expanded("nodes: {a: {}, 'n{k}': {repeat: {as: k, over: []}}}\n").find("n{k}") == std::string::npos);
 }
 
 TEST_CASE("a file without the language is left as it is") {
