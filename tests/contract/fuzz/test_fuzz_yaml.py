@@ -73,18 +73,20 @@ ODD = ["-1", "0", ".nan", "-.inf", "1e300", "-1e300", "1e-300", "1e999", "", '""
        "\"table('/dev/zero', t)\"", "99999999999"]
 
 
-def mutated(rng, text):
-    """One to three changes of words, each outside of the line with the size of the mesh."""
+def mutated(rng, text, odd=None):
+    """One to three changes of words, each outside of the line with the size of the mesh. @param odd  words to put in"""
     note = []
     for _ in range(rng.choice([1, 1, 1, 2, 3])):
         lines = text.split("\n")
+        if not text.strip():
+            break
         number = rng.choice([k for k, line in enumerate(lines) if line.strip() and not line.startswith("mesh:")])
         words = re.findall(r'"[^"]*"|[\w.+-]+|\s+|.', lines[number])
         place = rng.choice([k for k, word in enumerate(words) if word.strip()])
         kind = rng.choice(["odd", "odd", "odd", "leave out", "double", "exchange", "line out", "line twice"])
         note.append(f"{kind} line {number + 1} word {words[place][:20]!r}")
         if kind == "odd":
-            words[place] = rng.choice(ODD)
+            words[place] = rng.choice(odd or ODD)
             note[-1] += f" := {words[place][:20]!r}"
         elif kind == "leave out":
             del words[place]

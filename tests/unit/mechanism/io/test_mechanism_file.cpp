@@ -26,6 +26,23 @@ TEST_CASE("holds that cannot be are refused where they stand") {
   CHECK_THAT(refusal("  a: {fixed: [rx], motion: {rz: \"t\"}}"), Contains("model.yaml:2: nodes.a.motion"));
 }
 
+TEST_CASE("a node is held by a number or formula of parameters that is not zero") {
+  const auto held = [](const std::string& fixed) {
+    const MechanismFile file =
+        read_mechanism_text("parameters: {k: 2}\nnodes: {a: {fixed: " + fixed +
+                                "}, b: {}}\nelements: {m: {type: point_mass, node: b, mass: 1}}\n",
+                            "model.yaml");
+    return file.model.nodes()[static_cast<std::size_t>(*file.model.find_node("a"))].freedom[0] == Freedom::fixed;
+  };
+  CHECK(held("true"));
+  CHECK_FALSE(held("false"));
+  CHECK(held("1"));
+  CHECK_FALSE(held("0"));
+  CHECK(held("k - 1"));
+  CHECK_FALSE(held("k - 2"));
+  CHECK_THAT(refusal("  a: {fixed: yes}"), Contains("model.yaml:2: nodes.a.fixed") && Contains("yes"));
+}
+
 TEST_CASE("bodies that carry each other in a circle are refused where they stand") {
   const std::string rest =
       "  first: {type: rigid_body, node: b, mass: 1, inertia: [1, 1, 1], also: [c]}\n"

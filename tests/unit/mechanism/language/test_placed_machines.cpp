@@ -9,6 +9,7 @@
 #include "mechanism/math/rotation_parameters.hpp"
 #include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/dynamics/scheme.hpp"
+#include "tests/support/messages.hpp"
 #include "tests/support/run_model.hpp"
 
 using namespace bielle::mechanism;
@@ -74,6 +75,24 @@ void check_moves_alike(const Placement& placement) {
 }
 
 }  // namespace
+
+TEST_CASE("held directions and motions along the mirror stay in a mirror image, others are refused") {
+  const auto mirrored = [](const std::string& node, const char* keys) {
+    return "definitions:\n  stand:\n    nodes: {foot: {" + node +
+           "}}\n    elements: {m: {type: rigid_body, node: foot, mass: 1, inertia: [1, 1, 1]}}\n"
+           "parts: {it: {part: stand, " +
+           keys + "}}\n";
+  };
+  const auto refused = [&](const std::string& node, const char* keys) {
+    return bielle::test::message_of<bielle::InputError>([&] { ReadyModel(mirrored(node, keys)); });
+  };
+  const ReadyModel model(mirrored("fixed: [x, y, rx, ry, rz], motion: {z: t}", "mirror: y"));
+  CHECK(model.node(run(model), "it.foot").x[2] == Approx(0.2));
+  CHECK(refused("motion: {x: t, ry: t, rx: 0, rz: 0}", "mirror: x").find("nodes.it.foot.motion") != std::string::npos);
+  CHECK(refused("fixed: [x, z, rx, rz], motion: {y: t}", "mirror: y").find("motion") != std::string::npos);
+  CHECK(refused("fixed: [x]", "rotation_vector: [0, 0, 1]").find("nodes.it.foot.fixed") != std::string::npos);
+  CHECK(refused("motion: {z: t}", "rotation_vector: [0, 0, 1]").find("motion") != std::string::npos);
+}
 
 TEST_CASE("a machine that is placed elsewhere moves as where it is drawn") {
   check_moves_alike({{Vector3(1, -2, 3), RotationVector::rotation(Vector3(0.4, 1.1, -0.7))}, -1});

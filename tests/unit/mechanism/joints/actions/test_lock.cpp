@@ -315,3 +315,21 @@ TEST_CASE("a session goes back and on across locks to the last bit") {
     CHECK(end_of(other, on) == wanted);
   }
 }
+
+TEST_CASE("a coordinate is locked by a number or formula of parameters that is not zero") {
+  const auto angle_after = [](const std::string& locked) {
+    Session session(model_of(R"yaml(
+parameters: {deployed: 1}
+gravity: [0, 0, -9.81]
+nodes: {arm: {position: [1, 0, 0]}}
+elements: {arm: {type: rigid_body, node: arm, mass: 1, inertia: [0.1, 0.1, 0.1]}}
+joints: {hinge: {type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [0, 1, 0], locked: )yaml" +
+                             locked + "}}\n"));
+    REQUIRE(session.dynamics(steps_of(0.2, 0.01)).finish());
+    return session.node("arm").x[2];
+  };
+  CHECK(std::abs(angle_after("deployed")) < 1e-10);
+  CHECK(std::abs(angle_after("true")) < 1e-10);
+  CHECK(angle_after("1 - deployed") < -0.1);
+  CHECK(angle_after("false") < -0.1);
+}
