@@ -61,14 +61,16 @@ const KeyTable& motion_keys() {
   const auto along = [](const char* name, const char* unit, const char* about) {
     return Key{name, {formula(unit, {"t"}), nested(motion_by_acceleration_keys)}, optional, about};
   };
-  static const KeyTable table{"`motion`",
-                              "Prescribed motion of a node. Rotations are prescribed all three together.",
-                              {along("x", "m", "Displacement along the inertial x axis."),
-                               along("y", "m", "Displacement along the inertial y axis."),
-                               along("z", "m", "Displacement along the inertial z axis."),
-                               along("rx", "rad", "Component x of the rotation vector."),
-                               along("ry", "rad", "Component y of the rotation vector."),
-                               along("rz", "rad", "Component z of the rotation vector.")}};
+  static const KeyTable table{
+      "`motion`",
+      "Prescribed motion of a node, from its place at the start. Rotations are prescribed all three together: "
+      "components of a rotation vector about inertial axes, which turns the start orientation.",
+      {along("x", "m", "Displacement along the inertial x axis."),
+       along("y", "m", "Displacement along the inertial y axis."),
+       along("z", "m", "Displacement along the inertial z axis."),
+       along("rx", "rad", "Component x of the rotation vector."),
+       along("ry", "rad", "Component y of the rotation vector."),
+       along("rz", "rad", "Component z of the rotation vector.")}};
   return table;
 }
 
@@ -203,17 +205,16 @@ const KeyTable& node_keys() {
                {"carried_by", name_of("element"), optional,
                 "Rigid body that carries the node, as one of those that it names `also`."},
                {"velocity", vector3("m/s").as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),
-                "Velocity at the start, in inertial components."},
+                "Velocity at the start, in inertial components, along free directions."},
                {"angular_velocity", vector3("rad/s").as_axial(), otherwise("[0, 0, 0]"),
-                "Angular velocity at the start, in the node's own axes."},
+                "Angular velocity at the start, in the node's own axes, about free directions."},
                {"fixed",
                 {boolean(), number(), list_of(word(directions, "a direction"))},
                 otherwise("false"),
                 "Held directions: `true`, or a number or formula of parameters that is not zero, for all six; or a "
-                "list of "
-                "displacements x, y, z and rotations rx, ry, rz, along and about the inertial axes."},
+                "list of displacements x, y, z and rotations rx, ry, rz, along and about the inertial axes."},
                {"motion", nested(motion_keys), optional,
-                "Prescribed displacements from the place, each as a formula of t or by its acceleration."}}})};
+                "Prescribed motion from the start, each direction as a formula of t or by its acceleration."}}})};
   return table;
 }
 

@@ -87,7 +87,7 @@ std::vector<Key> joint_place_keys() {
            "Place of the joint as drawn, fixed on both nodes."},
           {"at", list_of(2, vector3("m").as_point()), optional,
            "Points in the axes of the first and of the second node, in place of `position`; the start brings the two "
-           "together."}};
+           "together, in the directions that the joint constrains."}};
 }
 
 std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key, AxisUse use) {
@@ -95,17 +95,17 @@ std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key, Ax
   const KeyForm z = use == AxisUse::turning ? direction().as_axial() : direction().as_vector();
   const KeyForm x = direction().as_vector();
   const Presence presence = need == AxisNeed::required ? required : computed("the inertial z axis");
-  return joined(
-      {joint_place_keys(),
-       {{axis_key,
-         {z.in_inertial_axes(), list_of(2, z)},
-         presence,
-         "Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node."},
-        {"second_axis",
-         {x.in_inertial_axes(), list_of(2, x)},
-         computed("the inertial axis most normal to z, as drawn"),
-         "Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each "
-         "node."}}});
+  return joined({joint_place_keys(),
+                 {{axis_key,
+                   {z.in_inertial_axes(), list_of(2, z)},
+                   presence,
+                   "Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each "
+                   "node, which the start makes fit if the joint constrains them."},
+                  {"second_axis",
+                   {x.in_inertial_axes(), list_of(2, x)},
+                   computed("the inertial axis most normal to z, as drawn"),
+                   "Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each "
+                   "node, which the start makes fit if the joint constrains them."}}});
 }
 
 std::array<Vector3, 2> read_points_at(const YamlValue& at) {

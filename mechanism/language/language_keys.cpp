@@ -46,9 +46,10 @@ const KeyTable& part_keys() {
                {"parameters", entries("parameter", {number("any")}), optional,
                 "Values of parameters of the part, in place of those of its definition."},
                {"merge", entries("node of the part", {name_of("node")}), optional,
-                "Nodes of the part that are nodes of this model."},
+                "Nodes of the part that are nodes of this model; the two must have the same place and axes."},
                {"mirror", word({"x", "y", "z"}, "an axis (x, y or z)"), optional,
-                "Mirrors the part, in its own axes, before it is placed: the normal of the plane."}},
+                "Mirrors the part before it is placed, in the plane through its origin that is normal to this axis of "
+                "its own."}},
               frame_keys(),
               entry_keys()})};
   return table;

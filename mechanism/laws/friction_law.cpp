@@ -60,19 +60,22 @@ std::string FrictionLaw::describe() const {
 
 std::vector<Key> keys_of_friction_law(const std::vector<std::string>& models) {
   using namespace keys;
-  return {{"coefficient", number().non_negative(), required,
-           "Coefficient of sliding friction; with 0, also at rest, there is no dry friction."},
-          {"static", number().non_negative(), computed("as `coefficient`"), "Coefficient of friction at rest."},
-          {"stribeck_velocity", number("m/s").non_negative(), optional,
-           "Speed over which the coefficient falls from `static` to `coefficient`."},
-          {"viscous", number("s/m").non_negative(), otherwise("0"), "Viscous friction per speed and per normal force."},
-          {"model", word(models, "a model of friction"), otherwise(models.front()), "Model of friction near rest."},
-          {"velocity", number("m/s").positive(), computed("a tenth of `stribeck_velocity`, or 1 mm/s"),
-           "Speed within which `coulomb` makes the force smooth."},
-          {"bristle_stiffness", number("1/m").positive(), optional,
-           "Stiffness of the bristles of `lugre` per normal force, which that model needs."},
-          {"bristle_damping", number("s/m").non_negative(), otherwise("0"),
-           "Damping of the bristles of `lugre` per normal force."}};
+  return {
+      {"coefficient", number().non_negative(), required,
+       "Coefficient of sliding friction mu_k; with 0, also at rest, there is no dry friction, whatever the `model`."},
+      {"static", number().non_negative(), computed("as `coefficient`"), "Coefficient of friction at rest mu_s."},
+      {"stribeck_velocity", number("m/s").non_negative(), optional,
+       "Speed v_s over which the coefficient falls from `static` to `coefficient`: mu(v) = mu_k + (mu_s - mu_k) "
+       "exp(-(v/v_s)^2)."},
+      {"viscous", number("s/m").non_negative(), otherwise("0"),
+       "Viscous friction: it adds N `viscous` v to the force, N the normal force."},
+      {"model", word(models, "a model of friction"), otherwise(models.front()), "Model of friction near rest."},
+      {"velocity", number("m/s").positive(), computed("a tenth of `stribeck_velocity`, or 1 mm/s"),
+       "Speed within which `coulomb` makes the force smooth: mu tanh(v/`velocity`)."},
+      {"bristle_stiffness", number("1/m").positive(), optional,
+       "Stiffness of the bristles of `lugre` per normal force, which that model needs."},
+      {"bristle_damping", number("s/m").non_negative(), otherwise("0"),
+       "Damping of the bristles of `lugre` per normal force."}};
 }
 
 FrictionLaw read_friction_law(const YamlValue& entry) {

@@ -63,13 +63,15 @@ std::string NormalLaw::describe() const {
 std::vector<Key> keys_of_normal_law() {
   using namespace keys;
   return {{"stiffness", number().positive(), required,
-           "Stiffness K of the force K p^n at the depth p, in N/m^n with the `exponent` n."},
+           "Stiffness k of the force k p^n (1 + d pdot) at the depth p, in N/m^n with the `exponent` n."},
           {"exponent", number().at_least(1), otherwise("1.5"),
-           "Exponent of the force over the depth; 1.5 is a Hertzian contact."},
+           "Exponent n of the force over the depth; 1.5 is a Hertzian contact."},
           {"damping", number("s/m").non_negative(), otherwise("0"),
-           "Share of the elastic force that is added per speed of approach."},
+           "Damping d of that force, with which the restitution falls with the speed. Without it and `restitution` "
+           "impacts lose no energy."},
           {"restitution", number().positive().at_most(1), optional,
-           "Coefficient of restitution at every speed, in place of `damping`."}};
+           "Ratio of rebound speed to impact speed of every impact, in place of `damping`: d follows from the speed at "
+           "which a pair touches, of at least 1 mm/s, and does not change until it parts."}};
 }
 
 NormalLaw read_normal_law(const YamlValue& entry) {

@@ -31,18 +31,19 @@ const KeyTable& branch_keys() {
       "a branch",
       "A spring in series with a damper, for hysteresis and relaxation.",
       {{"stiffness", forms_of_stiffness(), optional, "Stiffness of the spring."},
-       {"factor", number().non_negative(), optional, "Share of the stiffness of the whole, in place of `stiffness`."},
-       {"time", number("s").non_negative(), required, "Relaxation time; with 0 there is no branch."}}};
+       {"factor", number().non_negative(), optional,
+        "Share of the stiffness of the whole, in place of `stiffness`; with 0 there is no branch."},
+       {"time", number("s").non_negative(), required, "Relaxation time of the damper; with 0 there is no branch."}}};
   return table;
 }
 
 const KeyTable& curve_keys() {
   using namespace keys;
-  static const KeyTable table{
-      "a curve",
-      "A force that was measured.",
-      {{"table", file("table of two columns"), required,
-        "Displacements and forces, with straight lines between them, which go straight on beyond the ends."}}};
+  static const KeyTable table{"a curve",
+                              "A force that was measured.",
+                              {{"table", file("table of two columns"), required,
+                                "Displacements and forces, with straight lines between them, which go straight on "
+                                "beyond the ends. They need not be symmetric."}}};
   return table;
 }
 
@@ -182,14 +183,18 @@ std::vector<Key> keys_of_elastic_law() {
   damping.insert(damping.begin(), number("s").non_negative());
   const KeyForms force{number("N")}, moment{number("N m")};
   return {{"stiffness", forms_of_stiffness(), optional,
-           "Stiffness along and about x, y, z, or a symmetric matrix without negative eigenvalues."},
+           "Stiffness along and about x, y, z, or a symmetric matrix by rows without negative eigenvalues."},
           {"damping", std::move(damping), optional,
-           "Damping along and about x, y, z, or a matrix, or a time that multiplies the stiffness."},
+           "Damping along and about x, y, z, or a matrix whose symmetric part has no negative eigenvalue, or a time "
+           "that multiplies the stiffness."},
           {"preload", tuple({force, force, force, moment, moment, moment}), otherwise("[0, 0, 0, 0, 0, 0]"),
            "Forces and moments that resist at zero coordinates."},
-          {"curves", nested(curves_keys), optional, "Further forces as tables or formulas, by directions."},
+          {"curves", nested(curves_keys), optional,
+           "Forces that are added to the rest, by directions: tables of displacement and force, or formulas of the "
+           "displacement q, its rate v, the time t and measures."},
           {"maxwell", list_of(nested(branch_keys)).items_at_least(1), optional,
-           "Branches of a spring and a damper in series."}};
+           "Branches of a spring and a damper in series, for hysteresis and relaxation. As drawn, and in statics, they "
+           "carry no force."}};
 }
 
 std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& law) {

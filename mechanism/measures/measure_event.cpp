@@ -66,8 +66,9 @@ const KeyTable& event_keys() {
        {"crosses", number("any"), otherwise("0"), "Value that is crossed."},
        crossing_direction_key(),
        {"action", word({"note", "restart", "stop"}, "an action"), otherwise("note"),
-        "Action at the crossing: `note` lists its time, `restart` ends a step there and solves for accelerations and "
-        "reactions again, `stop` ends the analysis."}}};
+        "Action at the crossing: `note` lists its time and does not change the motion; `restart` ends a step there and "
+        "solves for accelerations and reactions again, as at a kink of a load; `stop` ends the analysis, and those "
+        "that follow go on from there."}}};
   return table;
 }
 

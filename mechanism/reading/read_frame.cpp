@@ -65,12 +65,17 @@ const std::vector<Key>& orientation_keys() {
   using namespace keys;
   static const std::vector<Key> all = {
       {"rotation_vector", vector3("rad"), optional, "Orientation: the axis of the rotation times its angle."},
-      {"quaternion", list_of(4, number()), optional, "Orientation: `[w, x, y, z]`, of any length but zero."},
-      {"bryant", vector3("rad"), optional, "Orientation: angles about x, the new y and the newest z."},
-      {"euler", vector3("rad"), optional, "Orientation: angles about z, the new x and the newest z."},
+      {"quaternion", list_of(4, number()), optional,
+       "Orientation: `[w, x, y, z]`, cos(angle/2) and sin(angle/2) times the axis, of any length but zero."},
+      {"bryant", vector3("rad"), optional,
+       "Orientation: angles a, b, c about x, the new y and the newest z: R = Rx(a) Ry(b) Rz(c)."},
+      {"euler", vector3("rad"), optional,
+       "Orientation: angles a, b, c about z, the new x and the newest z: R = Rz(a) Rx(b) Rz(c)."},
       {"axes", nested(axes_keys), optional,
        "Orientation: two of the axes; the first as given, the second made orthogonal to it."},
-      {"matrix", matrix(3, 3, ""), optional, "Orientation: the rotation matrix, whose columns are the own axes."},
+      {"matrix", matrix(3, 3, ""), optional,
+       "Orientation: the rotation matrix R by rows, whose columns are the own axes. Rounding of its entries up to 1e-3 "
+       "is corrected."},
       {"rodrigues", vector3(""), optional, "Orientation: tan(angle/2) times the axis."},
       {"conformal", vector3(""), optional, "Orientation: 4 tan(angle/4) times the axis (Wiener-Milenkovic)."}};
   return all;

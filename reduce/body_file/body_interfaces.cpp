@@ -52,9 +52,10 @@ const KeyTable& interface_keys() {
         "The surface: a physical surface by its name, a shape, or a list of both, which is their union. Surfaces of "
         "different interfaces must not touch."},
        {"tie", tie_form(), otherwise("rigid"),
-        "The relation of the surface to the node: `rigid`: the surface moves with the node as a rigid body; `average`: "
-        "the node moves as the area-weighted mean of the surface, which stays flexible; `free`: every mesh node of the "
-        "surface is an interface node of its own, with 3 translations."},
+        "The relation of the surface to the node: `rigid` (RBE2, kinematic coupling): the surface moves with the node "
+        "as a rigid body; `average` (RBE3, distributing coupling): the node moves as the area-weighted mean of the "
+        "surface, which stays flexible; `free`: every mesh node of the surface is an interface node of its own, with 3 "
+        "translations."},
        {"position", vector3("m"), computed("the centroid of the surface"), "Position of the node."},
        {"axes", nested(axes_keys), computed("the axes of the body"), "Directions of the node's axes in the body."},
        {"rotation_vector", vector3("rad"), optional,

@@ -41,7 +41,8 @@ const KeyTable& point_keys() {
       "a point",
       "A named point inside the body, which a mechanism uses without the displacements of the mesh.",
       {{"group", surface_forms(), optional,
-        "A surface, which may touch interfaces; the point moves as its area-weighted mean, but does not constrain it."},
+        "A surface, which may touch interfaces; the point moves as its area-weighted mean, as the node of an interface "
+        "with `tie: average` does, but does not constrain it."},
        {"at", vector3("m"), optional,
         "A place in the mesh, in place of `group`; the point follows the field that is linear in space and nearest to "
         "the displacements of the 15 nodes around it."},

@@ -49,7 +49,8 @@ std::vector<Key> with_common_keys(std::vector<Key> own, Presence units) {
   return joined({std::move(own),
                  {{"units", {text(), list_of(text())}, std::move(units), "Recorded units; a list for several outputs."},
                   {"scale", number("any").positive(), computed("1, or the value at the start if that is larger"),
-                   "Typical size of the state, to which accuracies are relative."}}});
+                   "Typical size of the state in its units, to which accuracies of Newton's method and of adaptive "
+                   "steps are relative."}}});
 }
 
 const KeyTable& rate_keys() {
@@ -75,7 +76,7 @@ const KeyTable& filter_keys() {
            {"start",
             {word({"equilibrium"}, "a start of a filter"), number("any")},
             otherwise("equilibrium"),
-            "Value at the start, or `equilibrium`: the value of the input at the start."}},
+            "Value at the start, or `equilibrium`: the value of the input at the start, without a transient."}},
           computed("those of the input"))};
   return table;
 }

@@ -68,7 +68,9 @@ const KeyTable& actuator_supply_keys() {
 
 const KeyTable& cushion_keys() {
   static const KeyTable table{
-      "the cushions", "Outlets of the chambers that narrow at the ends of the stroke.",
+      "the cushions",
+      "Outlets of the chambers, which narrow from `port_area` to `areas` over the last `lengths` of the stroke. Inflow "
+      "is not throttled.",
       joined({{{"lengths", for_each_chamber("m"), required, "Lengths of the stroke over which the outlets narrow."},
                {"areas", for_each_chamber("m^2"), required, "Areas of the outlets at the ends of the stroke."},
                {"port_area", number("m^2").positive(), required, "Area of each port."}},
@@ -81,43 +83,52 @@ const KeyTable& cushion_keys() {
 const KeyTable& hydraulic_actuator_keys() {
   static const KeyTable table{
       "a hydraulic_actuator", "A cylinder between points of two nodes, in a circuit or with a circuit of its own.",
-      joined(
-          {{type_key(),
-            {"nodes", list_of(2, name_of("node")), required, "The two nodes, which chamber 1 pushes apart."},
-            {"at", list_of(2, vector3("m").as_point()), otherwise("[[0, 0, 0], [0, 0, 0]]"),
-             "Points of attachment, each in the axes of its node."},
-            {"stroke", list_of(2, number("m").positive()), required,
-             "Shortest and longest distance of the points of attachment."},
-            {"piston_areas", piston_areas_forms(), optional,
-             "Areas on which the pressures of the chambers act, [A1, A2]: extending, and drawing in (0: "
-             "single-acting)."},
-            {"stages", list_of(nested(stage_keys)).items_at_least(1), optional,
-             "Stages of a telescopic cylinder in the order in which they extend, in place of `piston_areas`."},
-            {"dead_volumes", for_each_chamber("m^3"), otherwise("[0, 0]"),
-             "Dead volume of each chamber, hoses included."},
-            {"leakage", number("m^3/(s Pa)").non_negative(), otherwise("0"),
-             "Leakage between the chambers: flow per pressure difference."},
-            {"external_leakage", for_each_chamber("m^3/(s Pa)"), otherwise("[0, 0]"),
-             "Leakage from each chamber to the outside: flow per pressure difference."},
-            {"friction", nested(friction_keys), optional, "Friction of the seals; none without the key."},
-            {"end_stops", nested(end_stop_keys), optional, "Stops at both ends of the stroke; none without the key."},
-            {"ports", list_of(name_of("hydraulics")), optional,
-             "Places of the hydraulics to which the chambers are connected, in place of a circuit of its own."},
-            {"pressures",
-             {list_of(2, number("Pa")), list_of(1, number("Pa"))},
-             computed("in equilibrium with the load"),
-             "Pressures of the chambers at the start, without `ports` or behind `cushions`."},
-            {"compliances", for_each_chamber("m^3/Pa"), otherwise("[0, 0]"),
-             "Compliance of each chamber and its hose: growth of the volume per pressure."},
-            {"cushions", nested(cushion_keys), optional, "Throttles at the ends of the stroke; none without the key."},
-            {"supply", nested(actuator_supply_keys), optional, "Supply of the own circuit."},
-            {"valve", nested(servo_valve_keys), optional, "Servo-valve between supply, tank and chambers."},
-            {"relief", nested(relief_keys), optional,
-             "Relief valve to the tank, for a pump of constant flow or for each chamber."},
-            {"accumulator", nested(own_accumulator_keys), optional,
-             "Accumulator at a pump of constant flow, or at chamber 1."},
-            ambient_pressure_key()},
-           fluid_keys()})};
+      joined({{type_key(),
+               {"nodes", list_of(2, name_of("node")), required, "The two nodes, which chamber 1 pushes apart."},
+               {"at", list_of(2, vector3("m").as_point()), otherwise("[[0, 0, 0], [0, 0, 0]]"),
+                "Points of attachment, each in the axes of its node."},
+               {"stroke", list_of(2, number("m").positive()), required,
+                "Shortest and longest distance of the points of attachment."},
+               {"piston_areas", piston_areas_forms(), optional,
+                "Areas on which the pressures of the chambers act, [A1, A2]: extending, and drawing in (0: "
+                "single-acting)."},
+               {"stages", list_of(nested(stage_keys)).items_at_least(1), optional,
+                "Stages of a telescopic cylinder in the order in which they extend, in place of `piston_areas`."},
+               {"dead_volumes", for_each_chamber("m^3"), otherwise("[0, 0]"),
+                "Dead volume of each chamber, hoses included."},
+               {"leakage", number("m^3/(s Pa)").non_negative(), otherwise("0"),
+                "Leakage between the chambers: flow per pressure difference."},
+               {"external_leakage", for_each_chamber("m^3/(s Pa)"), otherwise("[0, 0]"),
+                "Leakage from each chamber to the outside: flow per pressure difference."},
+               {"friction", nested(friction_keys), optional, "Friction of the seals; none without the key."},
+               {"end_stops", nested(end_stop_keys), optional,
+                "Stops at both ends of the stroke, which push as stops of joints do. Without them the summary reports "
+                "an actuator that left its stroke."},
+               {"ports", list_of(name_of("hydraulics")), optional,
+                "Places of the hydraulics to which the chambers are connected, in place of a circuit of its own: the "
+                "keys of that circuit then do not apply, except those of chambers behind `cushions`."},
+               {"pressures",
+                {list_of(2, number("Pa")), list_of(1, number("Pa"))},
+                computed("in equilibrium with the load"),
+                "Pressures at the start of the chambers that are volumes of its own: without `ports`, or behind "
+                "`cushions`. By default the length is not accelerated, and the chamber that carries less is at the "
+                "pressure of the tank."},
+               {"compliances", for_each_chamber("m^3/Pa"), otherwise("[0, 0]"),
+                "Compliance of each chamber and its hose: growth of the volume per pressure."},
+               {"cushions", nested(cushion_keys), optional,
+                "Throttles at the ends of the stroke; none without the key. With `ports`, chambers behind them are "
+                "volumes of their own, with `pressures` and `compliances`."},
+               {"supply", nested(actuator_supply_keys), optional,
+                "Supply of the own circuit: a given pressure, or a pump of given flow."},
+               {"valve", nested(servo_valve_keys), optional,
+                "Servo-valve between supply, tank and chambers; three of its ports are used for a single-acting "
+                "cylinder."},
+               {"relief", nested(relief_keys), optional,
+                "Relief valve to the tank, for a pump of constant flow or for each chamber."},
+               {"accumulator", nested(own_accumulator_keys), optional,
+                "Accumulator at a pump of constant flow, or at chamber 1."},
+               ambient_pressure_key()},
+              fluid_keys()})};
   return table;
 }
 

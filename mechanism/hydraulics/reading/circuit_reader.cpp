@@ -29,10 +29,13 @@ const KeyTable& volume_keys() {
   static const KeyTable table{
       "a volume",
       "A place that stores fluid.",
-      {{"volume", number("m^3").non_negative(), otherwise("0"), "Volume of fluid besides that of chambers."},
+      {{"volume", number("m^3").non_negative(), otherwise("0"),
+        "Volume of fluid besides that of chambers; 0 if chambers alone make it."},
        {"pressure", number("Pa"), computed("in equilibrium with the load, or the ambient pressure"),
-        "Pressure at the start."},
-       {"compliance", number("m^3/Pa").non_negative(), otherwise("0"), "Growth of the volume per pressure."}}};
+        "Pressure at the start. By default it is in equilibrium with the load if all places of an actuator's `ports` "
+        "leave it open."},
+       {"compliance", number("m^3/Pa").non_negative(), otherwise("0"),
+        "Compliance of the walls: growth of the volume per pressure."}}};
   return table;
 }
 

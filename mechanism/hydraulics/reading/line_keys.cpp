@@ -50,7 +50,8 @@ const KeyTable& laminar_keys() {
       "a laminar line",
       "A gap or a thin tube with laminar flow.",
       {{"conductance", number("m^3/(s Pa)").non_negative(), optional, "Flow per pressure difference."},
-       {"length", number("m").positive(), optional, "Length of the tube, in place of `conductance`."},
+       {"length", number("m").positive(), optional,
+        "Length of the tube, in place of `conductance`, by the law of Hagen and Poiseuille."},
        {"diameter", number("m").non_negative(), optional, "Diameter of the tube, in place of `conductance`."}}};
   return table;
 }
@@ -89,7 +90,8 @@ const KeyTable& flow_valve_keys() {
       "a flow valve",
       "A valve that passes a flow that is set, as soon as the pressure difference suffices.",
       {{"flow", state_formula("m^3/s", {"t"}), required, "Flow that is set."},
-       {"pressure", number("Pa").positive(), required, "Pressure difference above which the flow passes completely."}}};
+       {"pressure", number("Pa").positive(), required,
+        "Pressure difference above which the flow passes completely, and below which less passes."}}};
   return table;
 }
 
@@ -117,7 +119,7 @@ const KeyTable& servo_valve_keys() {
 const KeyTable& pipe_keys() {
   static const KeyTable table{
       "a pipe",
-      "A pipe with inertia and friction of the fluid.",
+      "A pipe with inertia and friction of the fluid, by Churchill's formula for all regimes.",
       {{"length", number("m").positive(), required, "Length of the pipe."},
        {"diameter", number("m").positive(), required, "Inner diameter."},
        {"roughness", number("m").non_negative(), otherwise("0"), "Roughness of the wall, well below the diameter."},

@@ -67,7 +67,8 @@ const KeyTable& keys_of_drive() {
        {"release",
         {number("s").positive(), nested(release_keys)},
         optional,
-        "Time or event at which the drive releases its joint permanently."},
+        "Time or event at which the drive releases its joint permanently. Steps end there; the joint moves freely "
+        "afterwards, with its present velocities."},
        {"moves",
         {name_of("node"), list_of(name_of("node"))},
         computed("all nodes that have a motion"),

@@ -101,7 +101,8 @@ std::vector<Key> joint_action_keys(Moves moves, const std::vector<std::string>& 
   for (Key& key : all) key.forms.push_back(entries("coordinate", key.forms));
   all.push_back({"friction", joint_friction_forms(), optional, "Friction of the sliding surfaces."});
   all.push_back({"carries", word({"all"}, "what a joint carries at the start"), optional,
-                 "Parts that start as one rigid body with this joint: `all` are those behind it."});
+                 "Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates "
+                 "or the rates of its drives."});
   std::erase_if(all, [&](const Key& key) { return std::find(own.begin(), own.end(), key.name) != own.end(); });
   return all;
 }

@@ -40,17 +40,19 @@ const KeyTable& contact_of_materials_keys() {
     ratio.above = true;
     std::vector<Key> of_normal_law = keys_of_normal_law();
     for (Key& key : of_normal_law) key.presence.required = false;
-    return KeyTable{
-        "a contact", "Normal force of the surfaces that touch, by a stiffness or by the materials of both parts.",
-        joined({of_normal_law,
-                {{"young",
-                  {modulus, list_of(2, modulus)},
-                  optional,
-                  "Young's modulus of both parts, or of bush and journal, in place of `stiffness` and `exponent`."},
-                 {"poisson",
-                  {ratio, list_of(2, ratio)},
-                  optional,
-                  "Poisson's ratio of both parts, or of bush and journal, which `young` needs."}}})};
+    return KeyTable{"a contact",
+                    "Normal force of the surfaces that touch, by a stiffness or by the materials of both parts.",
+                    joined({of_normal_law,
+                            {{"young",
+                              {modulus, list_of(2, modulus)},
+                              optional,
+                              "Young's modulus of both parts, or of bush and journal, in place of `stiffness` and "
+                              "`exponent`, which then are those of a sphere in a socket (Hertz, n = 1.5), or of a "
+                              "cylinder along half the `length` (n = 1)."},
+                             {"poisson",
+                              {ratio, list_of(2, ratio)},
+                              optional,
+                              "Poisson's ratio of both parts, or of bush and journal, which `young` needs."}}})};
   }();
   return table;
 }
@@ -59,7 +61,8 @@ std::vector<Key> clearance_keys(AxisNeed need) {
   using namespace keys;
   return joined({joint_frame_keys(need),
                  {{"radial_gap", number("m").non_negative(), required,
-                   "Radial gap: half the difference of the diameters; with 0 contact begins at the centred position."},
+                   "Gap between journal and bush, or ball and socket: half the difference of the diameters. With 0 "
+                   "contact begins at the centred position."},
                   {"radius", number("m").non_negative(), otherwise("0"),
                    "Radius of the journal or ball, at which friction acts; with 0 friction has no moment."},
                   {"contact", nested(contact_of_materials_keys), required, "Contact of the surfaces."},
@@ -125,9 +128,11 @@ const KeyTable& clearance_hinge_keys() {
       joined(
           {clearance_keys(AxisNeed::required),
            {{"length", number("m").non_negative(), otherwise("0"),
-             "Length of the journal, which touches the bore at either end; with 0 it touches in the middle alone."},
+             "Length of the journal, which touches the bore at either end; this limits its tilt, and each end has a "
+             "contact of its own. With 0 it touches in the middle alone."},
             {"axial_gap", number("m").non_negative(), optional,
-             "Axial play of the journal to either side; without it the journal slides freely."},
+             "Axial play of the journal to either side, until its collars touch; without it the journal slides "
+             "freely."},
             {"axial_contact", nested(clearance_contact_keys), computed("as `contact`"), "Contact of the collars."}}})};
   return table;
 }

@@ -18,9 +18,11 @@ const KeyTable& joint_friction_keys() {
   static const KeyTable table{
       "`friction`", "Friction of the sliding surfaces of a joint, which follows the joint's own reaction.",
       joined({keys_of_friction_law({"coulomb", "lugre", "stick_slip"}),
-              {{"radius", number("m").non_negative(), optional, "Radius of the surface, which turning joints need."},
+              {{"radius", number("m").non_negative(), optional,
+                "Radius of the surface, which turning joints need: the speed v is the radius times the rate."},
                {"arm", number("m").positive(), optional,
-                "Length over which a moment across the motion acts; without it moments cause no friction."},
+                "Length over which a moment across the motion acts, half the length of a guide or bearing; without it "
+                "moments cause no friction."},
                {"preload", number("N").non_negative(), otherwise("0"),
                 "Normal force of the surfaces besides the reaction."}}})};
   return table;
