@@ -30,7 +30,7 @@ const KeyTable& accumulator_keys() {
   using namespace keys;
   static const KeyTable table{
       "an accumulator", "A store of gas at a volume.",
-      joined({{{"at", name_of("hydraulics"), required, "Volume at which it stores fluid."}}, gas_keys()})};
+      joined({{{"at", name_of("place of the hydraulics"), required, "Volume at which it stores fluid."}}, gas_keys()})};
   return table;
 }
 

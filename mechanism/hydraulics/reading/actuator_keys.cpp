@@ -104,7 +104,7 @@ const KeyTable& hydraulic_actuator_keys() {
                {"end_stops", nested(end_stop_keys), optional,
                 "Stops at both ends of the stroke, which push as stops of joints do. Without them the summary reports "
                 "an actuator that left its stroke."},
-               {"ports", list_of(name_of("hydraulics")), optional,
+               {"ports", list_of(name_of("place of the hydraulics")), optional,
                 "Places of the hydraulics to which the chambers are connected, in place of a circuit of its own: the "
                 "keys of that circuit then do not apply, except those of chambers behind `cushions`."},
                {"pressures",

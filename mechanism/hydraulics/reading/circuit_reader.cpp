@@ -46,9 +46,9 @@ const KeyTable& supply_keys() {
       "A place of given pressure, or a pump of given flow.",
       {{"pressure", state_formula("Pa", {"t"}), optional, "Pressure of the place for any flow."},
        {"flow", state_formula("m^3/s", {"t"}), optional, "Flow of a pump into `to`."},
-       {"to", name_of("hydraulics"), computed("a place of the supply's own name if it has a `pressure`"),
+       {"to", name_of("place of the hydraulics"), computed("a place of the supply's own name if it has a `pressure`"),
         "Place that has the pressure, or into which the pump delivers."},
-       {"from", name_of("hydraulics"), computed("from outside"), "Place from which the pump draws."}}};
+       {"from", name_of("place of the hydraulics"), computed("from outside"), "Place from which the pump draws."}}};
   return table;
 }
 
@@ -58,8 +58,8 @@ const KeyTable& machine_keys() {
       "a machine",
       "A pump or motor on a coordinate of a joint, its shaft.",
       {{"joint", coordinate_forms(), required, "Joint, or `joint.coordinate`, of the shaft."},
-       {"from", name_of("hydraulics"), required, "Place from which positive turning moves the fluid."},
-       {"to", name_of("hydraulics"), required, "Place to which positive turning moves the fluid."},
+       {"from", name_of("place of the hydraulics"), required, "Place from which positive turning moves the fluid."},
+       {"to", name_of("place of the hydraulics"), required, "Place to which positive turning moves the fluid."},
        {"displacement", number("m^3/rad or m^2").non_negative(), required, "Volume per angle or displacement."},
        {"setting", state_formula("", {"t"}), otherwise("1"), "Factor of the displacement."},
        {"leakage", number("m^3/(s Pa)").non_negative(), otherwise("0"), "Leakage flow per pressure difference."},
@@ -262,7 +262,7 @@ const KeyTable& hydraulics_keys() {
       {ambient_pressure_key(),
        {"fluid", nested(circuit_fluid_keys), optional, "The fluid; hydraulic oil without the key."},
        {"volumes", entries("hydraulics", {nested(volume_keys)}), optional, "Places that store fluid."},
-       {"junctions", list_of(name_of("hydraulics")), optional, "Places at which lines meet and nothing is stored."},
+       {"junctions", list_of(name_of("place of the hydraulics")), optional, "Places at which lines meet and nothing is stored."},
        {"supplies", entries("hydraulics", {nested(supply_keys)}), optional,
         "Places of given pressure, such as tanks, and pumps of given flow."},
        {"lines", entries("hydraulics", {nested(line_keys)}), optional, "Connections of places."},

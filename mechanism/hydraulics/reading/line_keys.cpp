@@ -28,10 +28,10 @@ const KeyTable& wall_keys() {
 const KeyTable& port_keys() {
   static const KeyTable table{"the ports of a servo-valve",
                               "Places that the ports of a servo-valve join.",
-                              {{"P", name_of("hydraulics"), required, "Place of the supply."},
-                               {"T", name_of("hydraulics"), required, "Place of the tank."},
-                               {"A", name_of("hydraulics"), required, "Place that a positive command joins to P."},
-                               {"B", name_of("hydraulics"), required, "Place that a positive command joins to T."}}};
+                              {{"P", name_of("place of the hydraulics"), required, "Place of the supply."},
+                               {"T", name_of("place of the hydraulics"), required, "Place of the tank."},
+                               {"A", name_of("place of the hydraulics"), required, "Place that a positive command joins to P."},
+                               {"B", name_of("place of the hydraulics"), required, "Place that a positive command joins to T."}}};
   return table;
 }
 
@@ -77,7 +77,7 @@ const KeyTable& counterbalance_keys() {
   static const KeyTable table{
       "a counterbalance valve", "A valve that holds a load until a pilot pressure helps to open it.",
       joined({{{"pressure", number("Pa").non_negative(), required, "Pressure of `from` at which it opens."},
-               {"pilot", name_of("hydraulics"), required, "Place whose pressure helps to open it."},
+               {"pilot", name_of("place of the hydraulics"), required, "Place whose pressure helps to open it."},
                {"pilot_ratio", number().non_negative(), required, "Factor of the pilot pressure."},
                {"check_pressure", number("Pa").non_negative(), otherwise("0"),
                 "Pressure difference from `to` to `from` at which it lets fluid back."}},
@@ -130,8 +130,8 @@ const KeyTable& pipe_keys() {
 }
 
 std::vector<Key> line_end_keys() {
-  return {{"from", name_of("hydraulics"), optional, "Place from which the line leads; required but for a servo_valve."},
-          {"to", name_of("hydraulics"), optional, "Place to which the line leads; required but for a servo_valve."},
+  return {{"from", name_of("place of the hydraulics"), optional, "Place from which the line leads; required but for a servo_valve."},
+          {"to", name_of("place of the hydraulics"), optional, "Place to which the line leads; required but for a servo_valve."},
           {"ports", nested(port_keys), optional, "Places of the four ports of a `servo_valve`, which requires them."}};
 }
 

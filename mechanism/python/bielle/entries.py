@@ -93,11 +93,15 @@ class Entries:
         interface: name of a node)
         position: Position of the origin. (list of 3: number [m]; default: [0, 0, 0])
         rotation_vector: Orientation: the axis of the rotation times its angle. (list of 3: number [rad])
-        quaternion: Orientation: `[w, x, y, z]`, of any length but zero. (list of 4: number)
-        bryant: Orientation: angles about x, the new y and the newest z. (list of 3: number [rad])
-        euler: Orientation: angles about z, the new x and the newest z. (list of 3: number [rad])
+        quaternion: Orientation: `[w, x, y, z]`, cos(angle/2) and sin(angle/2) times the axis, of any length but
+        zero. (list of 4: number)
+        bryant: Orientation: angles a, b, c about x, the new y and the newest z: R = Rx(a) Ry(b) Rz(c). (list of 3:
+        number [rad])
+        euler: Orientation: angles a, b, c about z, the new x and the newest z: R = Rz(a) Rx(b) Rz(c). (list of 3:
+        number [rad])
         axes: Orientation: two of the axes; the first as given, the second made orthogonal to it. (keys of `axes`)
-        matrix: Orientation: the rotation matrix, whose columns are the own axes. (list of 3: list of 3: number)
+        matrix: Orientation: the rotation matrix R by rows, whose columns are the own axes. Rounding of its entries
+        up to 1e-3 is corrected. (list of 3: list of 3: number)
         rodrigues: Orientation: tan(angle/2) times the axis. (list of 3: number)
         conformal: Orientation: 4 tan(angle/4) times the axis (Wiener-Milenkovic). (list of 3: number)
         frame: Frame of the body: the mean of the interfaces, mean axes of the mass, or that of an interface.
@@ -164,11 +168,15 @@ class Entries:
         damping: Matrix in the same order, or a time that multiplies the stiffness. (number [s] of at least 0; or
         list of 12: list of 12: number [N s/m or N s or N s/rad or N m s/rad]; or keys of a matrix)
         rotation_vector: Orientation: the axis of the rotation times its angle. (list of 3: number [rad])
-        quaternion: Orientation: `[w, x, y, z]`, of any length but zero. (list of 4: number)
-        bryant: Orientation: angles about x, the new y and the newest z. (list of 3: number [rad])
-        euler: Orientation: angles about z, the new x and the newest z. (list of 3: number [rad])
+        quaternion: Orientation: `[w, x, y, z]`, cos(angle/2) and sin(angle/2) times the axis, of any length but
+        zero. (list of 4: number)
+        bryant: Orientation: angles a, b, c about x, the new y and the newest z: R = Rx(a) Ry(b) Rz(c). (list of 3:
+        number [rad])
+        euler: Orientation: angles a, b, c about z, the new x and the newest z: R = Rz(a) Rx(b) Rz(c). (list of 3:
+        number [rad])
         axes: Orientation: two of the axes; the first as given, the second made orthogonal to it. (keys of `axes`)
-        matrix: Orientation: the rotation matrix, whose columns are the own axes. (list of 3: list of 3: number)
+        matrix: Orientation: the rotation matrix R by rows, whose columns are the own axes. Rounding of its entries
+        up to 1e-3 is corrected. (list of 3: list of 3: number)
         rodrigues: Orientation: tan(angle/2) times the axis. (list of 3: number)
         conformal: Orientation: 4 tan(angle/4) times the axis (Wiener-Milenkovic). (list of 3: number)
         """
@@ -208,16 +216,22 @@ class Entries:
         external_leakage: Leakage from each chamber to the outside: flow per pressure difference. (list of 2: number
         [m^3/(s Pa)] of at least 0; or list of 1: number [m^3/(s Pa)] of at least 0; default: [0, 0])
         friction: Friction of the seals; none without the key. (keys of the friction of an actuator)
-        end_stops: Stops at both ends of the stroke; none without the key. (keys of the end_stops)
-        ports: Places of the hydraulics to which the chambers are connected, in place of a circuit of its own. (list:
-        name of a hydraulics)
-        pressures: Pressures of the chambers at the start, without `ports` or behind `cushions`. (list of 2: number
-        [Pa]; or list of 1: number [Pa]; default: in equilibrium with the load)
+        end_stops: Stops at both ends of the stroke, which push as stops of joints do. Without them the summary
+        reports an actuator that left its stroke. (keys of the end_stops)
+        ports: Places of the hydraulics to which the chambers are connected, in place of a circuit of its own: the
+        keys of that circuit then do not apply, except those of chambers behind `cushions`. (list: name of a place of
+        the hydraulics)
+        pressures: Pressures at the start of the chambers that are volumes of its own: without `ports`, or behind
+        `cushions`. By default the length is not accelerated, and the chamber that carries less is at the pressure of
+        the tank. (list of 2: number [Pa]; or list of 1: number [Pa]; default: in equilibrium with the load)
         compliances: Compliance of each chamber and its hose: growth of the volume per pressure. (list of 2: number
         [m^3/Pa] of at least 0; or list of 1: number [m^3/Pa] of at least 0; default: [0, 0])
-        cushions: Throttles at the ends of the stroke; none without the key. (keys of the cushions)
-        supply: Supply of the own circuit. (keys of the supply of an actuator)
-        valve: Servo-valve between supply, tank and chambers. (keys of a servo-valve)
+        cushions: Throttles at the ends of the stroke; none without the key. With `ports`, chambers behind them are
+        volumes of their own, with `pressures` and `compliances`. (keys of the cushions)
+        supply: Supply of the own circuit: a given pressure, or a pump of given flow. (keys of the supply of an
+        actuator)
+        valve: Servo-valve between supply, tank and chambers; three of its ports are used for a single-acting
+        cylinder. (keys of a servo-valve)
         relief: Relief valve to the tank, for a pump of constant flow or for each chamber. (keys of a relief valve)
         accumulator: Accumulator at a pump of constant flow, or at chamber 1. (keys of an accumulator)
         ambient_pressure: Absolute pressure of the surroundings; with 0 all pressures are relative to the atmosphere
@@ -259,12 +273,13 @@ class Entries:
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number; default: the inertial z axis)
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number;
+        default: the inertial z axis)
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
@@ -286,7 +301,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "rigid", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
@@ -307,15 +323,15 @@ class Entries:
         """A joint that leaves turning about an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q, v, t
@@ -336,7 +352,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
         number [rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "hinge", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
@@ -357,15 +374,15 @@ class Entries:
         """A joint that leaves sliding along an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m] of at least 0; or keys of a law of force; or map by coordinate: formula of q, v, t and
@@ -385,7 +402,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "prismatic", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
@@ -406,15 +424,15 @@ class Entries:
         """A joint that leaves sliding along an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
@@ -436,7 +454,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "cylindrical", "nodes": nodes, "axis": axis, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
@@ -460,12 +479,13 @@ class Entries:
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number; default: the inertial z axis)
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number;
+        default: the inertial z axis)
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q, v, t
@@ -486,7 +506,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
         number [rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "spherical", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
@@ -507,15 +528,15 @@ class Entries:
         """A joint that leaves sliding across an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
@@ -537,7 +558,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "planar", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
@@ -558,16 +580,16 @@ class Entries:
         """A joint that slides along its axis as it turns about it.
 
         nodes: First and second node. (list of 2: name of a node)
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
         pitch: Displacement along the axis per turn; positive if right-handed. (number [m])
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
@@ -589,7 +611,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "screw", "nodes": nodes, "axis": axis, "pitch": pitch,
             "position": position, "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping,
@@ -617,7 +640,7 @@ class Entries:
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q, v, t
@@ -638,7 +661,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
         number [rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "universal", "nodes": nodes, "axis": axis, "second_axis": second_axis,
             "position": position, "at": at, "stiffness": stiffness, "damping": damping, "rest": rest,
@@ -662,12 +686,13 @@ class Entries:
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number; default: the inertial z axis)
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number;
+        default: the inertial z axis)
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         axes: Directions of the first and of the second shaft as drawn, in place of `axis`, of a joint that is drawn
         bent. (list of 2: list of 3: number)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
@@ -690,7 +715,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
         number [rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "constant_velocity", "nodes": nodes, "position": position, "at": at,
             "axis": axis, "second_axis": second_axis, "axes": axes, "stiffness": stiffness, "damping": damping,
@@ -760,7 +786,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
         number [rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "revolute_spherical", "nodes": nodes, "axis": axis, "at": at,
             "length": length, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
@@ -781,15 +808,15 @@ class Entries:
         """A joint that holds a point on a line and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
-        line: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
+        line: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m] of at least 0; or keys of a law of force; or map by coordinate: formula of q, v, t and
@@ -809,7 +836,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "point_on_line", "nodes": nodes, "line": line, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
@@ -830,15 +858,15 @@ class Entries:
         """A joint that holds a point in a plane and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
-        normal: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
+        normal: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m] of at least 0; or keys of a law of force; or map by coordinate: formula of q, v, t and
@@ -858,7 +886,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "point_on_plane", "nodes": nodes, "normal": normal, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
@@ -882,7 +911,7 @@ class Entries:
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         closed: Whether the curve returns to its first point. (true or false; default: false)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
@@ -903,7 +932,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "point_on_curve", "nodes": nodes, "curve": curve, "position": position,
             "at": at, "closed": closed, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
@@ -923,7 +953,7 @@ class Entries:
         """A joint that holds a node on a beam that deforms, along which it slides.
 
         node: Node that slides. (name of a node)
-        beam: Beam along which it slides. (name of a element)
+        beam: Beam along which it slides. (name of an element)
         at: Point that slides, in the axes of the node. (list of 3: number [m]; default: [0, 0, 0])
         start: Place at the start, as a share of the beam's length. (number between 0 and 1; default: the place next
         to the point as drawn)
@@ -947,7 +977,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "slider", "node": node, "beam": beam, "at": at, "start": start,
             "ends": ends, "orientation": orientation, "stiffness": stiffness, "damping": damping, "rest": rest,
@@ -994,7 +1025,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "wheel", "nodes": nodes, "normal": normal, "axis": axis, "radius": radius,
             "position": position, "at": at, "slip": slip, "stiffness": stiffness, "damping": damping, "rest": rest,
@@ -1018,24 +1050,28 @@ class Entries:
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number; default: the inertial z axis)
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number;
+        default: the inertial z axis)
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
-        stiffness: Stiffness along and about x, y, z, or a symmetric matrix without negative eigenvalues. ([number
-        [N/m] of at least 0, number [N/m] of at least 0, number [N/m] of at least 0, number [N m/rad] of at least 0,
-        number [N m/rad] of at least 0, number [N m/rad] of at least 0]; or list of 6: list of 6: number [N/m or N or
-        N/rad or N m/rad]; or keys of a matrix)
-        damping: Damping along and about x, y, z, or a matrix, or a time that multiplies the stiffness. (number [s]
-        of at least 0; or [number [N s/m] of at least 0, number [N s/m] of at least 0, number [N s/m] of at least 0,
-        number [N m s/rad] of at least 0, number [N m s/rad] of at least 0, number [N m s/rad] of at least 0]; or
-        list of 6: list of 6: number [N s/m or N s or N s/rad or N m s/rad]; or keys of a matrix)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
+        stiffness: Stiffness along and about x, y, z, or a symmetric matrix by rows without negative eigenvalues.
+        ([number [N/m] of at least 0, number [N/m] of at least 0, number [N/m] of at least 0, number [N m/rad] of at
+        least 0, number [N m/rad] of at least 0, number [N m/rad] of at least 0]; or list of 6: list of 6: number
+        [N/m or N or N/rad or N m/rad]; or keys of a matrix)
+        damping: Damping along and about x, y, z, or a matrix whose symmetric part has no negative eigenvalue, or a
+        time that multiplies the stiffness. (number [s] of at least 0; or [number [N s/m] of at least 0, number [N
+        s/m] of at least 0, number [N s/m] of at least 0, number [N m s/rad] of at least 0, number [N m s/rad] of at
+        least 0, number [N m s/rad] of at least 0]; or list of 6: list of 6: number [N s/m or N s or N s/rad or N m
+        s/rad]; or keys of a matrix)
         preload: Forces and moments that resist at zero coordinates. ([number [N], number [N], number [N], number [N
         m], number [N m], number [N m]]; default: [0, 0, 0, 0, 0, 0])
-        curves: Further forces as tables or formulas, by directions. (keys of `curves`, which names directions)
-        maxwell: Branches of a spring and a damper in series. (list of at least 1: keys of a branch)
+        curves: Forces that are added to the rest, by directions: tables of displacement and force, or formulas of
+        the displacement q, its rate v, the time t and measures. (keys of `curves`, which names directions)
+        maxwell: Branches of a spring and a damper in series, for hysteresis and relaxation. As drawn, and in
+        statics, they carry no force. (list of at least 1: keys of a branch)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
@@ -1044,7 +1080,8 @@ class Entries:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "bushing", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "preload": preload,
@@ -1067,17 +1104,17 @@ class Entries:
         """An elastic hinge, whose shaft turns freely.
 
         nodes: First and second node. (list of 2: name of a node)
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
         radial: Radial stiffness, one number or two along x and y of the housing; or stiffness and damping. (number
         [N/m] of at least 0; or list of 2: number [N/m] of at least 0; or keys of a direction of a bearing)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         axial: Axial stiffness; or stiffness and damping. (number [N/m] of at least 0; or keys of a direction of a
         bearing; default: 0)
         tilting: Stiffness against tilting, one number or two about x and y of the housing; or stiffness and damping.
@@ -1104,7 +1141,8 @@ class Entries:
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "bearing", "nodes": nodes, "axis": axis, "radial": radial,
             "position": position, "at": at, "second_axis": second_axis, "axial": axial, "tilting": tilting,
@@ -1128,18 +1166,18 @@ class Entries:
         """A journal with play in a bush.
 
         nodes: First and second node. (list of 2: name of a node)
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number)
-        radial_gap: Radial gap: half the difference of the diameters; with 0 contact begins at the centred position.
-        (number [m] of at least 0)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
+        radial_gap: Gap between journal and bush, or ball and socket: half the difference of the diameters. With 0
+        contact begins at the centred position. (number [m] of at least 0)
         contact: Contact of the surfaces. (keys of a contact)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         radius: Radius of the journal or ball, at which friction acts; with 0 friction has no moment. (number [m] of
         at least 0; default: 0)
         friction: Friction of the surfaces. (keys of friction in a clearance)
@@ -1163,11 +1201,12 @@ class Entries:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
-        length: Length of the journal, which touches the bore at either end; with 0 it touches in the middle alone.
-        (number [m] of at least 0; default: 0)
-        axial_gap: Axial play of the journal to either side; without it the journal slides freely. (number [m] of at
-        least 0)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
+        length: Length of the journal, which touches the bore at either end; this limits its tilt, and each end has a
+        contact of its own. With 0 it touches in the middle alone. (number [m] of at least 0; default: 0)
+        axial_gap: Axial play of the journal to either side, until its collars touch; without it the journal slides
+        freely. (number [m] of at least 0)
         axial_contact: Contact of the collars. (keys of a contact; default: as `contact`)
         """
         self.add("joints", name, {"type": "clearance_hinge", "nodes": nodes, "axis": axis, "radial_gap": radial_gap,
@@ -1192,18 +1231,19 @@ class Entries:
         """A ball with play in a socket.
 
         nodes: First and second node. (list of 2: name of a node)
-        radial_gap: Radial gap: half the difference of the diameters; with 0 contact begins at the centred position.
-        (number [m] of at least 0)
+        radial_gap: Gap between journal and bush, or ball and socket: half the difference of the diameters. With 0
+        contact begins at the centred position. (number [m] of at least 0)
         contact: Contact of the surfaces. (keys of a contact)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
-        together. (list of 2: list of 3: number [m])
-        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node.
-        (list of 3: number; or list of 2: list of 3: number; default: the inertial z axis)
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number;
+        default: the inertial z axis)
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
-        node. (list of 3: number; or list of 2: list of 3: number; default: the inertial axis most normal to z, as
-        drawn)
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
         radius: Radius of the journal or ball, at which friction acts; with 0 friction has no moment. (number [m] of
         at least 0; default: 0)
         friction: Friction of the surfaces. (keys of friction in a clearance)
@@ -1227,7 +1267,8 @@ class Entries:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
-        carries: Parts that start as one rigid body with this joint: `all` are those behind it. (`all`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "clearance_spherical", "nodes": nodes, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "axis": axis, "second_axis": second_axis,
@@ -1241,7 +1282,7 @@ class Entries:
         """Coordinates of joints in a fixed ratio.
 
         joints: Coordinates that are coupled: angles of two joints; with `factors` any coordinates. (list of at least
-        2: name of a joint; or formula of and measures; or keys of a coordinate of a joint)
+        2: name of a joint; or formula of measures; or keys of a coordinate of a joint)
         ratio: Rate of the second coordinate over that of the first, with its sign; not 0. (number)
         teeth: Numbers of teeth of two wheels, in place of `ratio`. (list of 2: number greater than 0)
         internal: Whether one of two wheels with `teeth` is a ring. (true or false; default: false)
@@ -1282,7 +1323,7 @@ class Entries:
             joints: Sequence[Any], ratio: float | str | None = None, **more: Any) -> None:
         """Angles of an input shaft and of two others that share its motion.
 
-        joints: Angles of the input, the left and the right shaft. (list of 3: name of a joint; or formula of and
+        joints: Angles of the input, the left and the right shaft. (list of 3: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         ratio: Rate of the input over the mean of the other two; not 0. (number; default: 1)
         """
@@ -1292,7 +1333,7 @@ class Entries:
             joints: Sequence[Any], radius: float | str, **more: Any) -> None:
         """A displacement that is a radius times an angle.
 
-        joints: Angle of the pinion and displacement of the rack. (list of 2: name of a joint; or formula of and
+        joints: Angle of the pinion and displacement of the rack. (list of 2: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         radius: Displacement of the rack over the angle of the pinion; not 0. (number [m])
         """
@@ -1304,7 +1345,7 @@ class Entries:
             friction: Mapping[str, Any] | None = None, **more: Any) -> None:
         """A disk cam and its follower, by the contour of the cam or by the lift.
 
-        joints: Angle of the camshaft and coordinate of the follower. (list of 2: name of a joint; or formula of and
+        joints: Angle of the camshaft and coordinate of the follower. (list of 2: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         lift: Angles of the camshaft and coordinates of the follower; the last row is a period after the first. (file
         (table of two columns))
@@ -1369,18 +1410,19 @@ class Entries:
             restitution: float | str | None = None, friction: Mapping[str, Any] | None = None, **more: Any) -> None:
         """Shapes on nodes that push each other apart when they touch.
 
-        stiffness: Stiffness K of the force K p^n at the depth p, in N/m^n with the `exponent` n. (number greater
-        than 0)
-        shapes: Shapes, every two of which may touch if they are on different nodes. (list of at least 2: keys of a
-        shape of a contact)
+        stiffness: Stiffness k of the force k p^n (1 + d pdot) at the depth p, in N/m^n with the `exponent` n.
+        (number greater than 0)
+        shapes: Shapes, every two of which may touch if they are on different nodes, unless neither can move. (list
+        of at least 2: keys of a shape of a contact)
         between: Two lists of shapes, in place of `shapes`: those of one list touch those of the other alone. (list
         of 2: list of at least 1: keys of a shape of a contact)
-        exponent: Exponent of the force over the depth; 1.5 is a Hertzian contact. (number of at least 1; default:
+        exponent: Exponent n of the force over the depth; 1.5 is a Hertzian contact. (number of at least 1; default:
         1.5)
-        damping: Share of the elastic force that is added per speed of approach. (number [s/m] of at least 0;
-        default: 0)
-        restitution: Coefficient of restitution at every speed, in place of `damping`. (number greater than 0 and at
-        most 1)
+        damping: Damping d of that force, with which the restitution falls with the speed. Without it and
+        `restitution` impacts lose no energy. (number [s/m] of at least 0; default: 0)
+        restitution: Ratio of rebound speed to impact speed of every impact, in place of `damping`: d follows from
+        the speed at which a pair touches, of at least 1 mm/s, and does not change until it parts. (number greater
+        than 0 and at most 1)
         friction: Friction of the surfaces. (keys of the friction of a contact)
         """
         self.add("joints", name, {"type": "contact", "stiffness": stiffness, "shapes": shapes, "between": between,
@@ -1391,8 +1433,8 @@ class Entries:
         """Positions and velocities are made consistent, and recorded.
 
         keep: Nodes that stay exactly in place, and coordinates of joints, `joint.coordinate`, that keep their
-        values. (list: name of a node; or name of a joint; or formula of and measures; or keys of a coordinate that
-        keeps its value)
+        values. (list: name of a node; or name of a joint; or formula of measures; or keys of a coordinate that keeps
+        its value)
         """
         self.add("analysis", None, {"type": "assembly", "keep": keep, **more})
 
@@ -1489,8 +1531,8 @@ class Entries:
             modes: float | str | None = None, rotation: Mapping[str, Any] | None = None, **more: Any) -> None:
         """Harmonic responses of small motions.
 
-        inputs: Inputs of the model, and forces or moments on nodes. (list of at least 1: name of a input; or keys of
-        an input: a force on a node)
+        inputs: Inputs of the model, and forces or moments on nodes. (list of at least 1: name of an input; or keys
+        of an input: a force on a node)
         outputs: Measures of the model, and motions of nodes. (list of at least 1: name of a measure; or keys of an
         output: what a node does)
         frequencies: The frequencies, as a list or a range. (list of at least 1: number [Hz] of at least 0; or keys
@@ -1508,8 +1550,8 @@ class Entries:
             **more: Any) -> None:
         """Small motions as matrices: E x' = A x + B u, y = C x + D u.
 
-        inputs: Inputs of the model, and forces or moments on nodes. (list of at least 1: name of a input; or keys of
-        an input: a force on a node)
+        inputs: Inputs of the model, and forces or moments on nodes. (list of at least 1: name of an input; or keys
+        of an input: a force on a node)
         outputs: Measures of the model, and motions of nodes. (list of at least 1: name of a measure; or keys of an
         output: what a node does)
         rotation: Steady rotation into which the mechanism is brought first; small motions are about it. (keys of

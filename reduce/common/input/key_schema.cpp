@@ -1,5 +1,6 @@
 #include "reduce/common/input/key_schema.hpp"
 
+#include <list>
 #include <map>
 #include <set>
 #include <utility>
@@ -30,7 +31,7 @@ class Writer {
   Json reference(const KeyTable& table) {
     const auto [found, is_new] = names_.emplace(&table, "");
     if (is_new) {
-      found->second = free_name(table.of);
+      found->second = free_name(has_form_of_its_own(table) ? table.of + " in any form" : table.of);
       const std::string name = found->second;
       definitions_[name] = Json::object();  // keeps its place
       Json written = of_table(table);
@@ -47,6 +48,12 @@ class Writer {
   void add_entry_table(const KeyTable& table) {
     if (!entry_tables_.insert(&table).second) return;
     for (const KeyTable::Variant& variant : table.variants) add_entry_table(variant.table());
+  }
+
+  /// Whether a map without the key of a variant has keys other than the one that selects it.
+  static bool has_form_of_its_own(const KeyTable& table) {
+    return !table.variants.empty() &&
+           (table.keys.size() > 1 || (table.keys.size() == 1 && table.keys[0].name != "type"));
   }
 
   /// "a spring_damper" -> "spring_damper", "the friction of a contact" -> "friction_of_a_contact"
@@ -78,9 +85,10 @@ class Writer {
 
   /// The first variant whose key is there applies, the table's own keys if there is none.
   Json of_variants(const KeyTable& table) {
-    KeyTable plain = table;
+    KeyTable& plain = plain_tables_.emplace_back(table);
     plain.variants.clear();
-    Json schema = plain.keys.empty() ? Json(false) : of_table(plain);
+    if (entry_tables_.count(&table)) entry_tables_.insert(&plain);
+    Json schema = plain.keys.empty() ? Json(false) : has_form_of_its_own(table) ? reference(plain) : of_table(plain);
     for (auto variant = table.variants.rbegin(); variant != table.variants.rend(); ++variant) {
       Json condition{{"type", "object"}, {"required", {variant->key}}};
       if (!variant->value.empty()) condition["properties"] = {{variant->key, {{"const", variant->value}}}};
@@ -179,6 +187,7 @@ class Writer {
   std::set<const KeyTable*> entry_tables_;
   std::map<const KeyTable*, std::string> names_;
   std::set<std::string> taken_;
+  std::list<KeyTable> plain_tables_;  ///< tables without their variants
   Json definitions_ = Json::object();
 };
 

@@ -13,12 +13,19 @@
 namespace bielle {
 namespace {
 
+std::string variable_words(const KeyForm& form) {
+  std::vector<std::string> variables = form.words;
+  if (form.reads_state) variables.emplace_back("measures");
+  if (variables.size() < 2) return variables.empty() ? "parameters" : variables.front();
+  const std::string last = variables.back();
+  variables.pop_back();
+  return fmt::format("{} and {}", fmt::join(variables, ", "), last);
+}
+
 std::string number_words(const KeyForm& form) {
-  std::string words =
-      form.kind == KeyForm::Kind::integer ? "whole number"
-      : form.kind == KeyForm::Kind::formula
-          ? fmt::format("formula of {}{}", fmt::join(form.words, ", "), form.reads_state ? " and measures" : "")
-          : "number";
+  std::string words = form.kind == KeyForm::Kind::integer   ? "whole number"
+                      : form.kind == KeyForm::Kind::formula ? "formula of " + variable_words(form)
+                                                            : "number";
   if (!form.unit.empty() && form.unit != "any") words += fmt::format(" [{}]", form.unit);
   if (const std::string range = form.range_words(); !range.empty()) words += " " + range;
   return words;
@@ -54,7 +61,8 @@ std::string words_of(const KeyForm& form) {
     case Kind::file:
       return fmt::format("file ({})", form.of);
     case Kind::name:
-      return "name of a " + form.of;
+      return fmt::format("name of {} {}", std::string("aeiou").find(form.of.front()) == std::string::npos ? "a" : "an",
+                         form.of);
     case Kind::list:
       return list_words(form);
     case Kind::table:
