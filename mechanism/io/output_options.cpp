@@ -1,6 +1,7 @@
 #include "mechanism/io/output_options.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -16,10 +17,20 @@ const KeyTable& only_keys() {
   static const KeyTable table{
       "`only`",
       "Parts of the model that are recorded: in the named sections these alone.",
-      {{"nodes", list_of(name_of("node")), optional, "Nodes that are recorded; all without the key."},
-       {"joints", list_of(name_of("joint")), optional, "Joints that are recorded; all without the key."},
-       {"elements", list_of(name_of("element")), optional, "Elements that are recorded; all without the key."}}};
+      {{"nodes", list_of(name_of("node")), optional,
+        "Nodes that are recorded, or parts whose nodes are; all without the key."},
+       {"joints", list_of(name_of("joint")), optional, "Joints that are recorded, or parts; all without the key."},
+       {"elements", list_of(name_of("element")), optional,
+        "Elements that are recorded, or parts; all without the key."}}};
   return table;
+}
+
+/// Returns the names of a part, "blade.tip", "blade.pump.rod", among others.
+std::vector<std::string> names_of_part(const std::string& part, const std::vector<std::string>& available) {
+  std::vector<std::string> names;
+  std::copy_if(available.begin(), available.end(), std::back_inserter(names),
+               [&](const std::string& name) { return name.starts_with(part + "."); });
+  return names;
 }
 
 /// Reads `only: {nodes: [pin], joints: []}`: in the named sections, nothing else is recorded.
@@ -33,8 +44,11 @@ void read_only(const YamlValue& only, Model& model) {
     const std::set<std::string> known(available.begin(), available.end());
     std::set<std::string> wanted;
     for (const YamlValue& item : list->items()) {
-      if (!known.contains(item.text())) item.word(available, fmt::format("one of the {}", section_name(section)));
-      if (!wanted.insert(item.text()).second) item.fail("is named twice");
+      const std::string name = item.text();
+      std::vector<std::string> meant = known.contains(name) ? std::vector{name} : names_of_part(name, available);
+      if (meant.empty()) item.word(available, fmt::format("one of the {}, or a part", section_name(section)));
+      for (std::string& each : meant)
+        if (!wanted.insert(std::move(each)).second) item.fail("is named twice");
     }
     // An element in pieces represents them.
     for (const std::string& name : std::set<std::string>(wanted))

@@ -92,11 +92,13 @@ def _superelements(results):
 
 
 def names(text, what, known):
-    """`a,b` -> [a, b]; None stays None. @raises InputError for names that are not `known`, and if there is none"""
+    """`a,b` -> [a, b]; None stays None. The name of a part, `blade_2`, means all its own: `blade_2.root`, `blade_2.tip`.
+    @raises InputError for names that are not `known`, and if there is none"""
     if text is None:
         return None
     wanted = [name.strip() for name in text.split(",") if name.strip()]
     if not wanted:
         raise InputError(f"expected the name of a {what}, found none (there are: {', '.join(known) or 'none'})")
-    check_names(what, wanted, known)
-    return wanted
+    of_parts = {name: [one for one in known if one.startswith(name + ".")] for name in wanted if name not in known}
+    check_names(what, [name for name in wanted if not of_parts.get(name)], known)
+    return [one for name in wanted for one in of_parts.get(name) or [name]]

@@ -43,6 +43,35 @@ TEST_CASE("a node is held by a number or formula of parameters that is not zero"
   CHECK_THAT(refusal("  a: {fixed: yes}"), Contains("model.yaml:2: nodes.a.fixed") && Contains("yes"));
 }
 
+TEST_CASE("the name of a part stands for its entries among those that are recorded") {
+  const auto model = [](const std::string& only) {
+    return read_mechanism_text(R"yaml(
+nodes: {base: {}, arm_1: {}}
+elements: {base: {type: point_mass, node: base, mass: 1}}
+definitions:
+  arm:
+    nodes: {tip: {}, root: {}}
+    elements: {tip: {type: point_mass, node: tip, mass: 1}}
+    joints: {weld: {type: rigid, nodes: [tip, root]}}
+parts: {arm_2: {part: arm}, arm_22: {part: arm}}
+output: {only: )yaml" + only + "}\n",
+                               "model.yaml");
+  };
+  const MechanismFile file = model("{nodes: [arm_2, base], joints: [arm_2.weld], elements: []}");
+  const auto records = [&](Section section, const char* name) { return file.model.records({section, name}); };
+  CHECK(records(Section::nodes, "arm_2.tip"));
+  CHECK(records(Section::nodes, "arm_2.root"));
+  CHECK(records(Section::nodes, "base"));
+  CHECK_FALSE(records(Section::nodes, "arm_1"));
+  CHECK_FALSE(records(Section::nodes, "arm_22.tip"));
+  CHECK(records(Section::joints, "arm_2.weld"));
+  CHECK_FALSE(records(Section::joints, "arm_22.weld"));
+  CHECK_FALSE(records(Section::elements, "arm_2.tip"));
+  const auto refused = [&](const std::string& only) { return message_of<bielle::InputError>([&] { model(only); }); };
+  CHECK_THAT(refused("{nodes: [arm_2, arm_2.tip]}"), Contains("output.only.nodes[2]") && Contains("named twice"));
+  CHECK_THAT(refused("{nodes: [arm_3]}"), Contains("'arm_3' is not one of the nodes, or a part") && Contains("arm_2"));
+}
+
 TEST_CASE("bodies that carry each other in a circle are refused where they stand") {
   const std::string rest =
       "  first: {type: rigid_body, node: b, mass: 1, inertia: [1, 1, 1], also: [c]}\n"
