@@ -8,8 +8,8 @@
 #include <Eigen/LU>
 
 #include "reduce/fe/node_graph.hpp"
-#include "reduce/fe/quadrature.hpp"
-#include "reduce/fe/shape_functions.hpp"
+#include "reduce/mesh/quadrature.hpp"
+#include "reduce/mesh/shape_functions.hpp"
 
 namespace bielle::reduce {
 
@@ -50,13 +50,10 @@ bool is_straight(const CellPoints<N>& x) {
   if constexpr (N == 4) {
     return true;
   } else {
-    static const Eigen::Matrix2Xi edges = edges_of(CellType::tet10);
-    for (int e = 0; e < 6; ++e) {
-      const Eigen::Vector3d a = x.col(edges(0, e)), b = x.col(edges(1, e));
-      if ((x.col(4 + e) - (a + b) / 2).squaredNorm() > 1e-20 * (b - a).squaredNorm()) {
+    int node = 4;
+    for (const auto& [a, b] : cell_info(CellType::tet10).edges)
+      if ((x.col(node++) - (x.col(a) + x.col(b)) / 2).squaredNorm() > 1e-20 * (x.col(b) - x.col(a)).squaredNorm())
         return false;
-      }
-    }
     return true;
   }
 }

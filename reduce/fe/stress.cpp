@@ -24,10 +24,8 @@ Eigen::MatrixXd extrapolation(CellType type, const Quadrature& rule) {
   barycentric << 1 - rule.points.colwise().sum().array(), rule.points;
   Eigen::MatrixXd result(nodes, 4);
   result.topRows(vertices) = barycentric.transpose().inverse();
-  const Eigen::Matrix2Xi edges = edges_of(type);
-  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
-    result.row(vertices + e) = (result.row(edges(0, e)) + result.row(edges(1, e))) / 2;
-  }
+  int node = vertices;
+  for (const auto& [a, b] : cell_info(type).edges) result.row(node++) = (result.row(a) + result.row(b)) / 2;
   return result;
 }
 

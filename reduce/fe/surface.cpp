@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/fe/quadrature.hpp"
-#include "reduce/fe/shape_functions.hpp"
+#include "reduce/mesh/quadrature.hpp"
+#include "reduce/mesh/shape_functions.hpp"
 
 namespace bielle::reduce {
 

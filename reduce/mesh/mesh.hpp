@@ -7,14 +7,9 @@
 
 #include <Eigen/Core>
 
+#include "reduce/mesh/cell_type.hpp"
+
 namespace bielle::reduce {
-
-/// Cell types by gmsh's numbers; node order within a cell is gmsh's.
-enum class CellType : int { tri3 = 2, tet4 = 4, tri6 = 9, tet10 = 11 };
-
-int node_count(CellType type);  ///< 3, 4, 6, 10
-int dimension(CellType type);   ///< 2 or 3
-std::string cell_name(CellType type);
 
 /// All cells of one type: column e holds the node numbers (from 0) of cell e.
 struct CellBlock {

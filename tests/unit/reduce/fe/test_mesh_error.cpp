@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/fe/mesh_error.hpp"
-#include "reduce/fe/quadrature.hpp"
-#include "reduce/fe/shape_functions.hpp"
+#include "reduce/mesh/quadrature.hpp"
+#include "reduce/mesh/shape_functions.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/solid_model.hpp"
 #include "tests/unit/reduce/fe/field.hpp"

@@ -1,4 +1,4 @@
-#include "reduce/fe/quadrature.hpp"
+#include "reduce/mesh/quadrature.hpp"
 
 #include <cmath>
 
@@ -66,6 +66,46 @@ Quadrature simplex_quadrature(int dimension, int degree) {
     left = std::move(finer_left);
   }
   return rule;
+}
+
+namespace {
+
+/// Every point of one rule with every point of another, whose coordinates come behind.
+Quadrature product(const Quadrature& first, const Quadrature& second) {
+  const Eigen::Index n = first.weights.size(), m = second.weights.size(), d = first.points.rows();
+  Quadrature all{Eigen::MatrixXd(d + second.points.rows(), n * m), Eigen::VectorXd(n * m)};
+  for (Eigen::Index p = 0; p < n; ++p)
+    for (Eigen::Index q = 0; q < m; ++q) {
+      all.points.col(p * m + q) << first.points.col(p), second.points.col(q);
+      all.weights(p * m + q) = first.weights(p) * second.weights(q);
+    }
+  return all;
+}
+
+/// Gauss's rule on [-1, 1].
+Quadrature line_quadrature(int degree) {
+  const Rule unit = gauss_jacobi(degree / 2 + 1, 0);
+  return {(2 * unit.points.array() - 1).matrix().transpose(), 2 * unit.weights};
+}
+
+/// Points (a (1 - z), b (1 - z), z) with a, b on [-1, 1]: the Jacobian (1 - z)^2 goes into the weights of z.
+Quadrature pyramid_quadrature(int degree) {
+  const Rule height = gauss_jacobi(degree / 2 + 1, 2);
+  const Quadrature line = line_quadrature(degree);
+  Quadrature rule = product(product(line, line), {height.points.transpose(), height.weights});
+  rule.points.topRows(2).array().rowwise() *= 1 - rule.points.row(2).array();
+  return rule;
+}
+
+}  // namespace
+
+Quadrature cell_quadrature(CellType type, int degree) {
+  const CellInfo& cell = cell_info(type);
+  if (cell.vertices == cell.dimension + 1) return simplex_quadrature(cell.dimension, degree);
+  const Quadrature line = line_quadrature(degree);
+  if (cell.vertices == 6) return product(simplex_quadrature(2, degree), line);
+  if (cell.vertices == 5) return pyramid_quadrature(degree);
+  return cell.dimension == 2 ? product(line, line) : product(product(line, line), line);
 }
 
 }  // namespace bielle::reduce
