@@ -10,6 +10,7 @@
 #include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/elasticity.hpp"
+#include "reduce/fe/internal_modes.hpp"
 
 namespace bielle::reduce {
 
@@ -82,13 +83,13 @@ void add_block(const BlockPlace& to, const double* block, SymmetricMatrix& k) {
 /// The cell's stiffness by blocks: K_ab(i,k) in row i + 3 k of column a + N b, for all a >= b in the order of the mesh.
 template <int N>
 void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
-  const CellRules<N> rules(N == 4 ? CellDegrees{0, 0} : CellDegrees{2, 5});
+  const CellRules<N> rules(stiffness_degrees<N>());
   std::vector<Eigen::Matrix<double, 9, 9>> tensors;
   for (const Material& material : solid.materials) {
     tensors.push_back(elasticity_tensor(material.elasticity));
   }
   InvertedCells inverted;
-  constexpr int most_points = N == 4 ? 1 : 27, pairs = N * (N + 1) / 2;
+  constexpr int most_points = N == 4 ? 1 : SolidCell<N>::is_second_order ? 27 : 8, pairs = N * (N + 1) / 2;
   const BlasThreads one(1);
   for_each_cell(solid.nodes, solid.points(), threads, [&](Eigen::Index e) {
     const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
@@ -128,6 +129,40 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
   inverted.check(solid);
 }
 
+/// The stiffness of cells with internal modes, which the product of gradients above does not contain.
+template <int N>
+void add_stiffness_with_modes(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
+  InvertedCells inverted;
+  for_each_cell(solid.nodes, solid.points(), threads, [&](Eigen::Index e) {
+    thread_local InternalModes<N> modes;
+    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+    const auto& elasticity = solid.materials[solid.material_of[e]].elasticity;
+    if (!modes.set(x, elasticity)) {
+      inverted.note(e);
+      return;
+    }
+    Eigen::Matrix<double, 3 * N, 3 * N> stiffness = Eigen::Matrix<double, 3 * N, 3 * N>::Zero();
+    Eigen::Matrix<double, N, 3> gradients;
+    const CellRule<N>& rule = modes.rule();
+    for (std::size_t p = 0; p < rule.size(); ++p) {
+      const auto point = static_cast<Eigen::Index>(p);
+      const double volume = map_point<N>(rule, p, x, gradients);
+      const auto strain = modes.strain(gradients, rule.points.col(point), volume / rule.weights(point));
+      stiffness.noalias() += strain.transpose() * (volume * elasticity) * strain;
+    }
+    const CellPlaces<N> places(graph, solid.nodes, e);
+    for (int cell_b = 0; cell_b < N; ++cell_b) {
+      const int b = solid.nodes(cell_b, e);
+      const std::int64_t own = graph.place(b, b);
+      places.from(cell_b, own, [&](int cell_a, std::int64_t place) {
+        const Eigen::Matrix3d block = stiffness.template block<3, 3>(3 * cell_a, 3 * cell_b);
+        add_block({b, place - own}, block.data(), k);
+      });
+    }
+  });
+  inverted.check(solid);
+}
+
 template <int N>
 void add_to_node_matrix(const Solid& solid, const NodeGraph& graph, Eigen::Index e,
                         const Eigen::Matrix<double, N, N>& values, NodeMatrix& m) {
@@ -137,7 +172,10 @@ void add_to_node_matrix(const Solid& solid, const NodeGraph& graph, Eigen::Index
 
 template <int N>
 void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int threads) {
-  const CellRules<N> rules(N == 4 ? CellDegrees{2, 2} : CellDegrees{4, 7});
+  const CellRules<N> rules(N == 4                          ? CellDegrees{2, 2}
+                           : N == 10                       ? CellDegrees{4, 7}
+                           : SolidCell<N>::is_second_order ? CellDegrees{4, 9}
+                                                           : CellDegrees{2, 4});
   const auto integrate = [](const CellRule<N>& rule, const auto& jacobian) {
     Eigen::Matrix<double, N, N> sum = Eigen::Matrix<double, N, N>::Zero();
     for (std::size_t p = 0; p < rule.size(); ++p) {
@@ -169,14 +207,18 @@ void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int thr
 
 SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, int threads) {
   SymmetricMatrix k = stiffness_pattern(graph);
-  solid.type == CellType::tet4 ? add_stiffness<4>(solid, graph, k, threads)
-                               : add_stiffness<10>(solid, graph, k, threads);
+  with_nodes_of(solid.type, [&]<int N>() {
+    if constexpr (InternalModes<N>::any)
+      add_stiffness_with_modes<N>(solid, graph, k, threads);
+    else
+      add_stiffness<N>(solid, graph, k, threads);
+  });
   return k;
 }
 
 NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads) {
   NodeMatrix m{&graph, std::vector<double>(graph.neighbours.size(), 0.0)};
-  solid.type == CellType::tet4 ? add_mass<4>(solid, graph, m, threads) : add_mass<10>(solid, graph, m, threads);
+  with_nodes_of(solid.type, [&]<int N>() { add_mass<N>(solid, graph, m, threads); });
   return m;
 }
 

@@ -36,6 +36,11 @@ class CellFields {
     }
   }
 
+  /// The same from the strains by displacements, (6, 3 N).
+  void set_strain(Eigen::Index p, const Eigen::Matrix<double, 6, 6>& A, const Eigen::Matrix<double, 6, 3 * N>& strain) {
+    transposed_.template middleCols<6>(6 * p).noalias() = strain.transpose() * A.transpose();
+  }
+
   /// Takes columns `first`, `first` + 1, ... of the fields, up to the capacity.
   void take(const RowMatrix& fields, const Eigen::MatrixXi& nodes, Eigen::Index cell, Eigen::Index first = 0) {
     const Eigen::Index width = displacements_.rows();

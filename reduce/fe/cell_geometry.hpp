@@ -1,7 +1,8 @@
-// Cells with N nodes at the points of a quadrature rule: local shape functions tabulated once, mapped cell by cell.
-// Internal to reduce/fe.
+// Cells with N nodes at the points of a quadrature rule: local shape functions tabulated once, mapped cell by cell. No
+// two types of solid cells have the same number of nodes, so that N stands for the type. Internal to reduce/fe.
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,13 +14,62 @@
 
 namespace bielle::reduce {
 
+/// Calls work.operator()<N>() with the number of nodes of a type of solid cells.
+template <class Work>
+auto with_nodes_of(CellType type, const Work& work) {
+  switch (type) {
+    case CellType::tet4:
+      return work.template operator()<4>();
+    case CellType::tet10:
+      return work.template operator()<10>();
+    case CellType::hex8:
+      return work.template operator()<8>();
+    case CellType::hex20:
+      return work.template operator()<20>();
+    case CellType::hex27:
+      return work.template operator()<27>();
+    case CellType::wedge6:
+      return work.template operator()<6>();
+    case CellType::wedge15:
+      return work.template operator()<15>();
+    case CellType::pyramid5:
+      return work.template operator()<5>();
+    case CellType::pyramid13:
+      return work.template operator()<13>();
+    default:
+      throw std::logic_error("no type of solid cells");
+  }
+}
+
+/// Properties of the type with N nodes that are known at compile time.
+template <int N>
+struct SolidCell {
+  static constexpr bool is_simplex = N == 4 || N == 10;
+  static constexpr bool is_second_order = N == 10 || N == 13 || N == 15 || N == 20 || N == 27;
+  static constexpr int vertices = N == 4 || N == 10 ? 4 : N == 5 || N == 13 ? 5 : N == 6 || N == 15 ? 6 : 8;
+  static constexpr CellType type = N == 4    ? CellType::tet4
+                                   : N == 5  ? CellType::pyramid5
+                                   : N == 6  ? CellType::wedge6
+                                   : N == 8  ? CellType::hex8
+                                   : N == 10 ? CellType::tet10
+                                   : N == 13 ? CellType::pyramid13
+                                   : N == 15 ? CellType::wedge15
+                                   : N == 20 ? CellType::hex20
+                                             : CellType::hex27;
+  /// The type of order 1 with the same vertices, whose functions extend values at points over the cell.
+  static constexpr CellType linear_type = vertices == 4   ? CellType::tet4
+                                          : vertices == 5 ? CellType::pyramid5
+                                          : vertices == 6 ? CellType::wedge6
+                                                          : CellType::hex8;
+};
+
 template <int N>
 using CellPoints = Eigen::Matrix<double, 3, N>;
 
-/// Shape functions of a type of tetrahedron at the points of a rule.
+/// Shape functions of a type at the points of a rule.
 template <int N>
 struct CellRule {
-  static constexpr CellType type = N == 4 ? CellType::tet4 : CellType::tet10;
+  static constexpr CellType type = SolidCell<N>::type;
   std::vector<Eigen::Matrix<double, N, 1>> values;
   std::vector<Eigen::Matrix<double, N, 3>> local_gradients;
   Eigen::VectorXd weights;
@@ -44,33 +94,50 @@ double map_point(const CellRule<N>& rule, std::size_t p, const CellPoints<N>& x,
   return rule.weights(p) * jacobian.determinant();
 }
 
-/// Mid-side nodes in the middle of their edges: the Jacobian is constant.
+/// Whether the Jacobian is constant: the mid-side nodes of a tetrahedron are in the middle of their edges, another cell
+/// is the image of its reference cell under a linear map.
 template <int N>
 bool is_straight(const CellPoints<N>& x) {
-  if constexpr (N == 4) {
-    return true;
-  } else {
+  if constexpr (N == 4) return true;
+  if constexpr (SolidCell<N>::is_simplex) {
     int node = 4;
     for (const auto& [a, b] : cell_info(CellType::tet10).edges)
       if ((x.col(node++) - (x.col(a) + x.col(b)) / 2).squaredNorm() > 1e-20 * (x.col(b) - x.col(a)).squaredNorm())
         return false;
     return true;
+  } else {
+    // The linear map that fits best: x = x_m + A (xi - xi_m), with the pseudo-inverse of the local nodes.
+    static const Eigen::Matrix<double, 3, N> local = local_nodes(SolidCell<N>::type);
+    static const Eigen::Matrix<double, 3, N> centred = local.colwise() - local.rowwise().mean();
+    static const Eigen::Matrix<double, N, 3> inverse = centred.transpose() * (centred * centred.transpose()).inverse();
+    const CellPoints<N> around = x.colwise() - x.rowwise().mean();
+    const Eigen::Matrix3d map = around * inverse;
+    return (around - map * centred).squaredNorm() <= 1e-20 * around.squaredNorm();
   }
 }
 
-/// Degrees of the rules that integrate exactly on a straight cell, and polynomial integrands exactly on a curved one.
+/// Degrees of the rules for straight cells and for others, see cell_quadrature.
 struct CellDegrees {
   int straight, curved;
 };
 
-/// The rules for straight and for curved cells for one purpose.
+/// The rules for straight and for other cells for one purpose.
 template <int N>
 struct CellRules {
   CellRule<N> straight, curved;
   explicit CellRules(CellDegrees degrees)
-      : straight(simplex_quadrature(3, degrees.straight)), curved(simplex_quadrature(3, degrees.curved)) {}
+      : straight(cell_quadrature(SolidCell<N>::type, degrees.straight)),
+        curved(cell_quadrature(SolidCell<N>::type, degrees.curved)) {}
   const CellRule<N>& of(const CellPoints<N>& x) const { return is_straight<N>(x) ? straight : curved; }
 };
+
+/// Degrees for the stiffness: exact for straight cells; the usual two or three points in each direction of others.
+template <int N>
+constexpr CellDegrees stiffness_degrees() {
+  if constexpr (N == 4) return {0, 0};
+  if constexpr (N == 10) return {2, 5};
+  return SolidCell<N>::is_second_order ? CellDegrees{4, 4} : CellDegrees{2, 2};
+}
 
 /// Calls work(cell) for every cell; cells of one colour run at the same time.
 template <typename Work>

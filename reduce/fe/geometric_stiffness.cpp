@@ -8,6 +8,7 @@
 #include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/internal_modes.hpp"
 
 namespace bielle::reduce {
 
@@ -15,6 +16,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// The matrices g of all fields, lower triangles with half of the diagonal: column `first[a] + j` has the numbers of
 /// all fields for node a and its j-th neighbour from itself on.
@@ -74,15 +76,16 @@ constexpr int pair_number(int a, int b, int nodes) {
 template <int N>
 void add_cells(const Solid& solid, const NodeGraph& graph, const RowMatrix& fields, FieldMatrices& g, int threads) {
   constexpr int pairs = N * (N + 1) / 2;
-  const CellRule<N> straight(N == 4 ? simplex_quadrature(3, 0) : five_points());
-  const CellRule<N> curved(simplex_quadrature(3, N == 4 ? 0 : 5));
+  const CellRule<N> straight(N == 10 ? five_points()
+                                     : cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().straight));
+  const CellRule<N> curved(cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().curved));
   const Index count = fields.cols(), most = static_cast<Index>(std::max(straight.size(), curved.size()));
   const std::vector<std::vector<int>> colours = colour_cells(solid.nodes, solid.points());
 #pragma omp parallel num_threads(threads)
   {
     CellFields<N> cell(most, count);
+    InternalModes<N> modes;
     MatrixXd stresses(count, 6 * most), products(6 * most, pairs), sums(count, pairs);
-    Eigen::Matrix<double, N, 3> gradients;
     for (const std::vector<int>& colour : colours) {
 #pragma omp for schedule(static)
       for (std::size_t k = 0; k < colour.size(); ++k) {
@@ -90,11 +93,10 @@ void add_cells(const Solid& solid, const NodeGraph& graph, const RowMatrix& fiel
         const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
         const CellRule<N>& rule = is_straight<N>(x) ? straight : curved;
         const auto points = static_cast<Index>(rule.size());
-        for (Index p = 0; p < points; ++p) {
-          const double volume = map_point<N>(rule, static_cast<std::size_t>(p), x, gradients);
-          cell.set_point(p, volume * solid.materials[solid.material_of[e]].elasticity, gradients);
-          set_products<N>(gradients, p, products);
-        }
+        const auto& elasticity = solid.materials[solid.material_of[e]].elasticity;
+        set_strains(
+            cell, modes, rule, x, elasticity, [&](double volume) { return Matrix6(volume * elasticity); },
+            [&](Index p, const auto& gradients, double) { set_products<N>(gradients, p, products); });
         cell.take(fields, solid.nodes, e);
         cell.evaluate(points, stresses.data());
         sums.setZero();
@@ -203,8 +205,7 @@ std::vector<MatrixXd> reduced_geometric_stiffness(const Solid& solid, const Node
   const Index count = fields.cols(), n = shapes.cols();
   const BlasThreads one(1);
   FieldMatrices g(graph, count, threads);
-  solid.type == CellType::tet4 ? add_cells<4>(solid, graph, fields, g, threads)
-                               : add_cells<10>(solid, graph, fields, g, threads);
+  with_nodes_of(solid.type, [&]<int N>() { add_cells<N>(solid, graph, fields, g, threads); });
   const MatrixXd sums = reduce(graph, g, shapes, threads);
   std::vector<MatrixXd> result;
   for (Index f = 0; f < count; ++f) {

@@ -10,7 +10,9 @@ namespace {
 template <int N>
 Eigen::Matrix3Xd mean_gradients(const Solid& solid) {
   // Gradient times Jacobian is a product of local gradients, three of them on a curved cell.
-  const CellRules<N> rules({1, 3});
+  const CellRules<N> rules(SolidCell<N>::is_simplex        ? CellDegrees{1, 3}
+                           : SolidCell<N>::is_second_order ? CellDegrees{2, 6}
+                                                           : CellDegrees{2, 3});
   Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, solid.points());
   Eigen::Matrix<double, N, 3> gradients;
   double volume = 0;
@@ -29,8 +31,7 @@ Eigen::Matrix3Xd mean_gradients(const Solid& solid) {
 }  // namespace
 
 Eigen::MatrixXd mean_strain(const Solid& solid, const RowMatrix& fields) {
-  const Eigen::Matrix3Xd gradients =
-      solid.type == CellType::tet4 ? mean_gradients<4>(solid) : mean_gradients<10>(solid);
+  const Eigen::Matrix3Xd gradients = with_nodes_of(solid.type, [&]<int N>() { return mean_gradients<N>(solid); });
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(6, fields.cols());
   for (Eigen::Index a = 0; a < solid.points(); ++a) {
     const auto x = fields.row(3 * a), y = fields.row(3 * a + 1), z = fields.row(3 * a + 2);

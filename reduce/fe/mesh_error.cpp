@@ -12,6 +12,7 @@
 #include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/internal_modes.hpp"
 #include "reduce/fe/vertex_patches.hpp"
 
 namespace bielle::reduce {
@@ -39,16 +40,17 @@ Matrix6 root_of(const Matrix6& elasticity) {
 /// them.
 template <int N>
 struct Fit {
-  static constexpr int terms = N == 4 ? 4 : 10;
+  static constexpr bool is_quadratic = SolidCell<N>::is_second_order;
+  static constexpr int terms = is_quadratic ? 10 : 4;
   static constexpr int sampling_degree = N == 4 ? 0 : 2;
-  static constexpr int error_degree = N == 4 ? 2 : 3;
+  static constexpr int error_degree = N == 10 ? 3 : is_quadratic ? 4 : 2;
   using Terms = Eigen::Matrix<double, terms, 1>;
   using Normal = Eigen::Matrix<double, terms, terms>;
 
   static Terms polynomials(const Eigen::Vector3d& x) {
     Terms result;
     result.template head<4>() << 1, x;
-    if constexpr (N == 10) result.template tail<6>() << x.cwiseAbs2(), x.y() * x.z(), x.x() * x.z(), x.x() * x.y();
+    if constexpr (is_quadratic) result.template tail<6>() << x.cwiseAbs2(), x.y() * x.z(), x.x() * x.z(), x.x() * x.y();
     return result;
   }
 };
@@ -70,13 +72,16 @@ class Estimate {
       : solid_(solid),
         fields_(fields),
         threads_(threads),
-        sampling_(simplex_quadrature(3, Fit<N>::sampling_degree)),
-        rule_(simplex_quadrature(3, Fit<N>::error_degree)),
+        sampling_(cell_quadrature(SolidCell<N>::type, Fit<N>::sampling_degree)),
+        rule_(cell_quadrature(SolidCell<N>::type, Fit<N>::error_degree)),
         around_(all_surroundings(solid)),
         samples_(numbers(solid.cells() * size_of_samples(width))),
         coefficients_(numbers(most_vertices() * terms * 6 * width)) {
     for (const Material& material : solid.materials) roots_.push_back(root_of(material.elasticity));
     set_interpolation();
+    shares_.resize(SolidCell<N>::vertices, rule_.weights.size());
+    for (Eigen::Index p = 0; p < shares_.cols(); ++p)
+      shares_.col(p) = shape_values(SolidCell<N>::linear_type, rule_.points.col(p));
   }
 
   /// Energies, doubled, of the error and of the fields from `first` on: (cells, fields).
@@ -89,7 +94,7 @@ class Estimate {
 
  private:
   static constexpr int terms = Fit<N>::terms;
-  static constexpr int most_points = 8;  // number of points of `rule_`
+  static constexpr int most_points = Fit<N>::is_quadratic && N != 10 ? 27 : 8;  // number of points of `rule_`
 
   static std::vector<Surroundings> all_surroundings(const Solid& solid) {
     std::vector<Surroundings> result;
@@ -107,8 +112,12 @@ class Estimate {
   CellPoints<N> points_of(Eigen::Index cell) const { return cell_points<N>(solid_.mesh.points, solid_.nodes, cell); }
   double* samples_of(Eigen::Index cell) { return samples_.get() + cell * size_of_samples(width_); }
 
+  /// Whether the stress of a cell is the linear function that its sampling points give.
+  static bool has_linear_stress(const CellPoints<N>& x) { return SolidCell<N>::is_simplex && is_straight<N>(x); }
+
   /// Sets the interpolation of a linear function of the cell from the sampling points to the points of `rule_`.
   void set_interpolation() {
+    if constexpr (!SolidCell<N>::is_simplex) return;
     const auto columns = static_cast<Eigen::Index>(sampling_.size());
     interpolation_ = Eigen::MatrixXd::Ones(columns, rule_.weights.size());
     if (columns == 1) return;
@@ -127,18 +136,18 @@ class Estimate {
 #pragma omp parallel num_threads(threads_)
     {
       CellFields<N> cell(points, width_);
-      Eigen::Matrix<double, N, 3> gradients;
+      InternalModes<N> modes;
       Eigen::VectorXd volumes(points);
 #pragma omp for schedule(static)
       for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
         const CellPoints<N> x = points_of(e);
-        for (Eigen::Index p = 0; p < points; ++p) {
-          volumes(p) = map_point<N>(sampling_, static_cast<std::size_t>(p), x, gradients);
-          cell.set_point(p, roots_[static_cast<std::size_t>(solid_.material_of[e])], gradients);
-        }
+        const auto material = static_cast<std::size_t>(solid_.material_of[e]);
+        set_strains(
+            cell, modes, sampling_, x, solid_.materials[material].elasticity, [&](double) { return roots_[material]; },
+            [&](Eigen::Index p, const auto&, double volume) { volumes(p) = volume; });
         cell.take(fields_, solid_.nodes, e, first_);
         cell.evaluate(points, samples_of(e));
-        if (is_straight<N>(x)) add_squares(samples_of(e), volumes, &energy(e, 0));
+        if (has_linear_stress(x)) add_squares(samples_of(e), volumes, &energy(e, 0));
       }
     }
   }
@@ -195,7 +204,7 @@ class Estimate {
         // those of low degree.
         const double trace = normal.trace();
         normal.diagonal().tail(terms - 1).array() += 1e-12 * trace;
-        if constexpr (N == 10) normal.diagonal().tail(terms - 4).array() += 1e-9 * trace;
+        if constexpr (Fit<N>::is_quadratic) normal.diagonal().tail(terms - 4).array() += 1e-9 * trace;
         Eigen::Map<Eigen::MatrixXd>(result.coefficients + v * terms * size, size, terms) =
             solve_symmetric(normal, right).transpose();
       }
@@ -210,13 +219,12 @@ class Estimate {
     const auto points = static_cast<Eigen::Index>(rule_.size());
     const Eigen::Index size = 6 * width_;
     Eigen::Matrix<double, terms, most_points> weighted;
-    for (int v = 0; v < 4; ++v) {
+    for (int v = 0; v < SolidCell<N>::vertices; ++v) {
       const Eigen::Index vertex = around.number[solid_.nodes(v, cell)];
       const double scale = fitted.scale[static_cast<std::size_t>(vertex)];
       for (Eigen::Index p = 0; p < points; ++p) {
-        const Eigen::Vector3d local = rule_.points.col(p), place = x * rule_.values[static_cast<std::size_t>(p)];
-        const double share = v == 0 ? 1 - local.sum() : local(v - 1);
-        weighted.col(p) = share * Fit<N>::polynomials((place - x.col(v)) / scale);
+        const Eigen::Vector3d place = x * rule_.values[static_cast<std::size_t>(p)];
+        weighted.col(p) = shares_(v, p) * Fit<N>::polynomials((place - x.col(v)) / scale);
       }
       add_dense_product({fitted.coefficients + vertex * terms * size, size, terms, size, false},
                         {weighted.data(), terms, points, terms, false}, stress, size);
@@ -230,23 +238,23 @@ class Estimate {
 #pragma omp parallel num_threads(threads_)
     {
       CellFields<N> curved(points, width_);
+      InternalModes<N> modes;
       Eigen::MatrixXd stress(size, points), own(size, points);
-      Eigen::Matrix<double, N, 3> gradients;
       Eigen::VectorXd volumes(points);
 #pragma omp for schedule(static)
       for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
         if (solid_.material_of[e] != material) continue;
         const CellPoints<N> x = points_of(e);
         stress.setZero();
-        if (is_straight<N>(x)) {
+        if (has_linear_stress(x)) {
           volumes = rule_.weights * Eigen::Matrix3d(x * rule_.local_gradients[0]).determinant();
           add_dense_product({samples_of(e), size, sampled, size, false},
                             {backward.data(), sampled, points, sampled, false}, stress.data(), size);
         } else {
-          for (Eigen::Index p = 0; p < points; ++p) {
-            volumes(p) = map_point<N>(rule_, static_cast<std::size_t>(p), x, gradients);
-            curved.set_point(p, roots_[static_cast<std::size_t>(material)], gradients);
-          }
+          const auto number = static_cast<std::size_t>(material);
+          set_strains(
+              curved, modes, rule_, x, solid_.materials[number].elasticity, [&](double) { return roots_[number]; },
+              [&](Eigen::Index p, const auto&, double volume) { volumes(p) = volume; });
           curved.take(fields_, solid_.nodes, e, first_);
           curved.evaluate(points, own.data());
           add_squares(own.data(), volumes, &energy(e, 0));
@@ -265,6 +273,7 @@ class Estimate {
   std::vector<Surroundings> around_;  // patches of each material
   std::vector<Matrix6> roots_;        // W of each material
   Eigen::MatrixXd interpolation_;     // (sampling points, points of `rule_`)
+  Eigen::MatrixXd shares_;            // functions of order 1 of the vertices at the points of `rule_`
   Numbers samples_;                   // stresses of each cell (fields, 6 points), one column after the other
   Numbers coefficients_;              // coefficients of `FittedStress`
   Eigen::Index first_ = 0, width_ = 0;
@@ -287,13 +296,19 @@ MeshError mesh_error(const Solid& solid, const RowMatrix& fields, int threads) {
     density += (error.matrix() * unit.matrix()).array();
   }
   Eigen::Index worst = 0;
+  const CellRule<N> rule(cell_quadrature(SolidCell<N>::type, N == 4 ? 0 : 2));
   for (Eigen::Index e = 0; e < solid.cells(); ++e) {
     const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-    const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0), c = x.col(3) - x.col(0);
-    density(e) /= std::abs(Eigen::Matrix3d((Eigen::Matrix3d() << a, b, c).finished()).determinant());
+    double volume = 0;
+    for (std::size_t p = 0; p < rule.size(); ++p)
+      volume += rule.weights(static_cast<Eigen::Index>(p)) * Eigen::Matrix3d(x * rule.local_gradients[p]).determinant();
+    density(e) /= std::abs(volume);
     if (density(e) > density(worst)) worst = e;
   }
-  result.worst_place = cell_points<N>(solid.mesh.points, solid.nodes, worst).template leftCols<4>().rowwise().mean();
+  result.worst_place = cell_points<N>(solid.mesh.points, solid.nodes, worst)
+                           .template leftCols<SolidCell<N>::vertices>()
+                           .rowwise()
+                           .mean();
   return result;
 }
 
@@ -301,7 +316,7 @@ MeshError mesh_error(const Solid& solid, const RowMatrix& fields, int threads) {
 
 MeshError estimate_mesh_error(const Solid& solid, const RowMatrix& fields, int threads) {
   if (fields.cols() == 0) return {Eigen::VectorXd(0)};
-  return solid.type == CellType::tet4 ? mesh_error<4>(solid, fields, threads) : mesh_error<10>(solid, fields, threads);
+  return with_nodes_of(solid.type, [&]<int N>() { return mesh_error<N>(solid, fields, threads); });
 }
 
 }  // namespace bielle::reduce

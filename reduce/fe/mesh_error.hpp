@@ -1,9 +1,9 @@
 // The difference between the stress of a mesh and that of the body: the estimate of Zienkiewicz and Zhu.
 //
-// A smoother stress s* is recovered from that of the cells, s_h: around each vertex a polynomial (linear for tet4,
-// quadratic for tet10) is fitted to s_h at the sampling points of the cells there, of one material; inside a cell s* is
-// the mean of the four vertices' polynomials by barycentric coordinates. The estimate of the error in the energy norm
-// is
+// A smoother stress s* is recovered from that of the cells, s_h: around each vertex a polynomial (linear for cells
+// of order 1, quadratic for those of order 2) is fitted to s_h at the sampling points of the cells there, of one
+// material; inside a cell s* is the mean of its vertices' polynomials by the functions of order 1. The estimate of the
+// error in the energy norm is
 //     |e|^2 = int (s* - s_h) : C^-1 : (s* - s_h) dV,   relative: eta = |e| / sqrt(|s_h|^2 + |e|^2).
 // For an eigenmode it is also the error of the frequency, which a mesh raises: f_h / f = 1 / sqrt(1 - eta^2). At
 // singular places (re-entrant corners, rims of rigid ties) stress has no limit, and the estimate is large. Reference:

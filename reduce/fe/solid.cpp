@@ -80,10 +80,10 @@ Moments moments(const Solid& solid, CellDegrees degrees, const Eigen::Vector3d& 
 
 Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
                  const std::map<std::string, std::string>& regions) {
-  const CellBlock* block = mesh.block(CellType::tet10) ? mesh.block(CellType::tet10) : mesh.block(CellType::tet4);
-  if (!block || block->nodes.cols() == 0) {
+  if (mesh.solid_count() == 0) {
     throw InputError("the mesh has no solid cells: a body needs a volume");
   }
+  const CellBlock* block = &mesh.solids();
   Solid solid{mesh, block->type, block->nodes, {}, std::vector<int>(block->nodes.cols(), -1)};
   const std::vector<std::string> names = keys(materials);
   for (const auto& [name, material] : materials) {
@@ -137,9 +137,12 @@ Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materi
 MassProperties mass_properties(const Solid& solid, int threads) {
   const Eigen::Vector3d origin =
       solid.mesh.points.col(solid.nodes(0, 0));  // near the body: differences keep their digits
-  // x x^T has degree 2 per order of the cell, the Jacobian of a curved cell degree 3.
-  const Moments all = solid.type == CellType::tet4 ? moments<4>(solid, {2, 2}, origin, threads)
-                                                   : moments<10>(solid, {2, 7}, origin, threads);
+  // x x^T has degree 2 per order of the cell, the Jacobian of a curved tetrahedron degree 3, that of another cell 2 or
+  // 5 along each coordinate.
+  const Moments all = with_nodes_of(solid.type, [&]<int N>() {
+    constexpr int curved = N == 4 ? 2 : N == 10 ? 7 : SolidCell<N>::is_second_order ? 9 : 4;
+    return moments<N>(solid, {2, curved}, origin, threads);
+  });
   const Eigen::Vector3d r = all.first / all.mass;
   const Eigen::Matrix3d second = all.second - all.mass * r * r.transpose();
   MassProperties result;

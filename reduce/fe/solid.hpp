@@ -12,8 +12,7 @@
 
 namespace bielle::reduce {
 
-/// Tetrahedra (tet4, or isoparametric tet10 with straight or curved edges) of linear elastic material. It refers to its
-/// mesh.
+/// Isoparametric cells of one type, of linear elastic material. It refers to its mesh.
 struct Solid {
   const Mesh& mesh;
   CellType type;                 ///< type of all its cells

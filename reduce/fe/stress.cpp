@@ -7,6 +7,7 @@
 #include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/internal_modes.hpp"
 #include "reduce/fe/node_graph.hpp"
 #include "reduce/mesh/faces.hpp"
 
@@ -14,19 +15,19 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Values at the nodes of a cell from those at the four points: (nodes, 4).
-Eigen::MatrixXd extrapolation(CellType type, const Quadrature& rule) {
-  const int vertices = vertex_count(type), nodes = node_count(type);
-  if (type == CellType::tet4) {
-    return Eigen::MatrixXd::Ones(nodes, 1);
-  }
-  Eigen::Matrix4d barycentric;
-  barycentric << 1 - rule.points.colwise().sum().array(), rule.points;
-  Eigen::MatrixXd result(nodes, 4);
-  result.topRows(vertices) = barycentric.transpose().inverse();
-  int node = vertices;
-  for (const auto& [a, b] : cell_info(type).edges) result.row(node++) = (result.row(a) + result.row(b)) / 2;
-  return result;
+/// Values at the nodes of a cell from those at the points of a rule, (nodes, points): those of the functions of order 1
+/// that fit them best.
+template <int N>
+Eigen::MatrixXd extrapolation(const Quadrature& rule) {
+  if (rule.weights.size() == 1) return Eigen::MatrixXd::Ones(N, 1);
+  using Cell = SolidCell<N>;
+  Eigen::MatrixXd at_points(Cell::vertices, rule.weights.size()), at_nodes(Cell::vertices, N);
+  for (Eigen::Index p = 0; p < rule.weights.size(); ++p)
+    at_points.col(p) = shape_values(Cell::linear_type, rule.points.col(p));
+  const Eigen::MatrixXd nodes = local_nodes(Cell::type);
+  for (int a = 0; a < N; ++a) at_nodes.col(a) = shape_values(Cell::linear_type, nodes.col(a));
+  const Eigen::MatrixXd to_vertices = (at_points * at_points.transpose()).inverse() * at_points;
+  return at_nodes.transpose() * to_vertices;
 }
 
 template <int N>
@@ -72,7 +73,7 @@ std::vector<double> cell_volumes(const Solid& solid, const CellRule<N>& rule, in
 /// The sampling points for stress in a cell.
 template <int N>
 Quadrature sampling() {
-  return simplex_quadrature(3, N == 4 ? 0 : 2);
+  return cell_quadrature(SolidCell<N>::type, N == 4 ? 0 : 2);
 }
 
 template <int N>
@@ -84,7 +85,7 @@ template <int N>
 RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
   const Quadrature quadrature = sampling<N>();
   const CellRule<N> rule(quadrature);
-  const Eigen::MatrixXd to_nodes = extrapolation(CellRule<N>::type, quadrature);
+  const Eigen::MatrixXd to_nodes = extrapolation<N>(quadrature);
   const std::vector<double> volumes = cell_volumes<N>(solid, rule, threads);
   const NodeShares shares = node_shares(solid, volumes);
   std::vector<int> row_of(solid.points(), -1);
@@ -113,17 +114,17 @@ RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vect
 #pragma omp parallel num_threads(threads)
   {
     CellFields<N> cell(points, k);
+    InternalModes<N> modes;
     Eigen::MatrixXd at_points(6 * k, points);
-    Eigen::Matrix<double, N, 3> gradients;
     for (const std::vector<int>& colour : colours) {
 #pragma omp for schedule(static)
       for (std::size_t c = 0; c < colour.size(); ++c) {
         const int e = cells[static_cast<std::size_t>(colour[c])];
         const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-        for (Eigen::Index p = 0; p < points; ++p) {
-          map_point<N>(rule, static_cast<std::size_t>(p), x, gradients);
-          cell.set_point(p, solid.materials[solid.material_of[e]].elasticity, gradients);
-        }
+        const auto& elasticity = solid.materials[solid.material_of[e]].elasticity;
+        set_strains(
+            cell, modes, rule, x, elasticity, [&](double) { return elasticity; },
+            [](Eigen::Index, const auto&, double) {});
         cell.take(fields, solid.nodes, e);
         cell.evaluate(points, at_points.data());
         for (int a = 0; a < N; ++a) {
@@ -141,12 +142,11 @@ RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vect
 }  // namespace
 
 RowMatrix nodal_stress(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
-  return solid.type == CellType::tet4 ? stress_at<4>(solid, fields, nodes, threads)
-                                      : stress_at<10>(solid, fields, nodes, threads);
+  return with_nodes_of(solid.type, [&]<int N>() { return stress_at<N>(solid, fields, nodes, threads); });
 }
 
 std::vector<int> nodal_materials(const Solid& solid, const std::vector<int>& nodes) {
-  const NodeShares shares = solid.type == CellType::tet4 ? node_shares<4>(solid) : node_shares<10>(solid);
+  const NodeShares shares = with_nodes_of(solid.type, [&]<int N>() { return node_shares<N>(solid); });
   std::vector<int> result;
   for (const int node : nodes) {
     result.push_back(shares.material[node]);

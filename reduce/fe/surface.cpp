@@ -23,12 +23,12 @@ std::vector<std::string> surface_groups(const Mesh& mesh) {
   return result;
 }
 
-/// Calls visit(nodes of the triangle, N_a, x, int n dA of the point) at every point of a rule of degree 7, which is
-/// exact for N_a n on curved tri6 (degree 4) and N_a x |n| on plane ones, and nearly exact if |n| is no polynomial.
+/// Calls visit(nodes of the face, N_a, x, int n dA of the point) at every point of a rule of degree 7, which is exact
+/// for N_a n on curved faces of order 2 and for N_a x |n| on plane ones, and nearly exact if |n| is no polynomial.
 template <typename Visitor>
 void integrate(const Mesh& mesh, const Group& group, const Visitor& visit) {
-  const Quadrature rule = simplex_quadrature(2, 7);
   for (const GroupPart& part : group.parts) {
+    const Quadrature rule = cell_quadrature(part.type, 7);
     std::vector<Eigen::VectorXd> values;
     std::vector<Eigen::MatrixXd> gradients;
     for (const auto& xi : rule.points.colwise()) {

@@ -10,7 +10,7 @@
 
 namespace bielle::reduce {
 
-/// Integrals of the shape functions of the nodes of a surface (triangles of order 1 or 2, which may be curved).
+/// Integrals of the shape functions of the nodes of a surface (faces of order 1 or 2, which may be curved).
 struct SurfaceIntegrals {
   std::vector<int> nodes;                                   ///< ascending; the columns below follow them
   double area = 0;                                          ///< [m^2]

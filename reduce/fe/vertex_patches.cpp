@@ -7,9 +7,10 @@ namespace bielle::reduce {
 Surroundings surroundings(const Solid& solid, int material) {
   Surroundings result;
   result.number.assign(solid.points(), -1);
+  const int vertices = vertex_count(solid.type);
   for (Eigen::Index e = 0; e < solid.cells(); ++e) {
     if (solid.material_of[e] != material) continue;
-    for (int v = 0; v < 4; ++v) {
+    for (int v = 0; v < vertices; ++v) {
       int& number = result.number[solid.nodes(v, e)];
       if (number < 0) {
         number = static_cast<int>(result.vertices.size());
@@ -28,7 +29,7 @@ std::vector<int> patch_of(const Solid& solid, const Surroundings& around, std::s
     before = patch.size();
     std::vector<int> wider;
     for (const int cell : patch)
-      for (int v = 0; v < 4; ++v) {
+      for (int v = 0; v < vertex_count(solid.type); ++v) {
         const std::vector<int>& more = around.cells[around.number[solid.nodes(v, cell)]];
         wider.insert(wider.end(), more.begin(), more.end());
       }

@@ -1,0 +1,116 @@
+// Internal displacement modes of cells of order 1, without which they would lock in bending. Internal to reduce/fe.
+//
+// hex8 has the modes 1 - xi_k^2 along each coordinate, wedge6 that along its height, in three directions each. They
+// belong to the cell alone and are condensed: their amplitudes follow from the displacements u of the nodes,
+//     alpha = -K_aa^-1 K_au u,   strain = (B - G K_aa^-1 K_au) u.
+// The strains G of the modes are made with the Jacobian J_0 in the middle of the cell and the factor det J_0 / det J:
+// their integral vanishes, and the patch test is passed on any mesh. Reference: R. L. Taylor, P. J. Beresford, E. L.
+// Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10 (1976) 1211-1219.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Cholesky>
+
+#include "reduce/fe/cell_fields.hpp"
+#include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/elasticity.hpp"
+
+namespace bielle::reduce {
+
+/// Strains by the displacements of the nodes, from the gradients of their shape functions: (6, 3 nodes).
+template <int N>
+Eigen::Matrix<double, 6, 3 * N> strain_matrix(const Eigen::Matrix<double, N, 3>& gradients) {
+  Eigen::Matrix<double, 6, 3 * N> B = Eigen::Matrix<double, 6, 3 * N>::Zero();
+  for (int a = 0; a < N; ++a)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) B(voigt(i, j), 3 * a + i) += gradients(a, j);
+  return B;
+}
+
+template <int N>
+class InternalModes {
+ public:
+  static constexpr int coordinates = N == 8 ? 3 : N == 6 ? 1 : 0;
+  static constexpr bool any = coordinates > 0;
+  static constexpr int count = 3 * coordinates;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  using Strain = Eigen::Matrix<double, 6, 3 * N>;
+
+  InternalModes()
+      : rule_(cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().curved)),
+        middle_(shape_gradients(SolidCell<N>::type,
+                                N == 6 ? Eigen::Vector3d(1.0 / 3, 1.0 / 3, 0) : Eigen::Vector3d(0, 0, 0))) {}
+
+  /// Condenses the modes of a cell. @returns false if it is inverted at a point of its rule
+  bool set(const CellPoints<N>& x, const Matrix6& elasticity) {
+    const Eigen::Matrix3d jacobian = x * middle_;
+    inverse_ = jacobian.inverse();
+    determinant_ = jacobian.determinant();
+    if (!(determinant_ > 0)) return false;
+    Eigen::Matrix<double, count, count> K_aa = Eigen::Matrix<double, count, count>::Zero();
+    Eigen::Matrix<double, count, 3 * N> K_au = Eigen::Matrix<double, count, 3 * N>::Zero();
+    Eigen::Matrix<double, N, 3> gradients;
+    for (std::size_t p = 0; p < rule_.size(); ++p) {
+      const double volume = map_point<N>(rule_, p, x, gradients);
+      if (!(volume > 0)) return false;
+      const Modes G =
+          strains(rule_.points.col(static_cast<Eigen::Index>(p)), volume / rule_.weights(static_cast<Eigen::Index>(p)));
+      const Eigen::Matrix<double, count, 6> stress = volume * G.transpose() * elasticity;
+      K_aa += stress * G;
+      K_au += stress * strain_matrix<N>(gradients);
+    }
+    amplitudes_ = -K_aa.ldlt().solve(K_au);
+    return true;
+  }
+
+  /// Strain at a point, with the modes. @param local  the point in the reference cell
+  /// @param determinant  of the Jacobian there
+  Strain strain(const Eigen::Matrix<double, N, 3>& gradients, const Eigen::Vector3d& local, double determinant) const {
+    return strain_matrix<N>(gradients) + strains(local, determinant) * amplitudes_;
+  }
+
+  const CellRule<N>& rule() const { return rule_; }
+
+ private:
+  using Modes = Eigen::Matrix<double, 6, count>;
+
+  Modes strains(const Eigen::Vector3d& local, double determinant) const {
+    Modes G = Modes::Zero();
+    for (int k = 0; k < coordinates; ++k) {
+      const int coordinate = N == 6 ? 2 : k;  // d(1 - xi^2)/dx = -2 xi dxi/dx
+      const Eigen::RowVector3d gradient =
+          -2 * local(coordinate) * determinant_ / determinant * inverse_.row(coordinate);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) G(voigt(i, j), 3 * k + i) += gradient(j);
+    }
+    return G;
+  }
+
+  CellRule<N> rule_;
+  Eigen::Matrix<double, N, 3> middle_;
+  Eigen::Matrix3d inverse_;
+  double determinant_ = 0;
+  Eigen::Matrix<double, count, 3 * N> amplitudes_;
+};
+
+/// Sets A eps at all points of a rule in a cell, with its internal modes. @param A_of  (volume of the point) -> (6, 6)
+/// @param visit  (point, gradients, volume), called before
+template <int N, class Matrices, class Visit>
+void set_strains(CellFields<N>& cell, InternalModes<N>& modes, const CellRule<N>& rule, const CellPoints<N>& x,
+                 const Eigen::Matrix<double, 6, 6>& elasticity, const Matrices& A_of, const Visit& visit) {
+  Eigen::Matrix<double, N, 3> gradients;
+  if constexpr (InternalModes<N>::any) modes.set(x, elasticity);
+  for (std::size_t p = 0; p < rule.size(); ++p) {
+    const auto point = static_cast<Eigen::Index>(p);
+    const double volume = map_point<N>(rule, p, x, gradients);
+    visit(point, gradients, volume);
+    if constexpr (InternalModes<N>::any)
+      cell.set_strain(point, A_of(volume),
+                      modes.strain(gradients, rule.points.col(point), volume / rule.weights(point)));
+    else
+      cell.set_point(point, A_of(volume), gradients);
+  }
+}
+
+}  // namespace bielle::reduce
