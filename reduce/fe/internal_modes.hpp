@@ -1,11 +1,14 @@
 // Internal displacement modes of cells of order 1, without which they would lock in bending. Internal to reduce/fe.
 //
-// hex8 has the modes 1 - xi_k^2 along each coordinate, wedge6 that along its height, in three directions each. They
-// belong to the cell alone and are condensed: their amplitudes follow from the displacements u of the nodes,
+// hex8 has the modes 1 - xi_k^2 along each coordinate, wedge6 that along its height and the products l_a l_b of its
+// triangle, in three directions each. (They cannot mend the constant strain of the triangle itself: wedge6 stays stiff
+// in bending within the plane of its triangles.) They belong to the cell alone and are condensed: their amplitudes
+// follow from the displacements u of the nodes,
 //     alpha = -K_aa^-1 K_au u,   strain = (B - G K_aa^-1 K_au) u.
-// The strains G of the modes are made with the Jacobian J_0 in the middle of the cell and the factor det J_0 / det J:
-// their integral vanishes, and the patch test is passed on any mesh. Reference: R. L. Taylor, P. J. Beresford, E. L.
-// Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10 (1976) 1211-1219.
+// The strains G of the modes are made from local gradients without mean, with the Jacobian J_0 in the middle of the
+// cell and the factor det J_0 / det J: their integral vanishes, and the patch test is passed on any mesh. Reference: R.
+// L. Taylor, P. J. Beresford, E. L. Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10
+// (1976) 1211-1219.
 #pragma once
 
 #include <array>
@@ -31,9 +34,9 @@ Eigen::Matrix<double, 6, 3 * N> strain_matrix(const Eigen::Matrix<double, N, 3>&
 template <int N>
 class InternalModes {
  public:
-  static constexpr int coordinates = N == 8 ? 3 : N == 6 ? 1 : 0;
-  static constexpr bool any = coordinates > 0;
-  static constexpr int count = 3 * coordinates;
+  static constexpr int functions = N == 8 ? 3 : N == 6 ? 4 : 0;
+  static constexpr bool any = functions > 0;
+  static constexpr int count = 3 * functions;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Strain = Eigen::Matrix<double, 6, 3 * N>;
 
@@ -75,15 +78,28 @@ class InternalModes {
  private:
   using Modes = Eigen::Matrix<double, 6, count>;
 
-  Modes strains(const Eigen::Vector3d& local, double determinant) const {
-    Modes G = Modes::Zero();
-    for (int k = 0; k < coordinates; ++k) {
-      const int coordinate = N == 6 ? 2 : k;  // d(1 - xi^2)/dx = -2 xi dxi/dx
-      const Eigen::RowVector3d gradient =
-          -2 * local(coordinate) * determinant_ / determinant * inverse_.row(coordinate);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) G(voigt(i, j), 3 * k + i) += gradient(j);
+  /// Gradients of the functions in the reference cell, without their mean: (functions, 3).
+  static Eigen::Matrix<double, functions, 3> local_gradients(const Eigen::Vector3d& local) {
+    Eigen::Matrix<double, functions, 3> gradients = Eigen::Matrix<double, functions, 3>::Zero();
+    if constexpr (N == 8) {
+      gradients.diagonal() = -2 * local;
+    } else if constexpr (N == 6) {
+      gradients(0, 2) = -2 * local(2);
+      const Eigen::Vector2d x = local.head<2>().array() - 1.0 / 3;  // from the middle of the triangle
+      gradients.row(1) << -2 * x(0) - x(1), -x(0), 0;               // l_0 l_1
+      gradients.row(2) << x(1), x(0), 0;                            // l_1 l_2
+      gradients.row(3) << -x(1), -x(0) - 2 * x(1), 0;               // l_2 l_0
     }
+    return gradients;
+  }
+
+  Modes strains(const Eigen::Vector3d& local, double determinant) const {
+    const Eigen::Matrix<double, functions, 3> gradients =
+        determinant_ / determinant * local_gradients(local) * inverse_;
+    Modes G = Modes::Zero();
+    for (int k = 0; k < functions; ++k)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) G(voigt(i, j), 3 * k + i) += gradients(k, j);
     return G;
   }
 
