@@ -80,6 +80,18 @@ void add_block(const BlockPlace& to, const double* block, SymmetricMatrix& k) {
   }
 }
 
+/// What the internal modes of a cell take from its stiffness, (3 nodes, 3 nodes); empty if it has none.
+template <int N>
+auto condensed_stiffness(const CellPoints<N>& x, const Eigen::Matrix<double, 6, 6>& elasticity) {
+  if constexpr (InternalModes<N>::any) {
+    thread_local InternalModes<N> modes;
+    modes.set(x, elasticity);  // the cell is not inverted
+    return modes.condensed();
+  } else {
+    return 0;
+  }
+}
+
 /// The cell's stiffness by blocks: K_ab(i,k) in row i + 3 k of column a + N b, for all a >= b in the order of the mesh.
 template <int N>
 void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
@@ -113,52 +125,21 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
     const CellPlaces<N> places(graph, solid.nodes, e);
     std::array<BlockPlace, pairs> to;
     Eigen::Matrix<double, 9, pairs> w_of_pairs, k_of_pairs = Eigen::Matrix<double, 9, pairs>::Zero();
+    const auto condensed = condensed_stiffness<N>(x, solid.materials[solid.material_of[e]].elasticity);
     int pair = 0;
     for (int cell_b = 0; cell_b < N; ++cell_b) {
       const int b = solid.nodes(cell_b, e);
       const std::int64_t own = graph.place(b, b);
       places.from(cell_b, own, [&](int cell_a, std::int64_t place) {
         w_of_pairs.col(pair) = w.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
+        if constexpr (InternalModes<N>::any)
+          k_of_pairs.col(pair) = condensed.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
         to[static_cast<std::size_t>(pair++)] = {b, place - own};
       });
     }
     const Eigen::Matrix<double, 9, 9>& tensor = tensors[solid.material_of[e]];
     add_dense_product({tensor.data(), 9, 9, 9, false}, {w_of_pairs.data(), 9, pairs, 9, false}, k_of_pairs.data(), 9);
     for (pair = 0; pair < pairs; ++pair) add_block(to[static_cast<std::size_t>(pair)], k_of_pairs.col(pair).data(), k);
-  });
-  inverted.check(solid);
-}
-
-/// The stiffness of cells with internal modes, which the product of gradients above does not contain.
-template <int N>
-void add_stiffness_with_modes(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
-  InvertedCells inverted;
-  for_each_cell(solid.nodes, solid.points(), threads, [&](Eigen::Index e) {
-    thread_local InternalModes<N> modes;
-    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-    const auto& elasticity = solid.materials[solid.material_of[e]].elasticity;
-    if (!modes.set(x, elasticity)) {
-      inverted.note(e);
-      return;
-    }
-    Eigen::Matrix<double, 3 * N, 3 * N> stiffness = Eigen::Matrix<double, 3 * N, 3 * N>::Zero();
-    Eigen::Matrix<double, N, 3> gradients;
-    const CellRule<N>& rule = modes.rule();
-    for (std::size_t p = 0; p < rule.size(); ++p) {
-      const auto point = static_cast<Eigen::Index>(p);
-      const double volume = map_point<N>(rule, p, x, gradients);
-      const auto strain = modes.strain(gradients, rule.points.col(point), volume / rule.weights(point));
-      stiffness.noalias() += strain.transpose() * (volume * elasticity) * strain;
-    }
-    const CellPlaces<N> places(graph, solid.nodes, e);
-    for (int cell_b = 0; cell_b < N; ++cell_b) {
-      const int b = solid.nodes(cell_b, e);
-      const std::int64_t own = graph.place(b, b);
-      places.from(cell_b, own, [&](int cell_a, std::int64_t place) {
-        const Eigen::Matrix3d block = stiffness.template block<3, 3>(3 * cell_a, 3 * cell_b);
-        add_block({b, place - own}, block.data(), k);
-      });
-    }
   });
   inverted.check(solid);
 }
@@ -174,7 +155,7 @@ template <int N>
 void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int threads) {
   const CellRules<N> rules(N == 4                          ? CellDegrees{2, 2}
                            : N == 10                       ? CellDegrees{4, 7}
-                           : SolidCell<N>::is_second_order ? CellDegrees{4, 9}
+                           : SolidCell<N>::is_second_order ? CellDegrees{4, 7}
                                                            : CellDegrees{2, 4});
   const auto integrate = [](const CellRule<N>& rule, const auto& jacobian) {
     Eigen::Matrix<double, N, N> sum = Eigen::Matrix<double, N, N>::Zero();
@@ -207,12 +188,7 @@ void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int thr
 
 SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, int threads) {
   SymmetricMatrix k = stiffness_pattern(graph);
-  with_nodes_of(solid.type, [&]<int N>() {
-    if constexpr (InternalModes<N>::any)
-      add_stiffness_with_modes<N>(solid, graph, k, threads);
-    else
-      add_stiffness<N>(solid, graph, k, threads);
-  });
+  with_nodes_of(solid.type, [&]<int N>() { add_stiffness<N>(solid, graph, k, threads); });
   return k;
 }
 

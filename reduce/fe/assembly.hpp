@@ -3,8 +3,9 @@
 // Stiffness K_ab,ik = sum_jl C_ijkl int dN_a/dx_j dN_b/dx_l dV, quadrature exact for straight cells (4 points for
 // tet10) and of degree 5 for curved tetrahedra, which keeps the patch test exact there too (int dN/dx dV is of degree
 // 3); 2 or 3 points in each direction of other cells, by their order. hex8 and wedge6 have internal modes
-// (internal_modes.hpp). Consistent mass m_ab = int rho N_a N_b dV, integrated exactly on all cells: the common 4-point
-// rule of tet10 would cost 5e-4 in frequencies.
+// (internal_modes.hpp). Consistent mass m_ab = int rho N_a N_b dV, integrated exactly on straight cells and on
+// curved tetrahedra, with 4 points in each direction of other curved cells: the common 4-point rule of tet10 would cost
+// 5e-4 in frequencies.
 #pragma once
 
 #include "reduce/fe/node_graph.hpp"

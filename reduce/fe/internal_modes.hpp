@@ -64,16 +64,18 @@ class InternalModes {
       K_au += stress * strain_matrix<N>(gradients);
     }
     amplitudes_ = -K_aa.ldlt().solve(K_au);
+    condensed_.noalias() = K_au.transpose() * amplitudes_;
     return true;
   }
+
+  /// K_ua times the amplitudes by displacements: added to the stiffness of the displacements alone, (3 N, 3 N).
+  const Eigen::Matrix<double, 3 * N, 3 * N>& condensed() const { return condensed_; }
 
   /// Strain at a point, with the modes. @param local  the point in the reference cell
   /// @param determinant  of the Jacobian there
   Strain strain(const Eigen::Matrix<double, N, 3>& gradients, const Eigen::Vector3d& local, double determinant) const {
     return strain_matrix<N>(gradients) + strains(local, determinant) * amplitudes_;
   }
-
-  const CellRule<N>& rule() const { return rule_; }
 
  private:
   using Modes = Eigen::Matrix<double, 6, count>;
@@ -108,6 +110,7 @@ class InternalModes {
   Eigen::Matrix3d inverse_;
   double determinant_ = 0;
   Eigen::Matrix<double, count, 3 * N> amplitudes_;
+  Eigen::Matrix<double, 3 * N, 3 * N> condensed_;
 };
 
 /// Sets A eps at all points of a rule in a cell, with its internal modes. @param A_of  (volume of the point) -> (6, 6)

@@ -53,11 +53,12 @@ CellInfo with_faces(CellInfo cell, const Sides& sides) {
 
 std::vector<CellInfo> make_table() {
   const auto flat = [](CellType type, const char* name, const char* plural, int order, int nodes, const Edges& edges) {
-    return CellInfo{type, name, plural, 2, order, nodes, static_cast<int>(edges.size()), edges, {}};
+    return CellInfo{type, name, plural, 2, order, nodes, static_cast<int>(edges.size()), false, edges, {}};
   };
   const auto solid = [](CellType type, const char* name, const char* plural, int order, int nodes, int vertices,
                         const Edges& edges, const Sides& sides) {
-    return with_faces({type, name, plural, 3, order, nodes, vertices, edges, {}}, sides);
+    const bool locks = order == 1 && type != CellType::hex8;
+    return with_faces({type, name, plural, 3, order, nodes, vertices, locks, edges, {}}, sides);
   };
   return {flat(CellType::tri3, "tri3", "triangles", 1, 3, triangle),
           flat(CellType::tri6, "tri6", "triangles", 2, 6, triangle),

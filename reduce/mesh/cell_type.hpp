@@ -40,6 +40,7 @@ struct CellInfo {
   int order = 0;       ///< 1: nodes at the vertices only, 2: at the edges as well
   int nodes = 0;
   int vertices = 0;                       ///< its first nodes
+  bool locks = false;                     ///< far too stiff in bending: solid cells of order 1 but hex8
   std::vector<std::array<int, 2>> edges;  ///< vertices of each edge; its mid-side node, if any, is node `vertices` + k
   std::vector<CellFace> faces;            ///< of a solid cell
 };

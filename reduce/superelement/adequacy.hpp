@@ -30,7 +30,7 @@ struct Adequacy {
   double next_mode = 0;          ///< frequency of the first omitted fixed-boundary mode [Hz]; 0: not sought, or there
                                  ///< is none
   double wanted = 0;             ///< `modes.below` of the body file [Hz]; 0: not given
-  int order = 2;                 ///< order of the elements
+  int order = 2;                 ///< 1: elements of order 1 that lock in bending; 2: all others, hex8 included
   double one_element_thick = 0;  ///< share 0..1 of the surface below which the body is one element thick
   double least_jacobian = 1;     ///< least scaled Jacobian of the elements
   std::vector<std::string> rigid_ties;  ///< names of the interfaces with rigid ties
