@@ -1,7 +1,8 @@
 """Cells with repeated nodes: a hexahedron of which edges have shrunk to points is a wedge, a pyramid or a tetrahedron.
 
 The faces of a cell, each without its repeated corners, bound the body that remains. It is one of the table if it has the
-numbers of triangles and quadrilaterals of one and if each of its edges belongs to two faces, in opposite directions.
+numbers of triangles and quadrilaterals of one, if each of its edges belongs to two faces, in opposite directions, and if
+each of its corners belongs to three faces at least. (There are two polyhedra of five faces, and one of four.)
 """
 
 from collections import Counter
@@ -35,10 +36,10 @@ def without_repeated(kind, nodes):
     faces = [face for face in faces if len(face) > 2]
     if any(len(set(face)) < len(face) for face in faces) or not _closed(faces):
         return None
-    corners = {node for face in faces for node in face}
+    corners = Counter(node for face in faces for node in face)
     counts = Counter(len(face) for face in faces)
     shape = SHAPES.get((len(corners), counts[3], counts[4]))
-    if shape is None or corners != set(nodes[:cell.corners]):
+    if shape is None or min(corners.values()) < 3 or set(corners) != set(nodes[:cell.corners]):
         return None
     return _completed(shape, _ordered(shape, faces), middles)
 
