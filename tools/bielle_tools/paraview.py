@@ -15,6 +15,7 @@ import re
 import numpy as np
 
 from .cells import SOLIDS
+from .meshio_library import meshio_library
 from .messages import InputError
 from .results_file import modes_to_show
 from .rotations import rotation_matrices
@@ -183,8 +184,7 @@ def _joints(results):
 
 
 def _write(path, mesh):
-    import meshio
-
+    meshio = meshio_library()
     points, cells, point_data, cell_data = mesh
     with contextlib.redirect_stdout(io.StringIO()):
         meshio.Mesh(points, cells, point_data=point_data, cell_data=cell_data).write(path, file_format="vtu", binary=True)

@@ -8,7 +8,6 @@ import xml.etree.ElementTree as ElementTree
 
 import h5py
 import matplotlib.pyplot  # noqa: F401  (loaded once for all runs of the tools)
-import meshio
 import numpy as np
 
 import synthetic_results as synthetic
@@ -20,6 +19,9 @@ from test_convert_cells import MIXTURE, SHAPES, CellConverter, area, cell_set
 
 from bielle_tools import calculix_file, cell_integrals
 from bielle_tools.cells import BY_GMSH, CELLS, FLATS, SOLIDS, boundary_faces, permutation, solid_faces
+from bielle_tools.meshio_library import meshio_library
+
+meshio = meshio_library()
 
 # Corners, from 0, at the ends of the edges of VTK's mid-side nodes (vtkQuadraticHexahedron and its like).
 VTK = {"tetra10": "01 12 20 03 13 23", "hexahedron20": "01 12 23 30 45 56 67 74 04 15 26 37", "wedge15": "01 12 20 34 45 53 03 14 25",
@@ -167,7 +169,8 @@ class CasesForCalculiX(CellConverter):
                 with open(self.path("case.inp"), encoding="utf-8") as file:
                     text = file.read()
                 self.assertLessEqual(max(line.count(",") for line in text.splitlines() if not line.startswith("*")), 16)
-                self.assertEqual(cell_set(self.convert("case.inp", text)), cell_set(mesh))
+                found = self.convert("case.inp", text)
+                self.assertEqual([each for each in cell_set(found) if each[0] in SOLIDS], cell_set(mesh))
 
     def test_cells_that_calculix_does_not_have(self):
         from bielle_tools.messages import InputError
