@@ -257,7 +257,7 @@ class _Reader:
 
     def _rows_of(self, labels, nodes):
         try:
-            return np.array([[self.numbers[n] for n in row] for row in nodes.tolist()], dtype=np.int64)
+            return np.array([[self.numbers[n] for n in row] for row in nodes.tolist()], dtype=np.int64).reshape(nodes.shape)
         except KeyError as error:
             row = int(np.argmax((nodes == error.args[0]).any(axis=1)))
             raise InputError(f"element {labels[row]} names node {error.args[0]}, which is not defined") from None

@@ -105,7 +105,7 @@ def _merge_blocks(raw, notes):
     blocks, labels, place_of = {}, {}, []
     for (_, cells), pieces, names in zip(raw.cells, parts, given):
         kinds, rows = np.zeros(len(cells), object), np.zeros(len(cells), np.int64)
-        for kind, which, nodes in pieces:
+        for kind, which, nodes in (piece for piece in pieces if len(piece[1])):
             before = blocks.setdefault(kind, [])
             kinds[which] = None if kind in IGNORED else kind
             rows[which] = sum(len(b) for b in before) + np.arange(len(which))
