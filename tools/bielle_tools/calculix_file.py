@@ -15,7 +15,8 @@ def write_case(path, loaded, loads, source):
     """loaded: LoadedBody; loads: its BodyLoads, one step each. @raises InputError for cells that CalculiX does not have"""
     for kind, cells in loaded.body.cells.items():
         if kind in SOLIDS and kind not in TYPES and len(cells):
-            raise InputError(f"the mesh has {counted(len(cells), CELLS[kind].singular, CELLS[kind].plural)} of {CELLS[kind].nodes} nodes, which "
+            raise InputError(f"the mesh has {counted(len(cells), CELLS[kind].singular, CELLS[kind].plural)} of {CELLS[kind].nodes} "
+                             "nodes, which "
                              "CalculiX does not know")
     with open(path, "w", encoding="utf-8") as file:
         file.write(_head(loaded, loads, source))

@@ -20,7 +20,8 @@ def nonconforming(points, boundary):
                 found.append(corners)
     if not found:
         return []
-    return [f"{counted(len(found), 'quadrilateral face')} of solid cells {'stands' if len(found) == 1 else 'stand'} against two triangles (the first "
+    return [f"{counted(len(found), 'quadrilateral face')} of solid cells {'stands' if len(found) == 1 else 'stand'} against two "
+            "triangles (the first "
             f"near {place(points[found[0]].mean(axis=0))}): the cells on both sides have common nodes there, but their displacements part "
             "between them; pyramids would join them"]
 
@@ -38,7 +39,8 @@ def different_orders(points, faces):
                 first = first or face[:CELLS[flat].corners]
     if not count:
         return []
-    return [f"{counted(count, 'face')} of solid cells {'has' if count == 1 else 'have'} more nodes on one side than on the other (the first near "
+    return [f"{counted(count, 'face')} of solid cells {'has' if count == 1 else 'have'} more nodes on one side than on the other (the "
+            "first near "
             f"{place(points[first].mean(axis=0))}): the displacements of both sides part between the corners"]
 
 

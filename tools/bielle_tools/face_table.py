@@ -49,10 +49,12 @@ class FaceTable:
             self.moved[kind] = kinds, numbers
         self.cells.update({kind: np.concatenate(parts) for kind, parts in blocks.items()})
         if changed:
-            notes.append(f"{counted(changed, 'surface cell')} {'has' if changed == 1 else 'have'} other mid-side nodes than the face of a solid cell "
+            notes.append(f"{counted(changed, 'surface cell')} {'has' if changed == 1 else 'have'} other mid-side nodes than the face of "
+                         "a solid cell "
                          "at the same place, and got those of the face")
         if alone:
-            notes.append(f"{counted(len(alone), 'surface cell')} {'is' if len(alone) == 1 else 'are'} no face of a solid cell (the first near "
+            notes.append(f"{counted(len(alone), 'surface cell')} {'is' if len(alone) == 1 else 'are'} no face of a solid cell (the "
+                         "first near "
                          f"{place(points[alone[0]].mean(axis=0))})")
 
     def _is_face(self, keys):

@@ -33,8 +33,10 @@ def complete_edges(points, cells, cards, numbers, notes):
             if nodes[row, k] == NONE:
                 nodes[row, k] = new[tuple(sorted(nodes[row, list(edge)].tolist()))]
     block, row = min(incomplete)
-    notes.append(f"{counted(len(incomplete), 'cell')} of order 2 {'leaves' if len(incomplete) == 1 else 'leave'} out some mid-side nodes (the first: "
-                 f"{_card(cards[block][row])}): {counted(len(new), 'node')} {'has' if len(new) == 1 else 'have'} been made in the middle of edges")
+    notes.append(f"{counted(len(incomplete), 'cell')} of order 2 {'leaves' if len(incomplete) == 1 else 'leave'} out some mid-side "
+                 "nodes (the first: "
+                 f"{_card(cards[block][row])}): {counted(len(new), 'node')} {'has' if len(new) == 1 else 'have'} been made in the "
+                 "middle of edges")
     return np.concatenate([points, np.array([(points[a] + points[b]) / 2 for a, b in new])])
 
 
@@ -54,8 +56,10 @@ def _check_neighbours(cells, cards, numbers, lacking, count):
                 a, b = pairs[row].tolist()
                 first = cards[lacking[a, b][0]][lacking[a, b][1]]
                 has = "has one" if cell.order == 2 else "is of order 1"
-                raise InputError(f"'{first.path}': line {first.line}: {_card(first)} has no mid-side node between the grid points {numbers[a]} and "
-                                 f"{numbers[b]}, and {_card(cards[block][row])} at line {cards[block][row].line} {has}: give both the node or "
+                raise InputError(f"'{first.path}': line {first.line}: {_card(first)} has no mid-side node between the grid points "
+                                 f"{numbers[a]} and "
+                                 f"{numbers[b]}, and {_card(cards[block][row])} at line {cards[block][row].line} {has}: give both the "
+                                 "node or "
                                  "neither; Bielle has no cells of order 2 with edges of order 1")
 
 

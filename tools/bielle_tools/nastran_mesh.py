@@ -29,8 +29,9 @@ def read_mesh(cards):
             block[1].append(nodes)
     cells = [(kind, np.array(nodes, np.int64)[:, permutation(kind, "nastran", "vtk")]) for (kind, _), (_, nodes) in blocks.items()]
     notes = []
-    points = complete_edges(points, cells, [of_block for of_block, _ in blocks.values()], {row: number for number, row in rows.items()}, notes)
-    raw = RawMesh(points, cells, notes=notes, labels=[np.array([card.integer(1) for card in of_block], np.int64) for of_block, _ in blocks.values()])
+    cards_of = [of_block for of_block, _ in blocks.values()]
+    points = complete_edges(points, cells, cards_of, {row: number for number, row in rows.items()}, notes)
+    raw = RawMesh(points, cells, notes=notes, labels=[np.array([card.integer(1) for card in each], np.int64) for each in cards_of])
     for number in dict.fromkeys(number for _, number in blocks):
         raw.cell_sets[f"property_{number}"] = [np.arange(len(nodes)) if which == number else np.zeros(0, np.int64)
                                                for (_, which), (_, nodes) in blocks.items()]

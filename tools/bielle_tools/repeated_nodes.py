@@ -113,7 +113,8 @@ def turn_repeated(blocks, refuse):
             changes[kind, found[0]] += 1
             turned.setdefault(found[0], []).append((row, found[1]))
         parts.append(([(kind, whole, cells[whole])] if len(whole) else [])
-                     + [(new, np.array([row for row, _ in rows]), np.array([nodes for _, nodes in rows], np.int64)) for new, rows in turned.items()])
+                     + [(new, np.array([row for row, _ in rows]), np.array([nodes for _, nodes in rows], np.int64))
+                        for new, rows in turned.items()])
     return parts, changes
 
 

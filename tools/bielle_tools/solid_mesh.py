@@ -126,7 +126,8 @@ def _merge_blocks(raw, notes):
 def _check_blocks(raw):
     for kind, block in raw.cells:
         if kind not in IGNORED and kind not in CELLS:
-            raise InputError(f"holds {counted(len(block), 'cell')} of type '{kind}', but Bielle reads tetrahedra, hexahedra, wedges and pyramids "
+            raise InputError(f"holds {counted(len(block), 'cell')} of type '{kind}', but Bielle reads tetrahedra, hexahedra, wedges and "
+                             "pyramids "
                              "of order 1 and 2: remesh the body with these")
     if not any(kind in SOLIDS and len(block) for kind, block in raw.cells):
         what = ", ".join(sorted({kind for kind, _ in raw.cells})) or "no cells at all"
@@ -201,7 +202,8 @@ def _orient(points, kind, cells, labels, notes):
     if turned.any():
         first = int(np.argmax(turned))
         told = f"element {labels[first]}, " if labels[first] >= 0 else ""
-        notes.append(f"{int(turned.sum())} of {len(cells)} {cell.plural} {'is' if turned.sum() == 1 else 'are'} turned inside out at a corner "
+        notes.append(f"{int(turned.sum())} of {len(cells)} {cell.plural} {'is' if turned.sum() == 1 else 'are'} turned inside out at a "
+                     "corner "
                      f"(the first: {told}near {place(points[cells[first, 0]])})")
     return cells
 
