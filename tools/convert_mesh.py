@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""convert_mesh.py INPUT OUTPUT.msh: a tetrahedral mesh of another program becomes gmsh's MSH 4.1.
+"""convert_mesh.py INPUT OUTPUT.msh: a mesh of solid cells of another program becomes gmsh's MSH 4.1.
 
 Reads .inp (Abaqus, CalculiX), .bdf .nas (Nastran), .med (Salome), .vtu .vtk .mesh and all other formats of meshio;
 keeps coordinates unchanged, and named sets as physical groups (node sets: the boundary faces whose nodes are all in the

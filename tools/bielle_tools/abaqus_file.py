@@ -5,8 +5,8 @@ wrong blocks when several *ELEMENT blocks have none or share one. This reader kn
     *NODE, *ELEMENT (INPUT), *SYSTEM, *NSET, *ELSET (GENERATE, sets of sets), *SURFACE (TYPE=ELEMENT, NODE), *INCLUDE, and
     one *PART, or one *INSTANCE that holds a mesh,
 It refuses keywords that generate or move nodes and elements, and reports those that have no counterpart in a
-superelement (abaqus_extras). Labels are compared without regard to case, as Abaqus does. Faces of tetrahedra: S1 =
-nodes 1 2 3, S2 = 1 4 2, S3 = 2 4 3, S4 = 3 4 1 (CalculiX manual, "Four-node tetrahedral").
+superelement (abaqus_extras). Labels are compared without regard to case, as Abaqus does. cells.py has the faces S1, S2,
+.. of each type.
 """
 
 import os
@@ -15,19 +15,29 @@ import re
 import numpy as np
 
 from .abaqus_extras import Extras
+from .cells import CELLS, FLATS, SIDES, permutation
 from .messages import InputError, counted
 from .solid_mesh import RawMesh
 from .text_lines import lines_of
 
 # Element families of the two programs: label pattern, meshio type (None: points, lines and couplings, left out), nodes.
 FAMILIES = [
-    (r"(C|DC|AC|F)3D4[A-Z]*", "tetra", 4),
-    (r"(C|DC|AC|F)3D10[A-Z]*", "tetra10", 10),
+    (r"(C|DC|AC|F)3D4([A-Z]*)", "tetra", 4),
+    (r"(C|DC|AC|F)3D10([A-Z]*)", "tetra10", 10),
+    (r"(C|DC|AC|F)3D8([A-Z]*)", "hexahedron", 8),
+    (r"(C|DC|AC|F)3D20([A-Z]*)", "hexahedron20", 20),
+    (r"(C|DC|AC|F)3D27([A-Z]*)", "hexahedron27", 27),
+    (r"(C|DC|AC|F)3D6([A-Z]*)", "wedge", 6),
+    (r"(C|DC|AC|F)3D15([A-Z]*)", "wedge15", 15),
+    (r"(C|DC|AC|F)3D5([A-Z]*)", "pyramid", 5),
+    (r"(C|DC|AC|F)3D13([A-Z]*)", "pyramid13", 13),
     (r"(S|CPS|CPE|DS|DC2D|M3D|SFM3D|STRI|R3D)3[A-Z]*", "triangle", 3),
     (r"(S|CPS|CPE|DS|DC2D|M3D|SFM3D)6[A-Z]*|STRI65", "triangle6", 6),
+    (r"(S|CPS|CPE|DS|DC2D|M3D|SFM3D|R3D)4[A-Z]*5?", "quad", 4),
+    (r"(S|CPS|CPE|DS|DC2D|M3D|SFM3D)8[A-Z]*5?", "quad8", 8),
+    (r"(S|M3D)9[A-Z]*5?", "quad9", 9),
     (r"(MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|DCOUP3D|CONN3D2|GAPUNI|B[23][123]|T[23]D[23]|FRAME3D)[A-Z]*", None, None),
 ]
-FACES = {"S1": (0, 1, 2), "S2": (0, 3, 1), "S3": (1, 3, 2), "S4": (2, 3, 0)}
 # Keywords that generate or move nodes and elements, which this reader does not support.
 GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE", "TRANSFORM COORDINATES")
 CELL_SIDES = ("SPOS", "SNEG", "")  # both sides of a shell or membrane element
@@ -48,6 +58,7 @@ class _Reader:
         self.sets = {"NSET": {}, "ELSET": {}}  # upper-case name -> (name, entries)
         self.surfaces = {}  # upper-case name -> (name, kind, entries, where)
         self.skipped = {}  # element type -> count
+        self.formulations = {}  # element type with a letter for its formulation -> count
         self.parts = 0
         self.in_assembly = self.in_instance = False
         self.instance = self.meshed_instance = None  # names of the one in hand, and of the one that holds the mesh
@@ -156,11 +167,12 @@ class _Reader:
     def _elements(self, where, options, rows):
         label = options.get("TYPE", "").upper()
         for pattern, kind, count in FAMILIES:
-            if re.fullmatch(pattern, label):
+            found = re.fullmatch(pattern, label)
+            if found:
                 break
         else:
-            raise InputError(f"{where}: elements of type '{label}': Bielle reduces tetrahedra (C3D4, C3D10) "
-                             "and reads triangles (CPS3, CPS6, S3, ...) as surfaces; remesh the body with tetrahedra")
+            raise InputError(f"{where}: elements of type '{label}': Bielle reduces solid cells (C3D4, C3D10, C3D8, C3D20, C3D27, C3D6, C3D15, "
+                             "C3D5) and reads shells (S3, S4, S8R, CPS6, ...) as surfaces; remesh the body with these")
         if kind is None:
             self.skipped[label] = self.skipped.get(label, 0) + len(rows)
             return
@@ -169,7 +181,9 @@ class _Reader:
             raise InputError(f"{where}: {label} needs {count} nodes per element: {counted(len(numbers), 'number')} cannot be "
                              f"divided into rows of {count + 1}")
         table = np.array(numbers, dtype=np.int64).reshape(-1, count + 1)
-        self.blocks.append((kind, table[:, 0], table[:, 1:]))
+        if CELLS[kind].dimension == 3 and found.group(2):
+            self.formulations[label] = self.formulations.get(label, 0) + len(table)
+        self.blocks.append((kind, table[:, 0], table[:, 1:][:, permutation(kind, "abaqus", "vtk")]))
         if "ELSET" in options:
             self._extend("ELSET", options["ELSET"], table[:, 0].tolist())
 
@@ -222,8 +236,11 @@ class _Reader:
         for block, (_, labels, _) in enumerate(self.blocks):
             for row, label in enumerate(labels.tolist()):
                 self.cell_place[label] = (block, row)
-        mesh = RawMesh(np.array(self.points), self.cells, notes=self.notes)
+        mesh = RawMesh(np.array(self.points), self.cells, notes=self.notes, labels=[labels for _, labels, _ in self.blocks])
         mesh.notes += self.extras.notes()
+        if self.formulations:
+            counts = ", ".join(f"{count} {label}" for label, count in self.formulations.items())
+            mesh.notes.append(f"reduced, hybrid, incompatible and modified formulations are replaced by Bielle's own: {counts}")
         for count, kind in ((count, kind) for kind, count in self.skipped.items()):
             mesh.notes.append(f"left out: {counted(count, 'element')} of type {kind}, which has neither volume nor surface")
         for key, (name, _) in self.sets["ELSET"].items():
@@ -240,7 +257,7 @@ class _Reader:
 
     def _rows_of(self, labels, nodes):
         try:
-            return np.array([[self.numbers[n] for n in row] for row in nodes.tolist()], dtype=np.int64)
+            return np.array([[self.numbers[n] for n in row] for row in nodes.tolist()], dtype=np.int64).reshape(nodes.shape)
         except KeyError as error:
             row = int(np.argmax((nodes == error.args[0]).any(axis=1)))
             raise InputError(f"element {labels[row]} names node {error.args[0]}, which is not defined") from None
@@ -286,15 +303,17 @@ class _Reader:
                       [(block, row) for block, rows in enumerate(self._cells_of(str(entry).upper())) for row in rows])
             for block, row in places:
                 kind_of_cell, cells = self.cells[block]
-                if kind_of_cell.startswith("tri") and side in CELL_SIDES:
-                    faces.append(cells[row, :3])
-                elif kind_of_cell.startswith("tet") and side in FACES:
-                    faces.append(cells[row, list(FACES[side])])
+                cell = CELLS[kind_of_cell]
+                sides = SIDES[cell.shape]
+                if kind_of_cell in FLATS and side in CELL_SIDES:
+                    faces.append(cells[row, :cell.corners])
+                elif re.fullmatch("S[1-9]", side) and int(side[1]) <= len(sides):
+                    faces.append(cells[row, list(sides[int(side[1]) - 1])])
                 else:
-                    raise InputError(f"{where}: surface '{name}': side '{side}' of a {kind_of_cell}; "
-                                     "tetrahedra have sides S1 to S4")
+                    known = f"{cell.plural} have sides S1 to S{len(sides)}" if sides else "shells have sides SPOS and SNEG"
+                    raise InputError(f"{where}: surface '{name}': side '{side}' of a {cell.singular}; {known}")
         if faces:
-            mesh.face_sets[name] = np.array(faces)
+            mesh.face_sets[name] = faces
 
 
 def _system(where, rows):

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-from . import tetrahedra
+from . import cell_integrals
 from .body_materials import densities
 from .messages import InputError
 from .rotations import rotation_matrices
@@ -62,7 +62,7 @@ class LoadedBody:
             self.K, self.M = opened["reduced/stiffness"][:], opened["reduced/mass"][:]
             self.mass = float(opened["mass_properties/mass"][()])
             self.materials = densities(opened, self.body, path)
-        self.mesh_mass = tetrahedra.scalar_mass(self.points, self.body.cells, self.materials.density)
+        self.mesh_mass = cell_integrals.scalar_mass(self.points, self.body.cells, self.materials.density)
         self.surfaces = tied_surfaces(path, group, self.body, self.interfaces, self.positions, surfaces or {})
         self.T = self.body.displacement.reshape(len(self.points), 3, -1)
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import yaml
 
-from . import tetrahedra
+from . import cell_integrals
+from .cells import SOLIDS
 from .messages import InputError
 
 
@@ -26,7 +27,7 @@ def densities(file, body, path):
     names = list(data["materials"])
     young, poisson, density = ([_number(data["materials"][name], key, path, name) for name in names]
                                for key in ("young", "poisson", "density"))
-    volumes = tetrahedra.volumes(body.points, body.cells)
+    volumes = cell_integrals.volumes(body.points, body.cells)
     number = _regions(data, names, file, body)
     of_cells = {kind: np.array(density)[number[kind]] for kind in volumes}
     mass, wanted = sum(float(of_cells[kind] @ volumes[kind]) for kind in volumes), float(file["mass_properties/mass"][()])
@@ -47,7 +48,7 @@ def _number(material, key, path, name):
 def _regions(data, names, file, body):
     """{type: (n)}: by the nodes of each region's group; a cell belongs to the last region that has all its nodes."""
     regions = data["regions"]
-    found = {kind: np.zeros(len(cells), int) for kind, cells in body.cells.items() if kind.startswith("tetra")}
+    found = {kind: np.zeros(len(cells), int) for kind, cells in body.cells.items() if kind in SOLIDS}
     if len(set(regions.values())) == 1:
         only = names.index(next(iter(regions.values())))
         return {kind: numbers + only for kind, numbers in found.items()}

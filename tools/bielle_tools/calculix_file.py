@@ -2,15 +2,22 @@
 
 import numpy as np
 
-from .messages import counted
+from .cells import CELLS, SOLIDS
+from .messages import InputError, counted
 
-TYPES = {"tetra": "C3D4", "tetra10": "C3D10"}
+TYPES = {"tetra": "C3D4", "tetra10": "C3D10", "hexahedron": "C3D8", "hexahedron20": "C3D20", "wedge": "C3D6", "wedge15": "C3D15"}
+ON_A_LINE = 16  # numbers; CalculiX goes on reading after a comma
 NO_FORCE = 1e-14  # relative to the largest of a step
 # Numbers have 13 digits: CalculiX reads fields of up to 20 characters.
 
 
 def write_case(path, loaded, loads, source):
-    """loaded: LoadedBody; loads: its BodyLoads, one step each."""
+    """loaded: LoadedBody; loads: its BodyLoads, one step each. @raises InputError for cells that CalculiX does not have"""
+    for kind, cells in loaded.body.cells.items():
+        if kind in SOLIDS and kind not in TYPES and len(cells):
+            raise InputError(f"the mesh has {counted(len(cells), CELLS[kind].singular, CELLS[kind].plural)} of {CELLS[kind].nodes} "
+                             "nodes, which "
+                             "CalculiX does not know")
     with open(path, "w", encoding="utf-8") as file:
         file.write(_head(loaded, loads, source))
         _write_mesh(file, loaded)
@@ -38,7 +45,9 @@ def _write_mesh(file, loaded):
             file.write(f"*ELEMENT, TYPE={TYPES[kind]}, ELSET=E{m + 1}\n")
             for cell in cells:
                 number += 1
-                file.write(", ".join(str(n) for n in [number, *(cell + 1)]) + "\n")
+                words = [str(n) for n in [number, *(cell + 1)]]
+                lines = [", ".join(words[begin:begin + ON_A_LINE]) for begin in range(0, len(words), ON_A_LINE)]
+                file.write(",\n".join(lines) + "\n")
         if blocks:
             file.write(f"** {name}\n*MATERIAL, NAME=M{m + 1}\n*ELASTIC\n{materials.young[m]:.12e}, {materials.poisson[m]:.12e}\n"
                        f"*DENSITY\n{materials.densities[m]:.12e}\n*SOLID SECTION, ELSET=E{m + 1}, MATERIAL=M{m + 1}\n")

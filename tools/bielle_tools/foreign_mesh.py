@@ -12,6 +12,7 @@ import re
 import numpy as np
 
 from .abaqus_file import read_abaqus
+from .meshio_library import meshio_library
 from .messages import InputError
 from .nastran_cards import read_cards
 from .nastran_file import read_extras
@@ -51,7 +52,7 @@ def _check_points(mesh, path):
 
 def _read(path, shown=None, file_format=None):
     """Reads meshio's mesh; its output, its exceptions and its calls of exit become one sentence."""
-    import meshio
+    meshio = meshio_library()
 
     said = io.StringIO()
     try:

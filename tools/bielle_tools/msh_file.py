@@ -9,10 +9,8 @@ import os
 
 import numpy as np
 
+from .cells import CELLS, SOLIDS
 from .messages import InputError
-from .solid_mesh import TETRAHEDRA
-
-GMSH_TYPE = {"triangle": 2, "tetra": 4, "triangle6": 9, "tetra10": 11}
 
 
 def write_msh(mesh, path):
@@ -64,7 +62,7 @@ def _write(mesh, file):
     file.write(b"$Elements\n" + np.array([len(blocks), total, 1, total], np.uint64).tobytes())
     number = 1
     for dimension, tag, kind, cells in blocks:
-        file.write(np.array([dimension, tag, GMSH_TYPE[kind]], np.int32).tobytes() + np.uint64(len(cells)).tobytes())
+        file.write(np.array([dimension, tag, CELLS[kind].gmsh], np.int32).tobytes() + np.uint64(len(cells)).tobytes())
         rows = np.empty((len(cells), 1 + cells.shape[1]), np.uint64)
         rows[:, 0] = np.arange(number, number + len(cells))
         rows[:, 1:] = cells + 1
@@ -77,7 +75,7 @@ def _entities(mesh, tags):
     """One entity per combination of groups, per dimension."""
     found = {}  # (dimension, physical tags) -> [(type, cells)]
     for kind, cells in mesh.cells.items():
-        dimension, groups = (3, mesh.volumes) if kind in TETRAHEDRA else (2, mesh.surfaces)
+        dimension, groups = (3, mesh.volumes) if kind in SOLIDS else (2, mesh.surfaces)
         which, combinations = np.zeros(len(cells), np.int64), [()]
         for name in (name for name in groups if kind in groups[name]):
             inside = np.zeros(len(cells), np.int64)

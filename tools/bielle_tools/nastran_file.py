@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .messages import InputError, counted
-from .nastran_mesh import CELLS
+from .nastran_mesh import SHAPES
 
-# Cards of stiffness, mass or conditions that tetrahedra do not represent.
+# Cards of stiffness, mass or conditions that solid cells do not represent.
 LOST = ("CONM1", "CMASS1", "CMASS2", "CMASS3", "CMASS4", "CELAS1", "CELAS2", "CELAS3", "CELAS4", "CBUSH", "CBUSH1D", "CBAR", "CBEAM", "CROD",
         "CONROD", "CTUBE", "CSHEAR", "CVISC", "CDAMP1", "CDAMP2", "RBAR", "RBE1", "RROD", "RSPLINE", "RTRPLT", "MPC", "CGAP", "CWELD", "CFAST",
         "MAT2", "MAT3", "MAT8", "MAT9", "MAT9ORT", "MATORT", "GENEL", "DMIG")
@@ -58,15 +58,15 @@ def read_extras(all_cards, nodes, points):
     _tell_masses(extras, cards["CONM2"], places, tied)
     for name in LOST:
         if cards[name]:
-            extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), which no tetrahedron stands for")
+            extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), which no solid cell stands for")
     return extras
 
 
 def _tell_parts(extras, all_cards):
     skins = [card for card in all_cards if card.name == "PSHELL"]
     if skins:
-        extras.notes.append(f"left out: the stiffness and mass of shells (PSHELL {_ids(skins)}): their triangles are surfaces")
-    known = set(READ + OF_ANALYSES) | set(CELLS)
+        extras.notes.append(f"left out: the stiffness and mass of shells (PSHELL {_ids(skins)}): their cells are surfaces")
+    known = set(READ + OF_ANALYSES) | set(SHAPES)
     unknown = Counter(card.name for card in all_cards if card.name not in known and not card.name.startswith("BEGIN"))
     if unknown:
         extras.notes.append("not read: " + ", ".join(f"{count} {name}" for name, count in unknown.most_common(MOST_NAMED))

@@ -14,6 +14,8 @@ import re
 
 import numpy as np
 
+from .cells import SOLIDS
+from .meshio_library import meshio_library
 from .messages import InputError
 from .results_file import modes_to_show
 from .rotations import rotation_matrices
@@ -27,7 +29,7 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
     """Writes `folder/name.pvd` and `folder/name/*.vtu`.
 
     every: every so many recorded times, or count: about so many, within span = (from, to) [s]; scale: magnifies elastic displacements of
-    superelements; volume: their tetrahedra, not only the surface; superelements: {element: path} to override.
+    superelements; volume: their solid cells, not only the surface; superelements: {element: path} to override.
     @returns path of the .pvd
     """
     if not len(results.time):
@@ -62,7 +64,7 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
 
 def _superelement(results, element, given, scale, volume, rows):
     body = superelement_of(results, element, given)
-    cells = {kind: c for kind, c in body.cells.items() if kind.startswith("tet")} if volume else body.surface()
+    cells = {kind: c for kind, c in body.cells.items() if kind in SOLIDS} if volume else body.surface()
     used = np.unique(np.concatenate([c.ravel() for c in cells.values()]))
     number = np.full(len(body.points), -1)
     number[used] = np.arange(len(used))
@@ -182,8 +184,7 @@ def _joints(results):
 
 
 def _write(path, mesh):
-    import meshio
-
+    meshio = meshio_library()
     points, cells, point_data, cell_data = mesh
     with contextlib.redirect_stdout(io.StringIO()):
         meshio.Mesh(points, cells, point_data=point_data, cell_data=cell_data).write(path, file_format="vtu", binary=True)

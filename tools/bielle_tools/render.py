@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize, to_rgb
 
+from .cells import triangles_of
 from .messages import InputError
 from .plot_style import COLOURS, plt
 from .rigid_bodies import rigid_bodies
@@ -32,8 +33,7 @@ class Scene:
         self.bodies = []
         for name in results.elements_with("frame", "coordinates"):
             body = superelement_of(results, name, superelements or {})
-            corners = np.concatenate([faces[:, :3] for faces in body.surface().values()])
-            self.bodies.append((name, body, corners))
+            self.bodies.append((name, body, triangles_of(body.surface())))
         self.rigid = rigid_bodies(results)
         self.beams = results.elements_with("position", "rotation")
         self.nodes = results.names("nodes")

@@ -1,32 +1,24 @@
-"""A tetrahedral mesh with named groups, checked and put into gmsh's node order.
+"""A mesh of solid cells with named groups, checked and put into gmsh's node order.
 
-Readers deliver a RawMesh: any cells, in VTK's node order (as meshio, Abaqus and CalculiX have it), and named sets of
-cells, of cell faces and of nodes. `solid_mesh` converts it to the mesh that the reduction reads: tetrahedra and
-boundary triangles of positive orientation with gmsh's node order, every set as a surface or a volume group.
-
-Second-order tetrahedra, mid-side nodes 4..9:   VTK, Abaqus: 01 12 02 03 13 23      gmsh: 01 12 02 03 23 13
+Readers deliver a RawMesh: any cells, in VTK's node order (cells.py), and named sets of cells, of cell faces and of nodes.
+`solid_mesh` converts it to the mesh that the reduction reads: solid cells and surface cells of positive orientation with
+gmsh's node order, every set as a surface or a volume group.
 """
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from .cells import CELLS, FLATS, SOLIDS, has_turned_corner, permutation, six_volumes
+from .face_checks import different_orders, nonconforming, place
+from .face_table import FaceTable
 from .messages import InputError, counted
+from .repeated_nodes import refusal, turn_repeated
 
-TRIANGLES = {"triangle": 3, "triangle6": 6}
 FARTHEST = 1e15  # in whatever unit: no body reaches there
-TETRAHEDRA = {"tetra": 4, "tetra10": 10}
 # Cells that have neither volume nor surface: axes, springs, point masses, corner points.
 IGNORED = ("vertex", "line", "line3", "line4")
-
-EDGES = np.array([[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]])  # edges of VTK's mid-side nodes
-VTK_TO_GMSH = {"triangle": range(3), "triangle6": range(6), "tetra": range(4), "tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]}
-# Corners of the four faces, outward for a tetrahedron of positive volume, and the mid-side nodes that follow them.
-FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-FACE_MIDS = np.array([[6, 5, 4], [4, 8, 7], [5, 9, 8], [7, 9, 6]])
-# The other orientation of a cell: corners 1 and 2 change places, and with them the mid-side nodes.
-MIRRORED = {"triangle": [0, 2, 1], "triangle6": [0, 2, 1, 5, 4, 3], "tetra": [0, 2, 1, 3],
-            "tetra10": [0, 2, 1, 3, 6, 5, 4, 7, 9, 8]}
+AT_ONCE = 20000  # cells
 
 
 @dataclass
@@ -35,7 +27,8 @@ class RawMesh:
 
     points (p,3); cells: list of (meshio type, (n,k) node numbers from 0);
     cell_sets: name -> one index array per entry of `cells`; point_sets: name -> node numbers;
-    face_sets: name -> (f,3) corner nodes of faces; notes: sentences about omitted parts.
+    face_sets: name -> list of the corner nodes of faces; notes: sentences about omitted parts;
+    labels: the file's numbers of the cells, one array per entry of `cells`, or nothing.
     """
 
     points: np.ndarray
@@ -44,6 +37,7 @@ class RawMesh:
     point_sets: dict = field(default_factory=dict)
     face_sets: dict = field(default_factory=dict)
     notes: list = field(default_factory=list)
+    labels: list = field(default_factory=list)
 
 
 @dataclass
@@ -58,28 +52,32 @@ class SolidMesh:
 
 
 def solid_mesh(raw):
-    """Checks a RawMesh and completes it. @raises InputError if it is not a mesh of tetrahedra."""
+    """Checks a RawMesh and completes it. @raises InputError if it is not a mesh of solid cells."""
     notes = list(raw.notes)
-    cells, place = _merge_blocks(raw, notes)
+    cells, labels, place_of = _merge_blocks(raw, notes)
     _check_numbers(raw.points, cells)
     for kind in cells:
-        if kind == "tetra10":
-            cells[kind] = _order_mid_nodes(raw.points, cells[kind], notes)
-        if kind in TETRAHEDRA:
-            cells[kind] = _orient(raw.points, kind, cells[kind], notes)
+        if kind in SOLIDS and CELLS[kind].order == 2:
+            cells[kind] = _order_mid_nodes(raw.points, kind, cells[kind], labels[kind], notes)
+        if kind in SOLIDS:
+            cells[kind] = _orient(raw.points, kind, cells[kind], labels[kind], notes)
 
-    faces = _FaceTable(cells)
+    faces = FaceTable(raw.points, cells, notes)
     volumes, surfaces = {}, {}
     for name, parts in raw.cell_sets.items():
-        members = _members(parts, place, cells)
-        solid = {kind: index for kind, index in members.items() if kind in TETRAHEDRA}
-        flat = {kind: index for kind, index in members.items() if kind in TRIANGLES}
+        members = _members(parts, place_of, cells)
+        solid = {kind: index for kind, index in members.items() if kind in SOLIDS}
+        flat = faces.renamed({kind: index for kind, index in members.items() if kind in FLATS})
         if solid:
             volumes[name] = solid
         if flat:
             _add_surface(surfaces, volumes, name, flat, notes)
     for name, corners in raw.face_sets.items():
-        _add_surface(surfaces, volumes, name, faces.of_corners(corners, name), notes)
+        members = faces.of_corners(corners, name)
+        if members:
+            _add_surface(surfaces, volumes, name, members, notes)
+        else:
+            notes.append(f"surface '{name}' holds only faces of repeated nodes, which have no area, and is left out")
     for name, nodes in raw.point_sets.items():
         members = faces.of_nodes(nodes)
         if members:
@@ -87,56 +85,58 @@ def solid_mesh(raw):
         else:
             notes.append(f"node set '{name}' ({counted(len(nodes), 'node')}) covers no boundary face and is left out")
     cells = faces.all_cells()
+    _tell_mixture(cells, notes)
+    notes += nonconforming(raw.points, faces.boundary) + different_orders(raw.points, faces.sides)
     points, cells = _drop_unused(raw.points, cells, notes)
-    cells = {kind: block[:, VTK_TO_GMSH[kind]] for kind, block in cells.items()}
+    cells = {kind: block[:, permutation(kind, "vtk", "gmsh")] for kind, block in cells.items()}
     return SolidMesh(points, cells, surfaces, volumes, notes)
 
 
-def tetrahedron_faces(cells):
-    """Every face of every tetrahedron of cells {type: (n,k)} in VTK's order, outward: {triangle type: (4n, 3 or 6)}."""
-    faces = {}
-    if "tetra" in cells:
-        faces["triangle"] = cells["tetra"][:, FACES].reshape(-1, 3)
-    if "tetra10" in cells:
-        block = cells["tetra10"]
-        faces["triangle6"] = np.concatenate([block[:, FACES], block[:, FACE_MIDS]], axis=2).reshape(-1, 6)
-    return faces
-
-
-def boundary_faces(faces):
-    """The faces of `tetrahedron_faces` that belong to one tetrahedron only."""
-    corners = np.concatenate([np.sort(block[:, :3], axis=1) for block in faces.values()])
-    _, inverse, count = np.unique(corners, axis=0, return_inverse=True, return_counts=True)
-    once = np.split(count[inverse.ravel()] == 1, np.cumsum([len(block) for block in faces.values()])[:-1])
-    return {kind: block[alone] for (kind, block), alone in zip(faces.items(), once)}
-
-
-def signed_volumes(points, tetrahedra):
-    """Six times the volumes of the straight tetrahedra of the corners, positive when right-handed."""
-    a, b, c, d = (points[tetrahedra[:, k]] for k in range(4))
-    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)
-
-
 def _merge_blocks(raw, notes):
-    """Joins blocks of one type. Returns cells by type, and for each block (type or None, its first cell number)."""
-    parts, place = {}, []
-    for kind, block in raw.cells:
-        if kind in IGNORED:
-            place.append((None, 0))
-        elif kind in TRIANGLES or kind in TETRAHEDRA:
-            before = parts.setdefault(kind, [])
-            place.append((kind, sum(len(b) for b in before)))
-            before.append(np.asarray(block, dtype=np.int64))
-        else:
-            raise InputError(f"holds {counted(len(block), 'cell')} of type '{kind}', but Bielle reduces tetrahedra of 4 or 10 "
-                             "nodes: remesh the body with tetrahedra")
-    if not any(kind in TETRAHEDRA for kind in parts):
-        what = ", ".join(sorted({kind for kind, _ in raw.cells})) or "no cells at all"
-        raise InputError(f"holds no tetrahedra ({what}); Bielle reduces solids meshed with tetrahedra of 4 or 10 nodes")
+    """Joins blocks of one type. Returns cells and labels by type, and for each block its types and its row in them."""
+    _check_blocks(raw)
+    given = raw.labels or [None] * len(raw.cells)
+
+    def refuse(block, row):
+        kind, nodes = raw.cells[block]
+        return refusal(kind, _name(kind, row, given[block]), nodes[row])
+
+    parts, changes = turn_repeated([(kind, np.asarray(block, dtype=np.int64)) for kind, block in raw.cells], refuse)
+    blocks, labels, place_of = {}, {}, []
+    for (_, cells), pieces, names in zip(raw.cells, parts, given):
+        kinds, rows = np.zeros(len(cells), object), np.zeros(len(cells), np.int64)
+        for kind, which, nodes in (piece for piece in pieces if len(piece[1])):
+            before = blocks.setdefault(kind, [])
+            kinds[which] = None if kind in IGNORED else kind
+            rows[which] = sum(len(b) for b in before) + np.arange(len(which))
+            before.append(nodes)
+            labels.setdefault(kind, []).append(np.full(len(which), -1) if names is None else np.asarray(names)[which])
+        place_of.append((kinds, rows))
     ignored = sum(len(block) for kind, block in raw.cells if kind in IGNORED)
     if ignored:
         notes.append(f"left out: {counted(ignored, 'cell')} of points or lines")
-    return {kind: np.concatenate(blocks) for kind, blocks in parts.items()}, place
+    for (old, new), count in changes.items():
+        old, new = CELLS[old], CELLS[new]
+        notes.append(f"{counted(count, old.singular, old.plural)} of {old.nodes} nodes with repeated nodes {'is a' if count == 1 else 'are'} "
+                     f"{new.singular if count == 1 else new.plural} of {new.nodes} nodes")
+    kept = [kind for kind in blocks if kind not in IGNORED]
+    return ({kind: np.concatenate(blocks[kind]) for kind in kept}, {kind: np.concatenate(labels[kind]) for kind in kept}, place_of)
+
+
+def _check_blocks(raw):
+    for kind, block in raw.cells:
+        if kind not in IGNORED and kind not in CELLS:
+            raise InputError(f"holds {counted(len(block), 'cell')} of type '{kind}', but Bielle reads tetrahedra, hexahedra, wedges and "
+                             "pyramids "
+                             "of order 1 and 2: remesh the body with these")
+    if not any(kind in SOLIDS and len(block) for kind, block in raw.cells):
+        what = ", ".join(sorted({kind for kind, _ in raw.cells})) or "no cells at all"
+        raise InputError(f"holds no tetrahedra, hexahedra, wedges or pyramids ({what}); Bielle reduces solids")
+
+
+def _name(kind, row, labels):
+    """The name of a cell in messages."""
+    return f"element {labels[row]}" if labels is not None and labels[row] >= 0 else f"cell {row + 1} of type '{kind}'"
 
 
 def _check_numbers(points, cells):
@@ -146,68 +146,87 @@ def _check_numbers(points, cells):
         raise InputError(f"point {first + 1} has a coordinate that is not finite, or larger than {FARTHEST:g}: "
                          f"({', '.join(f'{x:g}' for x in points[first])})")
     for kind, block in cells.items():
-        if block.min() < 0 or block.max() >= len(points):
+        if len(block) and (block.min() < 0 or block.max() >= len(points)):
             raise InputError(f"a cell of type '{kind}' names a node that does not exist")
 
 
-def _order_mid_nodes(points, cells, notes):
+def _misplaced(points, cell, cells):
+    """(n) whether a node after the corners lies nearer to another edge, or face, than to its own."""
+    wrong = np.zeros(len(cells), bool)
+    for begin in range(0, len(cells), AT_ONCE):
+        block = cells[begin:begin + AT_ONCE]
+        middles = np.stack([points[block[:, list(each)]].mean(axis=1) for each in cell.middles], axis=1)
+        for own in range(len(cell.middles)):
+            distance = np.linalg.norm(points[block[:, cell.corners + own]][:, None, :] - middles, axis=2)
+            wrong[begin:begin + AT_ONCE] |= distance.argmin(axis=1) != own
+    return wrong
+
+
+def _order_mid_nodes(points, kind, cells, labels, notes):
     """VTK's order of the mid-side nodes, verified: each must lie nearer to the middle of its own edge than to others'."""
-    middles = points[cells[:, EDGES]].mean(axis=2)  # (n,6,3)
-
-    def misplaced(order):
-        wrong = np.zeros(len(cells), bool)
-        for edge, column in enumerate(order):
-            distance = np.linalg.norm(points[cells[:, column]][:, None, :] - middles, axis=2)
-            wrong |= distance.argmin(axis=1) != edge
-        return wrong
-
-    wrong = misplaced([4, 5, 6, 7, 8, 9])
-    if wrong.mean() > 0.5 and not misplaced([4, 5, 6, 7, 9, 8]).any():
-        notes.append("the last two mid-side nodes of the tetrahedra stand in gmsh's order, not the format's; read so")
-        return cells[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]
+    cell = CELLS[kind]
+    wrong = _misplaced(points, cell, cells)
+    if wrong.mean() > 0.5:
+        for program, name in (("gmsh", "gmsh"), ("vtk", "VTK"), ("nastran", "Nastran"), ("abaqus", "Abaqus")):
+            for read_as in ("vtk", "nastran", "abaqus"):  # the order in which the reader took them
+                columns = np.array(permutation(kind, "vtk", read_as))[permutation(kind, program, "vtk")]
+                if not _misplaced(points, cell, cells[:, columns]).any():
+                    which = "last two mid-side nodes of the tetrahedra" if kind == "tetra10" else f"mid-side nodes of the {cell.plural}"
+                    notes.append(f"the {which} stand in {name}'s order, not the format's; read so")
+                    return cells[:, columns]
     if wrong.mean() > 0.01:
         first = int(np.argmax(wrong))
-        raise InputError(f"mid-side nodes of {int(wrong.sum())} of {len(cells)} tetrahedra do not lie on their edges "
-                         f"(the first is cell {first + 1} of its type, near {_place(points[cells[first, 0]])}): "
+        told = f"element {labels[first]}" if labels[first] >= 0 else f"cell {first + 1} of its type"
+        raise InputError(f"mid-side nodes of {int(wrong.sum())} of {len(cells)} {cell.plural} do not lie on their edges "
+                         f"(the first is {told}, near {place(points[cells[first, 0]])}): "
                          "the node order is not that of the format")
     if wrong.any():
-        notes.append(f"mid-side nodes of {int(wrong.sum())} tetrahedra lie nearer to another edge than to their own")
+        notes.append(f"mid-side nodes of {int(wrong.sum())} {cell.plural} lie nearer to another edge than to their own")
     return cells
 
 
-def _orient(points, kind, cells, notes):
-    volumes = signed_volumes(points, cells)
+def _orient(points, kind, cells, labels, notes):
+    cell, volumes = CELLS[kind], six_volumes(points, kind, cells)
     scale = np.ptp(points[np.unique(cells)], axis=0).max() ** 3
     flat = np.abs(volumes) <= 1e-15 * scale
     if flat.any():
         first = int(np.argmax(flat))
-        raise InputError(f"holds {counted(int(flat.sum()), 'tetrahedron', 'tetrahedra')} of no volume "
-                             f"(the first near {_place(points[cells[first, 0]])})")
+        raise InputError(f"holds {counted(int(flat.sum()), cell.singular, cell.plural)} of no volume "
+                         f"(the first near {place(points[cells[first, 0]])})")
     negative = volumes < 0
     if negative.any():
         cells = cells.copy()
-        cells[negative] = cells[negative][:, MIRRORED[kind]]
-        notes.append(f"{int(negative.sum())} of {len(cells)} tetrahedra were left-handed and have been turned over")
+        cells[negative] = cells[negative][:, cell.mirrored]
+        notes.append(f"{int(negative.sum())} of {len(cells)} {cell.plural} were left-handed and have been turned over")
+    turned = has_turned_corner(points, kind, cells) if cell.shape != "tetra" else np.zeros(0, bool)
+    if turned.any():
+        first = int(np.argmax(turned))
+        told = f"element {labels[first]}, " if labels[first] >= 0 else ""
+        notes.append(f"{int(turned.sum())} of {len(cells)} {cell.plural} {'is' if turned.sum() == 1 else 'are'} turned inside out at a "
+                     "corner "
+                     f"(the first: {told}near {place(points[cells[first, 0]])})")
     return cells
 
 
-def _place(point):
-    return "(" + ", ".join(f"{x:g}" for x in point) + ")"
-
-
-def _members(parts, place, cells):
+def _members(parts, place_of, cells):
     """Cell numbers by type of a set given as one index array per block of the file."""
     found = {}
-    for (kind, first), index in zip(place, parts):
+    for (kinds, rows), index in zip(place_of, parts):
         index = np.asarray(index, dtype=np.int64)
-        if kind is None or not len(index):
+        if not len(index):
             continue
-        found.setdefault(kind, []).append(index + first)
-    members = {kind: np.unique(np.concatenate(index)) for kind, index in found.items()}
-    for kind, index in members.items():
-        if index[0] < 0 or index[-1] >= len(cells[kind]):
-            raise InputError(f"a set names a cell of type '{kind}' that does not exist")
-    return members
+        if index.min() < 0 or index.max() >= len(rows):
+            raise InputError(f"a set names a cell of type '{next((kind for kind in kinds if kind), 'line')}' that does not exist")
+        for kind in {kind for kind in kinds[index] if kind}:
+            found.setdefault(kind, []).append(rows[index[kinds[index] == kind]])
+    return {kind: np.unique(np.concatenate(index)) for kind, index in found.items()}
+
+
+def _tell_mixture(cells, notes):
+    solids = {kind: block for kind, block in cells.items() if kind in SOLIDS and len(block)}
+    if len(solids) > 1:
+        counts = [f"{counted(len(block), CELLS[kind].singular, CELLS[kind].plural)} of {CELLS[kind].nodes} nodes" for kind, block in solids.items()]
+        notes.append("the body is a mixture of " + ", ".join(counts))
 
 
 def _add_surface(surfaces, volumes, name, members, notes):
@@ -230,74 +249,10 @@ def _same(one, other):
 def _drop_unused(points, cells, notes):
     used = np.unique(np.concatenate([block.ravel() for block in cells.values()]))
     if len(used) < len(points):
-        notes.append(f"left out: {counted(len(points) - len(used), 'point')} of no tetrahedron or triangle")
+        shapes = [kind for kind, cell in CELLS.items() if kind == cell.shape]
+        present = {CELLS[kind].shape for kind in cells} | {CELLS[flat].shape for kind in cells for flat, _ in CELLS[kind].faces}
+        names = [CELLS[shape].singular for shape in sorted(present, key=lambda each: (-CELLS[each].dimension, shapes.index(each)))]
+        notes.append(f"left out: {counted(len(points) - len(used), 'point')} of no {', '.join(names[:-1])} or {names[-1]}")
     number = np.full(len(points), -1, dtype=np.int64)
     number[used] = np.arange(len(used))
     return points[used], {kind: number[block] for kind, block in cells.items()}
-
-
-class _FaceTable:
-    """Triangles of the mesh, each once: those of the file, and those of tetrahedra that sets contain."""
-
-    def __init__(self, cells):
-        self.cells = {kind: block for kind, block in cells.items()}
-        self.extra = {kind: [] for kind in TRIANGLES}
-        self.number = {}  # sorted corners -> (type, cell number)
-        for kind in TRIANGLES:
-            for index, corners in enumerate(np.sort(cells[kind][:, :3], axis=1).tolist() if kind in cells else ()):
-                self.number.setdefault(tuple(corners), (kind, index))
-        self.sides = tetrahedron_faces(cells)
-        self.boundary = boundary_faces(self.sides)
-        self.lookup = None
-
-    def of_nodes(self, nodes):
-        """Boundary triangles whose nodes are all in the set (their corners, if the set contains no mid-side node)."""
-        wanted = set(np.asarray(nodes).tolist())
-        found = {}
-        for flat, faces in self.boundary.items():
-            width = TRIANGLES[flat]
-            if flat == "triangle6" and not wanted.intersection(np.unique(faces[:, 3:]).tolist()):
-                width = 3
-            inside = np.isin(faces[:, :width], np.fromiter(wanted, np.int64, len(wanted))).all(axis=1)
-            self._collect(found, flat, faces[inside])
-        return self._finish(found)
-
-    def of_corners(self, corners, name):
-        """Triangles with the given corner nodes (f,3), which must be faces of tetrahedra."""
-        if self.lookup is None:
-            self.lookup = {}
-            for flat, faces in self.sides.items():
-                for index, key in enumerate(np.sort(faces[:, :3], axis=1).tolist()):
-                    self.lookup.setdefault(tuple(key), (flat, index))
-        found = {}
-        for key in np.sort(corners, axis=1).tolist():
-            if tuple(key) in self.number:
-                kind, index = self.number[tuple(key)]
-                found.setdefault(kind, []).append(index)
-                continue
-            if tuple(key) not in self.lookup:
-                raise InputError(f"surface '{name}' holds a face that belongs to no tetrahedron")
-            flat, index = self.lookup[tuple(key)]
-            self._collect(found, flat, self.sides[flat][index:index + 1])
-        return self._finish(found)
-
-    def all_cells(self):
-        cells = dict(self.cells)
-        for kind, faces in self.extra.items():
-            if faces:
-                new = np.array(faces, dtype=np.int64)
-                cells[kind] = np.concatenate([cells[kind], new]) if kind in cells else new
-        return cells
-
-    def _collect(self, found, flat, faces):
-        start = len(self.cells[flat]) if flat in self.cells else 0
-        for key, face in zip(np.sort(faces[:, :3], axis=1).tolist(), faces.tolist()):
-            if tuple(key) not in self.number:
-                self.number[tuple(key)] = (flat, start + len(self.extra[flat]))
-                self.extra[flat].append(face)
-            kind, index = self.number[tuple(key)]
-            found.setdefault(kind, []).append(index)
-
-    @staticmethod
-    def _finish(found):
-        return {kind: np.unique(index) for kind, index in found.items()}

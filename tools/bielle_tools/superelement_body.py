@@ -9,14 +9,10 @@ import os
 
 import numpy as np
 
+from .cells import BY_GMSH, SOLIDS, boundary_faces, permutation, solid_faces
 from .messages import InputError, counted
 from .results_file import LARGEST, open_hdf5, reading
 from .rotations import rotation_matrices
-from .solid_mesh import boundary_faces, tetrahedron_faces
-
-GMSH_TYPES = {2: "triangle", 4: "tetra", 9: "triangle6", 11: "tetra10"}
-CORNERS = {"triangle": 3, "tetra": 4, "triangle6": 6, "tetra10": 10}
-GMSH_TO_VTK = {"tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]}
 
 
 class SuperelementBody:
@@ -39,11 +35,11 @@ class SuperelementBody:
         self.points = _matrix(file["mesh/points"], 3)
         self.cells = {}
         for name, cells in file["mesh/cells"].items():
-            kind = GMSH_TYPES[int(name)]
-            cells = np.asarray(_matrix(cells, CORNERS[kind]), np.int64)
+            cell = BY_GMSH[int(name)]
+            cells = np.asarray(_matrix(cells, cell.nodes), np.int64)
             _check_numbers(cells, len(self.points))
-            self.cells[kind] = cells[:, GMSH_TO_VTK[kind]] if kind in GMSH_TO_VTK else cells
-        if not any(len(cells) for kind, cells in self.cells.items() if kind.startswith("tet")):
+            self.cells[cell.name] = cells[:, permutation(cell.name, "gmsh", "vtk")]
+        if not any(len(cells) for kind, cells in self.cells.items() if kind in SOLIDS):
             raise ValueError
 
     def _read_recovery(self, recovery):
@@ -55,8 +51,8 @@ class SuperelementBody:
             self.stressed = _node_numbers(recovery, "stress_nodes", len(self.stress) / 6, len(self.points))
 
     def surface(self):
-        """Boundary triangles {type: (n,3 or 6)}, outward."""
-        return boundary_faces(tetrahedron_faces(self.cells))
+        """Boundary faces {type: (n,k)}, outward."""
+        return boundary_faces(solid_faces({kind: cells for kind, cells in self.cells.items() if kind in SOLIDS}))
 
     def local_displacement(self, q):
         """(...,p,3) displacement of every node in the body's frame [m]; nodes without recovery stay at rest. q: (...,n)."""

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import yaml
 
-from . import tetrahedra
+from . import cell_integrals
 from .messages import InputError, did_you_mean
 
 
@@ -84,11 +84,11 @@ def _spread(name, path, points, faces, nodes, position):
     chosen = {kind: block[on[block].all(axis=1)] for kind, block in faces.items()}
     if not any(len(block) for block in chosen.values()):
         raise InputError(f"'{path}': the group of interface '{name}' holds no faces of the surface")
-    weights = tetrahedra.surface_integrals(points, chosen, lambda x: np.ones(len(x)))
-    first = tetrahedra.surface_integrals(points, chosen, lambda x: x).sum(axis=0)
+    weights = cell_integrals.surface_integrals(points, chosen, lambda x: np.ones(len(x)))
+    first = cell_integrals.surface_integrals(points, chosen, lambda x: x).sum(axis=0)
     area = weights.sum()
     centre = first / area
-    moments = tetrahedra.surface_integrals(points, chosen, lambda x: np.einsum("ea,eb->eab", x - centre, x - centre)).sum(axis=0)
+    moments = cell_integrals.surface_integrals(points, chosen, lambda x: np.einsum("ea,eb->eab", x - centre, x - centre)).sum(axis=0)
     inverse = np.linalg.inv(np.trace(moments) * np.eye(3) - moments)
 
     def tractions(x):
@@ -99,4 +99,4 @@ def _spread(name, path, points, faces, nodes, position):
             found[:, :, 3 + k] = np.cross(inverse @ np.eye(3)[k], x - centre)
         return found
 
-    return tetrahedra.surface_integrals(points, chosen, tractions)[nodes]
+    return cell_integrals.surface_integrals(points, chosen, tractions)[nodes]

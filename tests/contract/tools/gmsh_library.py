@@ -6,11 +6,13 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t
 
 import numpy as np
 
-_NAMES = {2: "triangle", 4: "tetra", 9: "triangle6", 11: "tetra10"}
+_NAMES = {2: "triangle", 3: "quad", 4: "tetra", 5: "hexahedron", 6: "wedge", 7: "pyramid", 9: "triangle6", 10: "quad9", 11: "tetra10",
+          12: "hexahedron27", 16: "quad8", 17: "hexahedron20", 18: "wedge15", 19: "pyramid13"}
 
 
 class GmshFile:
-    """points (p,3); cells {type: (n,k) rows of points}; groups {(dimension, name): {type: (m,k)}}."""
+    """points (p,3); cells {type: (n,k) rows of points}; groups {(dimension, name): {type: (m,k)}}; reference {type: (k,d)}: gmsh's
+    own places of the nodes in its reference cell; volumes {type: (n)}: gmsh's integrals, of the sign of its determinants."""
 
     def __init__(self, path):
         self.library = ctypes.CDLL(ctypes.util.find_library("gmsh"))
@@ -19,6 +21,10 @@ class GmshFile:
             self._call("OptionSetNumber", c_char_p(b"General.Terminal"), c_double(0))
             self._call("Open", c_char_p(path.encode()))
             self._read()
+            self.reference, self.volumes = {}, {}
+            for number, kind in _NAMES.items():
+                if kind in self.cells:
+                    self._ask_about(number, kind)
         finally:
             self._call("Finalize")
 
@@ -63,3 +69,23 @@ class GmshFile:
             labels = nodes[index][:n_nodes[index]]
             cells[kind] = np.array([self.rows[label] for label in labels]).reshape(n_tags[index], -1)
         return cells
+
+    def _ask_about(self, number, kind):
+        name, places = c_char_p(), POINTER(c_double)()
+        dimension, order, nodes, primary, n = c_int(), c_int(), c_int(), c_int(), c_size_t()
+        self._call("ModelMeshGetElementProperties", c_int(number), byref(name), byref(dimension), byref(order), byref(nodes),
+                   byref(places), byref(n), byref(primary))
+        self.reference[kind] = np.array(places[:n.value]).reshape(nodes.value, -1)
+        if dimension.value < 3:
+            return
+        points, weights, n_points, n_weights = POINTER(c_double)(), POINTER(c_double)(), c_size_t(), c_size_t()
+        self._call("ModelMeshGetIntegrationPoints", c_int(number), c_char_p(b"Gauss4"), byref(points), byref(n_points), byref(weights),
+                   byref(n_weights))
+        jacobians, determinants, x = POINTER(c_double)(), POINTER(c_double)(), POINTER(c_double)()
+        n_j, n_d, n_x = c_size_t(), c_size_t(), c_size_t()
+        self._call("ModelMeshGetJacobians", c_int(number), points, n_points, byref(jacobians), byref(n_j), byref(determinants), byref(n_d),
+                   byref(x), byref(n_x), c_int(-1), c_size_t(0), c_size_t(1))
+        weights = np.array(weights[:n_weights.value])
+        determinants = np.array(determinants[:n_d.value]).reshape(-1, len(weights))
+        self.least_determinant = min(getattr(self, "least_determinant", np.inf), determinants.min())
+        self.volumes[kind] = determinants @ weights

@@ -314,12 +314,12 @@ class Refusals(Converter):
         self.write("box.step", "")
         self.refuse("box.step", "bielle-reduce reads it")
 
-    def test_hexahedra(self):
-        self.write("hex.inp", "*NODE\n" + "".join(f"{i + 1}, {i & 1}, {i >> 1 & 1}, {i >> 2}\n" for i in range(8)) +
-                   "*ELEMENT, TYPE=C3D8\n1, 1, 2, 4, 3, 5, 6, 8, 7\n")
-        self.refuse("hex.inp", "hex.inp:10", "C3D8", "tetrahedra")
-        meshio.Mesh(np.random.default_rng(1).random((8, 3)), [("hexahedron", [list(range(8))])]).write(self.path("hex.vtu"))
-        self.refuse("hex.vtu", "hex.vtu", "hexahedron", "tetrahedra")
+    def test_cells_that_are_not_known(self):
+        meshio.Mesh(np.random.default_rng(1).random((18, 3)), [("wedge18", [list(range(18))])]).write(self.path("wedge.vtu"))
+        self.refuse("wedge.vtu", "wedge.vtu", "wedge18", "tetrahedra, hexahedra, wedges and pyramids")
+        self.write("cohesive.inp", "*NODE\n" + "".join(f"{i + 1}, {i & 1}, {i >> 1 & 1}, {i >> 2}\n" for i in range(8)) +
+                   "*ELEMENT, TYPE=COH3D8\n1, 1, 2, 4, 3, 5, 6, 8, 7\n")
+        self.refuse("cohesive.inp", "cohesive.inp:10", "COH3D8", "C3D8")
 
     def test_only_a_surface(self):
         meshio.Mesh(self.points[:3] + np.eye(3), [("triangle", [[0, 1, 2]])]).write(self.path("shell.vtu"))

@@ -12,7 +12,7 @@ import numpy as np
 from box_mesh import REPOSITORY
 from python_tool import run_python_tool  # box_mesh knows where
 
-from bielle_tools import tetrahedra
+from bielle_tools import cell_integrals
 from bielle_tools.body_loads import LoadedBody
 from bielle_tools.results_file import Results
 
@@ -136,7 +136,7 @@ class Loads(unittest.TestCase):
 
     def test_rules_of_integration_are_exact(self):
         points, cells = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3.0]]), {"tetra": np.array([[0, 1, 2, 3]])}
-        mass = tetrahedra.scalar_mass(points, cells, {"tetra": np.array([20.0])}).toarray()
+        mass = cell_integrals.scalar_mass(points, cells, {"tetra": np.array([20.0])}).toarray()
         np.testing.assert_allclose(mass, (np.ones((4, 4)) + np.eye(4)), rtol=1e-13)  # rho V/20 (1 + delta), V = 1
 
     @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (Debian package calculix-ccx)")
