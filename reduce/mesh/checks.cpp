@@ -18,16 +18,19 @@ namespace bielle::reduce {
 
 namespace {
 
-Eigen::Matrix<double, 3, 4> corners_of(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
-  Eigen::Matrix<double, 3, 4> corners;
-  for (int k = 0; k < 4; ++k) corners.col(k) = mesh.points.col(block.nodes(k, cell));
-  return corners;
+Eigen::Matrix3Xd vertices_of(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
+  return mesh.points(Eigen::all, block.nodes.col(cell).head(vertex_count(block.type)));
 }
 
-double longest_edge(const Eigen::Matrix<double, 3, 4>& x) {
+double longest_edge(CellType type, const Eigen::Matrix3Xd& x) {
   double longest = 0;
-  for (const auto& edge : tet_edges) longest = std::max(longest, (x.col(edge[0]) - x.col(edge[1])).norm());
+  for (const auto& [a, b] : cell_info(type).edges) longest = std::max(longest, (x.col(a) - x.col(b)).norm());
   return longest;
+}
+
+/// Volume of the cell with straight edges between the vertices.
+double straight_volume(CellType type, const Eigen::Matrix3Xd& x) {
+  return vertex_count(type) == 4 ? straight_determinant(x) / 6 : cell_volume(type, straight_nodes(type, x));
 }
 
 struct Piece {
@@ -43,10 +46,10 @@ std::vector<Piece> pieces_of(const Mesh& mesh, const Number& number_of) {
   std::map<int, Piece> numbered;
   for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
     Piece& piece = numbered[number_of(e)];
-    const auto x = corners_of(mesh, block, e);
+    const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
     ++piece.cells;
-    piece.volume += straight_determinant(x) / 6;
-    for (int k = 0; k < 4; ++k) piece.box.extend(Eigen::Vector3d(x.col(k)));
+    piece.volume += straight_volume(block.type, x);
+    for (const auto& vertex : x.colwise()) piece.box.extend(Eigen::Vector3d(vertex));
   }
   std::vector<Piece> pieces;
   for (const auto& [number, piece] : numbered) pieces.push_back(piece);
@@ -90,9 +93,9 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
   int inverted = 0, flat = 0;
   Eigen::Index first_inverted = 0, first_flat = 0;
   for (Eigen::Index e = block.nodes.cols() - 1; e >= 0; --e) {
-    const auto x = corners_of(mesh, block, e);
-    const double determinant = straight_determinant(x);
-    if (std::abs(determinant) <= 1e-12 * std::pow(longest_edge(x), 3)) {
+    const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
+    const double determinant = least_triple_product(block.type, x);
+    if (std::abs(determinant) <= 1e-12 * std::pow(longest_edge(block.type, x), 3)) {
       ++flat;
       first_flat = e;
     } else if (determinant < 0) {
@@ -102,7 +105,7 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
   }
   const auto named = [&](Eigen::Index e) {
     const std::size_t number = cell_tags.empty() ? static_cast<std::size_t>(e) + 1 : cell_tags[e];
-    return fmt::format("element {} at {}", number, place_name(corners_of(mesh, block, e).rowwise().mean()));
+    return fmt::format("element {} at {}", number, place_name(vertices_of(mesh, block, e).rowwise().mean()));
   };
   if (inverted == block.nodes.cols())
     throw InputError(fmt::format(
@@ -176,13 +179,13 @@ MeshQuality mesh_quality(const Mesh& mesh) {
   MeshQuality quality;
   quality.shortest_edge = quality.least_scaled_jacobian = std::numeric_limits<double>::infinity();
   for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
-    const auto x = corners_of(mesh, block, e);
-    for (const auto& edge : tet_edges) {
-      const double length = (x.col(edge[0]) - x.col(edge[1])).norm();
+    const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
+    for (const auto& [a, b] : cell_info(block.type).edges) {
+      const double length = (x.col(a) - x.col(b)).norm();
       quality.shortest_edge = std::min(quality.shortest_edge, length);
       quality.longest_edge = std::max(quality.longest_edge, length);
     }
-    const double scaled = scaled_jacobian(x);
+    const double scaled = scaled_jacobian(block.type, x);
     if (scaled < quality.least_scaled_jacobian) {
       quality.least_scaled_jacobian = scaled;
       quality.worst_place = x.rowwise().mean();

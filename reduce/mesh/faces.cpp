@@ -12,22 +12,21 @@ namespace bielle::reduce {
 
 namespace {
 
-// Nodes of the four sides of a tetrahedron with positive volume, outward: corners, then the mid-side nodes between them
-// in gmsh's numbering 4:(0,1) 5:(1,2) 6:(0,2) 7:(0,3) 8:(2,3) 9:(1,3).
-constexpr int sides[4][6] = {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 9, 7}, {0, 3, 2, 7, 8, 6}, {1, 2, 3, 5, 8, 9}};
+/// The corners in ascending order; the fourth one of a triangle is -1 and stays the last.
+std::array<int, 4> key_of(FaceCorners corners) {
+  std::sort(corners.begin(), corners.end());
+  return {corners[0], corners[1], corners[2], corners[3]};
+}
 
 }  // namespace
 
 FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
+  const std::vector<CellFace>& sides = cell_info(solids_.type).faces;
   std::vector<Face> all;
-  all.reserve(4 * solids_.nodes.cols());
+  all.reserve(sides.size() * static_cast<std::size_t>(solids_.nodes.cols()));
   for (int cell = 0; cell < solids_.nodes.cols(); ++cell)
-    for (int side = 0; side < 4; ++side) {
-      std::array<int, 3> key;
-      for (int k = 0; k < 3; ++k) key[k] = solids_.nodes(sides[side][k], cell);
-      std::sort(key.begin(), key.end());
-      all.push_back({key, cell, -1, side});
-    }
+    for (int side = 0; side < static_cast<int>(sides.size()); ++side)
+      all.push_back({key_of(corners_of(cell, side)), cell, -1, side});
   std::sort(all.begin(), all.end(),
             [](const Face& a, const Face& b) { return std::tie(a.key, a.cell) < std::tie(b.key, b.cell); });
   for (const Face& face : all) {
@@ -42,25 +41,32 @@ FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
   }
 }
 
-CellType FaceTable::type() const { return solids_.type == CellType::tet4 ? CellType::tri3 : CellType::tri6; }
+FaceCorners FaceTable::corners_of(int cell, int side) const {
+  const CellFace& face = cell_info(solids_.type).faces[static_cast<std::size_t>(side)];
+  FaceCorners corners(face.nodes, vertex_count(face.type));
+  for (int& node : corners) node = solids_.nodes(node, cell);
+  return corners;
+}
+
+CellType FaceTable::type(int face) const {
+  return cell_info(solids_.type).faces[static_cast<std::size_t>(faces_[face].side)].type;
+}
 
 Eigen::VectorXi FaceTable::nodes(int face) const {
-  Eigen::VectorXi nodes(node_count(type()));
-  for (int k = 0; k < nodes.size(); ++k) nodes[k] = solids_.nodes(sides[faces_[face].side][k], faces_[face].cell);
+  const std::vector<int>& side = cell_info(solids_.type).faces[static_cast<std::size_t>(faces_[face].side)].nodes;
+  Eigen::VectorXi nodes(static_cast<Eigen::Index>(side.size()));
+  for (Eigen::Index k = 0; k < nodes.size(); ++k)
+    nodes[k] = solids_.nodes(side[static_cast<std::size_t>(k)], faces_[face].cell);
   return nodes;
 }
 
-std::array<int, 3> FaceTable::corners(int face) const {
-  const Face& f = faces_[face];
-  return {solids_.nodes(sides[f.side][0], f.cell), solids_.nodes(sides[f.side][1], f.cell),
-          solids_.nodes(sides[f.side][2], f.cell)};
-}
+FaceCorners FaceTable::corners(int face) const { return corners_of(faces_[face].cell, faces_[face].side); }
 
-std::optional<int> FaceTable::find(std::array<int, 3> corners) const {
-  std::sort(corners.begin(), corners.end());
-  const auto found = std::lower_bound(faces_.begin(), faces_.end(), corners,
-                                      [](const Face& face, const std::array<int, 3>& key) { return face.key < key; });
-  if (found == faces_.end() || found->key != corners) return {};
+std::optional<int> FaceTable::find(const FaceCorners& corners) const {
+  const std::array<int, 4> sorted = key_of(corners);
+  const auto found = std::lower_bound(faces_.begin(), faces_.end(), sorted,
+                                      [](const Face& face, const std::array<int, 4>& key) { return face.key < key; });
+  if (found == faces_.end() || found->key != sorted) return {};
   return static_cast<int>(found - faces_.begin());
 }
 

@@ -72,52 +72,74 @@ void visit_elements(int dim, const Visit& visit) {
 
 // gmsh returns, for one entity and shape, only the cells of the first one's order, without a message; its own count
 // reveals it.
-bool all_delivered(const char* shape, std::size_t delivered) {
+bool all_delivered(const std::vector<const char*>& shapes, std::size_t delivered) {
   double all = 0;
-  gmsh::option::getNumber(std::string("Mesh.Nb") + shape, all);
+  for (const char* shape : shapes) {
+    double of_shape = 0;
+    gmsh::option::getNumber(std::string("Mesh.Nb") + shape, of_shape);
+    all += of_shape;
+  }
   return static_cast<double>(delivered) == all;
 }
 
-// @throws InputError for other cells than triangles
-std::map<int, std::vector<Triangle>> read_triangles(const Nodes& nodes, const std::string& name) {
-  std::map<int, std::vector<Triangle>> surfaces;
+// "tri3, tri6, quad4, ..": the types of cells that are known.
+std::string known_types(int dim) {
+  std::string names;
+  for (const CellInfo& cell : cell_table())
+    if (cell.dimension == dim) names += (names.empty() ? "" : ", ") + cell.name;
+  return names;
+}
+
+// @throws InputError for types that are not known
+std::map<int, std::vector<FaceCorners>> read_surface_cells(const Nodes& nodes, const std::string& name) {
+  std::map<int, std::vector<FaceCorners>> surfaces;
   std::size_t count = 0;
   visit_elements(2, [&](int entity, int type, const Tags& elements, const Tags& tags) {
-    if (type != static_cast<int>(CellType::tri3) && type != static_cast<int>(CellType::tri6))
-      throw InputError(fmt::format("'{}' holds {} of type '{}'; supported are triangles with 3 or 6 nodes", name,
-                                   counted(elements.size(), "surface cell"), gmsh_cell_name(type)));
+    if (!is_cell_type(type))
+      throw InputError(fmt::format("'{}' holds {} of type '{}'; supported on surfaces are {}", name,
+                                   counted(elements.size(), "surface cell"), gmsh_cell_name(type), known_types(2)));
     count += elements.size();
+    const int corners = vertex_count(static_cast<CellType>(type));
     const std::size_t width = tags.size() / elements.size();
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      Triangle triangle;
-      for (int k = 0; k < 3; ++k) triangle[k] = nodes.number.at(tags[e * width + k]);
-      surfaces[entity].push_back(triangle);
+      FaceCorners face(&tags[e * width], corners);
+      for (int k = 0; k < corners; ++k)
+        face[static_cast<std::size_t>(k)] = nodes.number.at(tags[e * width + static_cast<std::size_t>(k)]);
+      surfaces[entity].push_back(face);
     }
   });
-  if (!all_delivered("Triangles", count))
-    throw InputError(fmt::format("'{}' mixes triangles with 3 and with 6 nodes on one surface; use one kind", name));
+  if (!all_delivered({"Triangles", "Quadrangles"}, count))
+    throw InputError(fmt::format("'{}' mixes cells of order 1 and of order 2 on one surface; use one kind", name));
   return surfaces;
 }
 
 // Reads the solid cells with the original numbers of their nodes. @throws InputError
 void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& model) {
   std::map<int, std::size_t> counts;
-  visit_elements(3, [&](int, int type, const Tags& elements, const Tags&) { counts[type] += elements.size(); });
-  for (const auto& [type, count] : counts)
-    if (type != static_cast<int>(CellType::tet4) && type != static_cast<int>(CellType::tet10))
-      throw InputError(
-          fmt::format("'{}' holds {} of type '{}'; supported are tetrahedra with 4 or 10 nodes: remesh "
-                      "the body with tetrahedra",
-                      name, counted(count, "cell"), gmsh_cell_name(type)));
-  if (counts.size() > 1 || (counts.size() == 1 && !all_delivered("Tetrahedra", counts.begin()->second)))
+  std::size_t all = 0;
+  visit_elements(3, [&](int, int type, const Tags& elements, const Tags&) {
+    counts[type] += elements.size();
+    all += elements.size();
+  });
+  std::string found;
+  for (const auto& [type, count] : counts) {
+    if (!is_cell_type(type))
+      throw InputError(fmt::format("'{}' holds {} of type '{}'; supported are {}", name, counted(count, "cell"),
+                                   gmsh_cell_name(type), known_types(3)));
+    found += fmt::format("{}{} {}", found.empty() ? "" : ", ", count, cell_name(static_cast<CellType>(type)));
+  }
+  if (counts.size() > 1)
+    throw InputError(fmt::format("'{}' mixes types of cells ({}); a body has cells of one type: mesh it with one kind",
+                                 name, found));
+  if (!all_delivered({"Tetrahedra", "Hexahedra", "Prisms", "Pyramids"}, all))
     throw InputError(
-        fmt::format("'{}' mixes tetrahedra with 4 and with 10 nodes: their common faces do not fit together; "
+        fmt::format("'{}' mixes cells of order 1 and of order 2: their common faces do not fit together; "
                     "use one kind",
                     name));
   if (counts.empty()) {
     std::size_t flat = 0;
     visit_elements(2, [&](int, int, const Tags& elements, const Tags&) { flat += elements.size(); });
-    throw InputError(flat > 0 ? fmt::format("'{}' holds a surface mesh only ({}); a body needs tetrahedra: mesh its "
+    throw InputError(flat > 0 ? fmt::format("'{}' holds a surface mesh only ({}); a body needs solid cells: mesh its "
                                             "volume",
                                             name, counted(flat, "cell"))
                               : fmt::format("'{}' holds no cells", name));
@@ -148,9 +170,9 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
     if (number[i] >= 0) model.points.col(number[i]) = points.col(i);
   for (Eigen::Index i = 0; i < model.solids.nodes.size(); ++i)
     model.solids.nodes.data()[i] = number[model.solids.nodes.data()[i]];
-  for (auto& [entity, triangles] : model.surfaces)
-    for (Triangle& triangle : triangles)
-      for (int& node : triangle) node = number[node];
+  for (auto& [entity, cells] : model.surfaces)
+    for (FaceCorners& face : cells)
+      for (int& node : face) node = number[node];
 }
 
 }  // namespace
@@ -219,20 +241,20 @@ ExtractedModel extract_model(GmshSession& session, const std::string& name, doub
   session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres, name);
     read_solids(nodes, name, model);
-    model.surfaces = read_triangles(nodes, name);
+    model.surfaces = read_surface_cells(nodes, name);
     model.groups = physical_groups();
     drop_unused_nodes(nodes.points, model);
   });
   return model;
 }
 
-std::map<int, std::vector<Triangle>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
-                                                      Eigen::Matrix3Xd& points) {
-  std::map<int, std::vector<Triangle>> surfaces;
+std::map<int, std::vector<FaceCorners>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
+                                                         Eigen::Matrix3Xd& points) {
+  std::map<int, std::vector<FaceCorners>> surfaces;
   session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres, name);
     points = nodes.points;
-    surfaces = read_triangles(nodes, name);
+    surfaces = read_surface_cells(nodes, name);
   });
   return surfaces;
 }

@@ -43,17 +43,17 @@ namespace {
   throw InputError(subject, fmt::format("'{}' is not a physical {} of the geometry{}", name, kind, advice));
 }
 
-// Faces of solid cells that are the triangles of an entity.
-std::vector<int> faces_of(const std::vector<Triangle>& triangles, const FaceTable& faces, const std::string& group) {
+// Faces of solid cells that are the surface cells of an entity.
+std::vector<int> faces_of(const std::vector<FaceCorners>& cells, const FaceTable& faces, const std::string& group) {
   std::vector<int> found;
-  for (const Triangle& triangle : triangles) {
-    const std::optional<int> face =
-        triangle[0] < 0 || triangle[1] < 0 || triangle[2] < 0 ? std::nullopt : faces.find(triangle);
+  for (const FaceCorners& cell : cells) {
+    const bool is_loose = std::any_of(cell.begin(), cell.end(), [](int node) { return node < 0; });
+    const std::optional<int> face = is_loose ? std::nullopt : faces.find(cell);
     if (!face)
       throw InputError(
-          fmt::format("surface group '{}' holds a triangle that is no face of a solid cell: shells and loose "
+          fmt::format("surface group '{}' holds a {} that is no face of a solid cell: shells and loose "
                       "surfaces are not reduced",
-                      group));
+                      group, cell.size() == 3 ? "triangle" : "quadrilateral"));
     found.push_back(*face);
   }
   return found;
@@ -87,9 +87,9 @@ std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& reques
         selected.insert(selected.end(), of_group.begin(), of_group.end());
         continue;
       }
-      const std::vector<int> triangles = about(
-          selection.subject, [&] { return select_triangles(std::get<ShapeSelector>(selector), mesh.points, surface); });
-      for (int triangle : triangles) selected.push_back(surface.faces[triangle]);
+      const std::vector<int> cells = about(
+          selection.subject, [&] { return select_cells(std::get<ShapeSelector>(selector), mesh.points, surface); });
+      for (int cell : cells) selected.push_back(surface.faces[cell]);
     }
     result[selection.group] = selected;
   }
@@ -141,22 +141,33 @@ void add_surface_groups(const MeshRequest& request, const ExtractedModel& model,
 }
 
 void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, const FaceTable& faces, Mesh& mesh) {
-  std::map<int, int> cell_of;  // face -> surface cell
+  std::map<CellType, std::map<int, int>> cells;  // of each type: face -> surface cell
   for (const auto& [name, members] : groups)
-    for (int face : members) cell_of.emplace(face, 0);
-  CellBlock block{faces.type(), Eigen::MatrixXi(node_count(faces.type()), cell_of.size())};
-  int next = 0;
-  for (auto& [face, cell] : cell_of) {
-    cell = next++;
-    block.nodes.col(cell) = faces.nodes(face);
+    for (int face : members) cells[faces.type(face)].emplace(face, 0);
+  std::map<CellType, CellBlock> blocks;
+  for (auto& [type, of_type] : cells) {
+    CellBlock block{type, Eigen::MatrixXi(node_count(type), static_cast<Eigen::Index>(of_type.size()))};
+    int next = 0;
+    for (auto& [face, cell] : of_type) {
+      cell = next++;
+      block.nodes.col(cell) = faces.nodes(face);
+    }
+    blocks.emplace(type, std::move(block));
   }
   for (const auto& [name, members] : groups) {
     if (members.empty()) continue;
-    std::vector<int> cells;
-    for (int face : members) cells.push_back(cell_of.at(face));
-    mesh.groups[name] = group_of(block, std::move(cells));
+    std::map<CellType, std::vector<int>> of_group;
+    for (int face : members) of_group[faces.type(face)].push_back(cells.at(faces.type(face)).at(face));
+    Group group{2, {}, {}};
+    for (auto& [type, list] : of_group) {
+      const Group part = group_of(blocks.at(type), std::move(list));
+      group.parts.push_back(part.parts.front());
+      group.nodes.insert(group.nodes.end(), part.nodes.begin(), part.nodes.end());
+    }
+    sort_unique(group.nodes);
+    mesh.groups[name] = std::move(group);
   }
-  if (block.nodes.cols() > 0) mesh.blocks.push_back(std::move(block));
+  for (auto& [type, block] : blocks) mesh.blocks.push_back(std::move(block));
 }
 
 }  // namespace bielle::reduce

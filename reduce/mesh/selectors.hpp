@@ -1,4 +1,4 @@
-// Selection of surfaces by shape: the triangles on a cylinder, on a plane or in a box.
+// Selection of surfaces by shape: the faces on a cylinder, on a plane or in a box.
 #pragma once
 
 #include <string>
@@ -18,15 +18,14 @@ double selection_tolerance(const Eigen::Matrix3Xd& points);
 /// Tells whether a triangle lies on (in) each of the shapes: its three corners do (mid-side nodes may be straight) and,
 /// on a cylinder or a plane, its normal is within 60 degrees of the shape's. The condition on the normal excludes a
 /// coarse disc, whose nodes all lie on its rim, from the cylinder.
-bool lies_on(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const Triangle& triangle, double tolerance);
+bool lies_on(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const FaceCorners& face, double tolerance);
 
 /// "on the cylinder with radius 0.011 m about (..) along (..) and in the box from (..) to (..)"
 std::string selector_name(const ShapeSelector& shape);
 
-/// Numbers of the triangles that a shape selects, ascending. On a geometry a shape selects whole surfaces: those whose
-/// triangles all lie on it. On a mesh it selects triangles.
+/// Numbers of the cells that a shape selects, ascending. On a geometry a shape selects whole surfaces: those whose
+/// cells all lie on it. On a mesh it selects cells.
 /// @throws InputError if there are none; it names the nearest cylinders, planes or surfaces
-std::vector<int> select_triangles(const ShapeSelector& shape, const Eigen::Matrix3Xd& points,
-                                  const BodySurface& surface);
+std::vector<int> select_cells(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface);
 
 }  // namespace bielle::reduce

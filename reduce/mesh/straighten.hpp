@@ -13,10 +13,10 @@ struct Straightening {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< new place of that node
 };
 
-/// Moves the mid-side nodes of every tet10 whose Jacobian is not provably positive to the middles of their edges, until
-/// no such element is left. Neighbours share the nodes: an element that becomes invalid by the move is straightened in
-/// turn. The process ends because straight elements are valid.
-/// @param mesh  its straight elements must have positive volume (check_elements); a mesh without tet10 is left alone
+/// Moves the nodes of every cell of order 2 whose Jacobian may not be positive (may_be_inverted), but its vertices, to
+/// the middles of its edges, until no such element is left. Neighbours share the nodes: an element that becomes invalid
+/// by the move is straightened in turn. The process ends because straight elements are valid.
+/// @param mesh  its straight elements must have positive volume (check_elements); cells of order 1 are left alone
 Straightening straighten_elements(Mesh& mesh);
 
 }  // namespace bielle::reduce

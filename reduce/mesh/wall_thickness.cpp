@@ -1,5 +1,6 @@
 #include "reduce/mesh/wall_thickness.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -11,31 +12,29 @@ namespace bielle::reduce {
 double share_one_element_thick(const Mesh& mesh) {
   const FaceTable faces(mesh);
   const Eigen::MatrixXi& cells = mesh.solids().nodes;
+  const int vertices = vertex_count(mesh.solids().type);
   const std::vector<int> boundary = faces.boundary();
   std::vector<Eigen::Vector3d> normals;  // normal of each boundary face, with twice its area as its length
   std::vector<std::vector<std::size_t>> faces_at(mesh.point_count());  // faces at each corner, as positions in
                                                                        // `boundary`
   for (std::size_t k = 0; k < boundary.size(); ++k) {
-    const std::array<int, 3> corners = faces.corners(boundary[k]);
-    const Eigen::Vector3d a = mesh.points.col(corners[0]), b = mesh.points.col(corners[1]),
-                          c = mesh.points.col(corners[2]);
-    normals.push_back((b - a).cross(c - a));
+    const FaceCorners corners = faces.corners(boundary[k]);
+    normals.push_back(twice_area(mesh.points, corners));
     for (const int corner : corners) faces_at[corner].push_back(k);
   }
   double all = 0, thin = 0;
   for (std::size_t k = 0; k < boundary.size(); ++k) {
-    const std::array<int, 3> corners = faces.corners(boundary[k]);
+    const FaceCorners corners = faces.corners(boundary[k]);
     const auto cell = cells.col(faces.cell(boundary[k]));
     const double area = normals[k].norm();
-    int opposite = -1;
-    for (int v = 0; v < 4; ++v)
-      if (cell(v) != corners[0] && cell(v) != corners[1] && cell(v) != corners[2]) opposite = cell(v);
+    bool is_thin = false;
+    for (int v = 0; v < vertices; ++v) {
+      if (std::find(corners.begin(), corners.end(), cell(v)) != corners.end()) continue;
+      for (const std::size_t other : faces_at[cell(v)])
+        is_thin = is_thin || normals[k].dot(normals[other]) < -0.5 * area * normals[other].norm();
+    }
     all += area;
-    for (const std::size_t other : faces_at[opposite])
-      if (normals[k].dot(normals[other]) < -0.5 * area * normals[other].norm()) {
-        thin += area;
-        break;
-      }
+    if (is_thin) thin += area;
   }
   return all > 0 ? thin / all : 0;
 }
