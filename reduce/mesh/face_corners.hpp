@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -13,6 +14,7 @@ namespace bielle::reduce {
 class FaceCorners {
  public:
   FaceCorners() = default;
+  FaceCorners(std::initializer_list<int> nodes) : FaceCorners(nodes.begin(), static_cast<int>(nodes.size())) {}
   /// @param nodes  of a face, corners first @param count  3 or 4
   template <class Nodes>
   FaceCorners(const Nodes& nodes, int count) : count_(static_cast<std::size_t>(count)) {

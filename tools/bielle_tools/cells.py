@@ -165,11 +165,11 @@ def face_keys(flat, faces):
 
 
 def boundary_faces(faces):
-    """The faces of `solid_faces` that belong to one cell only."""
+    """The faces of `solid_faces` that belong to one cell only, of the types that occur."""
     keys = np.concatenate([face_keys(flat, block) for flat, block in faces.items()])
     _, inverse, count = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
     once = np.split(count[inverse.ravel()] == 1, np.cumsum([len(block) for block in faces.values()])[:-1])
-    return {kind: block[alone] for (kind, block), alone in zip(faces.items(), once)}
+    return {kind: block[alone] for (kind, block), alone in zip(faces.items(), once) if alone.any()}
 
 
 def triangles_of(faces):

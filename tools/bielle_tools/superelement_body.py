@@ -39,7 +39,7 @@ class SuperelementBody:
             cells = np.asarray(_matrix(cells, cell.nodes), np.int64)
             _check_numbers(cells, len(self.points))
             self.cells[cell.name] = cells[:, permutation(cell.name, "gmsh", "vtk")]
-        if not any(len(cells) for kind, cells in self.cells.items() if kind in SOLIDS):
+        if not any(len(cells) for cells in self.cells.values()):
             raise ValueError
 
     def _read_recovery(self, recovery):
@@ -52,7 +52,8 @@ class SuperelementBody:
 
     def surface(self):
         """Boundary faces {type: (n,k)}, outward."""
-        return boundary_faces(solid_faces({kind: cells for kind, cells in self.cells.items() if kind in SOLIDS}))
+        solids = {kind: cells for kind, cells in self.cells.items() if kind in SOLIDS}
+        return boundary_faces(solid_faces(solids)) if solids else self.cells  # a file that keeps the skin alone
 
     def local_displacement(self, q):
         """(...,p,3) displacement of every node in the body's frame [m]; nodes without recovery stay at rest. q: (...,n)."""

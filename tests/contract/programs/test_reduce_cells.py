@@ -1,0 +1,140 @@
+"""bielle-reduce with solid cells of every type: one bar, meshed with each, is the same body."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+import h5py
+import numpy as np
+
+from command import PROGRAMS, CommandTest
+
+REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
+sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
+import cell_decks  # noqa: E402
+
+TOOLS, MECHANISM = os.path.join(REPOSITORY, "tools"), os.path.join(PROGRAMS, "bielle-mechanism")
+BODY = """\
+body: bar
+geometry: {name}.msh
+materials: {{steel: {{young: 210e9, poisson: 0.3, density: 7850}}}}
+regions: {{all: steel}}
+interfaces:
+  left: {{surface: {{plane: {{point: [0, 0, 0], normal: [1, 0, 0]}}}}, tie: average}}
+  right: {{surface: {{plane: {{point: [0.6, 0, 0], normal: [1, 0, 0]}}}}, tie: average}}
+modes: {{count: 4}}
+loads: {{snow: {{surface: {{plane: {{point: [0, 0, 0.1], normal: [0, 0, 1]}}}}, pressure: 1e5}}}}
+recovery: {{displacement: {kept}, stress: {kept}}}
+"""
+MODEL = """\
+nodes: {tip: {position: [0.6, 0.1, 0.05]}}
+elements: {bar: {type: superelement, file: NAME.h5, nodes: {right: tip}}}
+joints: {clamp: {type: rigid, nodes: [ground, bar.left]}}
+loads: {pull: {node: tip, force: [1e6, 0, 0]}}
+analysis: [{type: static}]
+output: {fields: {bar: [von_mises]}}
+"""
+
+
+class Cells(CommandTest):
+    program = "bielle-reduce"
+
+    def mesh(self, name, kinds, order):
+        box = cell_decks.Box(kinds, order)
+        self.write(name + ".inp", box.abaqus())
+        done = self.run_tool("convert_mesh.py", name + ".inp", name + ".msh")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def run_tool(self, tool, *arguments):
+        return self.run_other(os.path.join(TOOLS, tool), *arguments)
+
+    def run_other(self, path, *arguments):
+        return subprocess.run([path, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300)
+
+    def reduced(self, name, kept="all"):
+        self.write(name + ".yaml", BODY.format(name=name, kept=kept))
+        done = self.run_program(name + ".yaml", "-o", name + ".h5", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return h5py.File(self.path(name + ".h5"))
+
+    def test_every_type_makes_the_same_body(self):
+        """The reduction checks itself; types of order 2 agree on the first bending frequency, hex8 nearly so."""
+        within = {"tetra1": 0.5, "wedge1": 0.05, "pyramid1": 0.2, "hexahedron1": 0.02}
+        first = {}
+        for kind in cell_decks.TYPES:
+            for order in (1, 2):
+                name = f"{kind}{order}"
+                self.mesh(name, (kind,) * 12, order)
+                with self.reduced(name) as file:
+                    self.assertAlmostEqual(float(file["mass_properties/mass"][()]) / (7850 * cell_decks.VOLUME), 1, delta=1e-12)
+                    first[name] = float(file["adequacy/free_frequencies"][0])
+                    locks = name in ("tetra1", "wedge1", "pyramid1")
+                    self.assertEqual(float(file["adequacy/element_order"][()]), 1 if locks else 2)
+        for name, frequency in first.items():
+            with self.subTest(name):
+                self.assertAlmostEqual(frequency / first["hexahedron2"], 1, delta=within.get(name, 0.002))
+                self.assertGreater(frequency, 0.999 * first["hexahedron2"])
+
+    def test_stress_of_a_pulled_bar(self):
+        for kind in cell_decks.TYPES:
+            name = kind + "2"
+            with self.subTest(name):
+                self.mesh(name, (kind,) * 12, 2)
+                self.reduced(name).close()
+                self.write("model.yaml", MODEL.replace("NAME", name))
+                done = self.run_other(MECHANISM, "model.yaml", "-o", "run.h5", "--quiet")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(self.run_tool("bielle-paraview", "run.h5", "-o", "figures").returncode, 0)
+                with h5py.File(self.path("run.h5")) as file:
+                    stress = np.array(file["analysis_1/elements/bar/von_mises"])[-1]
+                # Away from the ends: force over area.
+                self.assertAlmostEqual(np.median(stress) / (1e6 / cell_decks.SIDE), 1, delta=0.02)
+
+    def test_a_file_that_keeps_the_skin_alone_is_drawn(self):
+        self.mesh("wedge2", ("wedge",) * 6, 2)
+        with self.reduced("wedge2", kept="surface") as file:
+            self.assertEqual(set(file["mesh/cells"]), {"9", "16"})  # triangles and quadrilaterals
+        self.write("model.yaml", MODEL.replace("NAME", "wedge2"))
+        self.assertEqual(self.run_other(MECHANISM, "model.yaml", "-o", "run.h5", "--quiet").returncode, 0)
+        done = self.run_tool("bielle-paraview", "run.h5", "-o", "figures")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_pieces_of_hexahedra(self):
+        self.mesh("hexahedron2", ("hexahedron",) * 12, 2)
+        self.write("cut.yaml", BODY.format(name="hexahedron2", kept="all").replace("loads:", "# loads:") +
+                   "pieces: {planes: {point: [0.3, 0, 0], normal: [1, 0, 0]}}\n")
+        done = self.run_program("cut.yaml", "-o", "cut.h5", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.path("cut.h5")) as file:
+            self.assertEqual(len(file["pieces"]), 2)
+
+    def test_mixed_cells_are_refused_with_their_numbers(self):
+        self.mesh("mixed", ("hexahedron", "wedge", "wedge"), 1)
+        self.write("mixed.yaml", BODY.format(name="mixed", kept="all"))
+        self.expect_refusal(1, "mixed.yaml", "-o", "mixed.h5", says=("mixed.yaml:2: geometry", "4 hex8", "16 wedge6"))
+
+    def test_inverted_cells_are_named(self):
+        box = cell_decks.Box(("hexahedron",) * 2, 1)
+        middle = next(k for k, x in enumerate(box.points) if np.allclose(x, [0.3, 0, 0.05]))
+        box.points[middle] = np.array([0.95, 0, 0.05])
+        self.write("bad.msh", gmsh_text(box))
+        self.write("bad.yaml", BODY.format(name="bad", kept="all"))
+        self.expect_refusal(1, "bad.yaml", "-o", "bad.h5", says=("inverted",))
+
+
+def gmsh_text(box):
+    """A file of gmsh's format 2.2 with hexahedra of order 1."""
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(box.points))]
+    lines += [f"{k} {x[0]} {x[1]} {x[2]}" for k, x in enumerate(box.points, 1)]
+    lines += ["$EndNodes", "$Elements", str(len(box.shapes))]
+    lines += [f"{k} 5 2 1 1 " + " ".join(str(n + 1) for n in corners) for k, (_, corners) in enumerate(box.shapes, 1)]
+    return "\n".join(lines + ["$EndElements", ""])
+
+
+if __name__ == "__main__":
+    unittest.main()
