@@ -22,10 +22,11 @@ using Sides = std::vector<bool>;  // for each plane, whether a cell is on the si
 
 std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>& planes) {
   const Eigen::MatrixXi& nodes = mesh.solids().nodes;
+  const int vertices = vertex_count(mesh.solids().type);
   std::vector<Sides> sides;
   for (Eigen::Index e = 0; e < nodes.cols(); ++e) {
     Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 4; ++k) centroid += mesh.points.col(nodes(k, e)) / 4;
+    for (int k = 0; k < vertices; ++k) centroid += mesh.points.col(nodes(k, e)) / vertices;
     Sides of_cell;
     for (const CutPlane& plane : planes) of_cell.push_back(plane.normal.dot(centroid - plane.point) > 0);
     sides.push_back(of_cell);
@@ -37,11 +38,12 @@ std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>&
 std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& sides) {
   const Eigen::MatrixXi& nodes = mesh.solids().nodes;
   const int count = static_cast<int>(nodes.cols());
+  const int vertices = vertex_count(mesh.solids().type);
   DisjointSets sets(count);
   std::map<Sides, std::vector<int>> first_cells;  // first cells of each node, by their sides
   for (int e = 0; e < count; ++e) {
     std::vector<int>& first = first_cells.try_emplace(sides[e], mesh.point_count(), -1).first->second;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < vertices; ++k) {
       int& cell = first[nodes(k, e)];
       if (cell < 0) cell = e;
       sets.join(e, cell);
@@ -57,9 +59,10 @@ std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& si
 // to one neighbour is no piece and is joined to that neighbour.
 void join_islands(const Mesh& mesh, std::vector<int>& pieces) {
   const Eigen::MatrixXi& nodes = mesh.solids().nodes;
+  const int vertices = vertex_count(mesh.solids().type);
   std::vector<std::set<int>> at_node(mesh.point_count());
   for (Eigen::Index e = 0; e < nodes.cols(); ++e)
-    for (int k = 0; k < 4; ++k) at_node[nodes(k, e)].insert(pieces[e]);
+    for (int k = 0; k < vertices; ++k) at_node[nodes(k, e)].insert(pieces[e]);
   std::map<int, std::set<int>> around;  // piece -> those that have all its corners
   for (const std::set<int>& here : at_node)
     for (const int piece : here) {
@@ -156,7 +159,7 @@ int cell_at(const Mesh& mesh, const FaceTable& faces, const std::string& group) 
   if (found == mesh.groups.end() || found->second.parts.empty()) return 0;
   const GroupPart& part = found->second.parts.front();
   const Eigen::MatrixXi& nodes = mesh.block(part.type)->nodes;
-  const auto face = faces.find({nodes(0, part.cells[0]), nodes(1, part.cells[0]), nodes(2, part.cells[0])});
+  const auto face = faces.find(corners_of(part.type, nodes.col(part.cells[0])));
   return face ? faces.cell(*face) : 0;
 }
 

@@ -233,8 +233,8 @@ std::string mesh_text(GmshSession& session, const SourceFile& source) {
     if (group.dimension == 2)
       for (int entity : group.entities)
         if (const auto found = model.surfaces.find(entity); found != model.surfaces.end())
-          for (const Triangle& triangle : found->second)
-            if (const auto face = faces.find(triangle)) groups_of_face[*face].insert(group.name);
+          for (const Corners& cell : found->second)
+            if (const auto face = faces.find(cell)) groups_of_face[*face].insert(group.name);
   std::vector<SurfaceEntry> entries;
   int number = 0;
   for (const Patch& patch : find_patches(mesh.points, surface)) {
@@ -247,8 +247,8 @@ std::string mesh_text(GmshSession& session, const SourceFile& source) {
                        patch.box,
                        ""};
     std::set<std::string> names;
-    for (int triangle : patch.triangles)
-      if (const auto found = groups_of_face.find(surface.faces[triangle]); found != groups_of_face.end())
+    for (int side : patch.sides)
+      if (const auto found = groups_of_face.find(surface.faces[side]); found != groups_of_face.end())
         names.insert(found->second.begin(), found->second.end());
     for (const std::string& name : names) entry.groups += (entry.groups.empty() ? "" : ", ") + name;
     entries.push_back(entry);

@@ -10,23 +10,15 @@
 
 namespace bielle::reduce {
 
-namespace {
-
-// Nodes of the four sides of a tetrahedron with positive volume, outward: corners, then the mid-side nodes between them
-// in gmsh's numbering 4:(0,1) 5:(1,2) 6:(0,2) 7:(0,3) 8:(2,3) 9:(1,3).
-constexpr int sides[4][6] = {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 9, 7}, {0, 3, 2, 7, 8, 6}, {1, 2, 3, 5, 8, 9}};
-
-}  // namespace
-
 FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
+  const std::vector<CellFace>& sides = cell_info(solids_.type).faces;
   std::vector<Face> all;
-  all.reserve(4 * solids_.nodes.cols());
+  all.reserve(sides.size() * solids_.nodes.cols());
   for (int cell = 0; cell < solids_.nodes.cols(); ++cell)
-    for (int side = 0; side < 4; ++side) {
-      std::array<int, 3> key;
-      for (int k = 0; k < 3; ++k) key[k] = solids_.nodes(sides[side][k], cell);
-      std::sort(key.begin(), key.end());
-      all.push_back({key, cell, -1, side});
+    for (int side = 0; side < static_cast<int>(sides.size()); ++side) {
+      Face face{{}, cell, -1, side};
+      face.key = corners_in(face).key();
+      all.push_back(face);
     }
   std::sort(all.begin(), all.end(),
             [](const Face& a, const Face& b) { return std::tie(a.key, a.cell) < std::tie(b.key, b.cell); });
@@ -42,25 +34,25 @@ FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
   }
 }
 
-CellType FaceTable::type() const { return solids_.type == CellType::tet4 ? CellType::tri3 : CellType::tri6; }
-
 Eigen::VectorXi FaceTable::nodes(int face) const {
-  Eigen::VectorXi nodes(node_count(type()));
-  for (int k = 0; k < nodes.size(); ++k) nodes[k] = solids_.nodes(sides[faces_[face].side][k], faces_[face].cell);
-  return nodes;
+  const std::vector<int>& of_side = side_of(faces_[face]).nodes;
+  return solids_.nodes(of_side, faces_[face].cell);
 }
 
-std::array<int, 3> FaceTable::corners(int face) const {
-  const Face& f = faces_[face];
-  return {solids_.nodes(sides[f.side][0], f.cell), solids_.nodes(sides[f.side][1], f.cell),
-          solids_.nodes(sides[f.side][2], f.cell)};
+Corners FaceTable::corners(int face) const { return corners_in(faces_[face]); }
+
+Corners FaceTable::corners_in(const Face& face) const {
+  const CellFace& side = side_of(face);
+  Corners corners;
+  for (int k = 0; k < vertex_count(side.type); ++k) corners.push_back(solids_.nodes(side.nodes[k], face.cell));
+  return corners;
 }
 
-std::optional<int> FaceTable::find(std::array<int, 3> corners) const {
-  std::sort(corners.begin(), corners.end());
-  const auto found = std::lower_bound(faces_.begin(), faces_.end(), corners,
-                                      [](const Face& face, const std::array<int, 3>& key) { return face.key < key; });
-  if (found == faces_.end() || found->key != corners) return {};
+std::optional<int> FaceTable::find(const Corners& corners) const {
+  const std::array<int, 4> key = corners.key();
+  const auto found = std::lower_bound(faces_.begin(), faces_.end(), key,
+                                      [](const Face& face, const std::array<int, 4>& k) { return face.key < k; });
+  if (found == faces_.end() || found->key != key) return {};
   return static_cast<int>(found - faces_.begin());
 }
 

@@ -1,4 +1,4 @@
-// Faces of solid cells: the faces on the surface of the body, and the face that belongs to a triangle of a file.
+// Faces of solid cells: the faces on the surface of the body, and the face that belongs to a surface cell of a file.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "reduce/mesh/corners.hpp"
 #include "reduce/mesh/mesh.hpp"
 
 namespace bielle::reduce {
@@ -20,22 +21,24 @@ class FaceTable {
   explicit FaceTable(const Mesh& mesh);
 
   int size() const { return static_cast<int>(faces_.size()); }
-  CellType type() const;  ///< type of its faces: tri3 or tri6
   bool on_boundary(int face) const { return faces_[face].other < 0; }
   int cell(int face) const { return faces_[face].cell; }         ///< its (first) solid cell
   int other_cell(int face) const { return faces_[face].other; }  ///< its second one; -1 on the boundary
-  Eigen::VectorXi nodes(int face) const;       ///< corners and mid-side nodes in gmsh's order, (3) or (6)
-  std::array<int, 3> corners(int face) const;  ///< outward
+  CellType type(int face) const { return side_of(faces_[face]).type; }  ///< tri3, quad8, ...
+  Eigen::VectorXi nodes(int face) const;  ///< all its nodes in gmsh's order of its type
+  Corners corners(int face) const;        ///< three or four, outward
   /// Returns the face with these corners in any order.
-  std::optional<int> find(std::array<int, 3> corners) const;
+  std::optional<int> find(const Corners& corners) const;
   std::vector<int> boundary() const;  ///< faces of one cell only, ascending
 
  private:
   struct Face {
-    std::array<int, 3> key;  // corner nodes, ascending
+    std::array<int, 4> key;  // corner nodes, ascending; -1 behind those of a triangle
     int cell, other;
-    int side;  // side of the first cell, 0..3
+    int side;  // side of the first cell
   };
+  const CellFace& side_of(const Face& face) const { return cell_info(solids_.type).faces[face.side]; }
+  Corners corners_in(const Face& face) const;
   CellBlock solids_;
   std::vector<Face> faces_;
 };

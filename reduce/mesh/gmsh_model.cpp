@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmsh.h>
 
 #include "reduce/common/counted.hpp"
@@ -70,55 +71,114 @@ void visit_elements(int dim, const Visit& visit) {
   }
 }
 
-// gmsh returns, for one entity and shape, only the cells of the first one's order, without a message; its own count
-// reveals it.
-bool all_delivered(const char* shape, std::size_t delivered) {
-  double all = 0;
-  gmsh::option::getNumber(std::string("Mesh.Nb") + shape, all);
-  return static_cast<double>(delivered) == all;
+// A shape of cells in gmsh's count.
+struct CellShape {
+  const char* gmsh_name;
+  const char* plural;
+  int dimension, vertices;
+};
+constexpr CellShape cell_shapes[] = {{"Triangles", "triangles", 2, 3},    {"Quadrangles", "quadrilaterals", 2, 4},
+                            {"Tetrahedra", "tetrahedra", 3, 4},  {"Hexahedra", "hexahedra", 3, 8},
+                            {"Prisms", "wedges (prisms)", 3, 6}, {"Pyramids", "pyramids", 3, 5}};
+
+// "8, 20 or 27": numbers of nodes of the types of a shape.
+std::string node_counts(const CellShape& shape) {
+  std::vector<int> counts;
+  for (const CellInfo& cell : cell_table())
+    if (cell.dimension == shape.dimension && cell.vertices == shape.vertices) counts.push_back(cell.nodes);
+  const auto last = counts.end() - 1;
+  return fmt::format("{} or {}", fmt::join(counts.begin(), last, ", "), *last);
 }
 
-// @throws InputError for other cells than triangles
-std::map<int, std::vector<Triangle>> read_triangles(const Nodes& nodes, const std::string& name) {
-  std::map<int, std::vector<Triangle>> surfaces;
-  std::size_t count = 0;
+// "triangles with 3 or 6 nodes, quadrilaterals with ..": all supported types of a dimension.
+std::string supported_types(int dimension) {
+  std::vector<std::string> names;
+  for (const CellShape& shape : cell_shapes)
+    if (shape.dimension == dimension) names.push_back(fmt::format("{} with {} nodes", shape.plural, node_counts(shape)));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// "12 hex8 and 3 wedge6"
+std::string counts_text(const std::map<int, std::size_t>& counts) {
+  std::vector<std::string> names;
+  for (const auto& [type, count] : counts)
+    names.push_back(fmt::format("{} {}", count, cell_name(static_cast<CellType>(type))));
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+// @throws InputError for types that are not in the table
+void check_types(const std::map<int, std::size_t>& counts, int dimension, const std::string& name) {
+  for (const auto& [type, count] : counts)
+    if (!is_cell_type(type))
+      throw InputError(fmt::format("'{}' holds {} of type '{}', which is not supported; supported are {}", name,
+                                   counted(count, dimension == 3 ? "cell" : "surface cell"), gmsh_cell_name(type),
+                                   supported_types(dimension)));
+}
+
+// gmsh returns, for one entity and shape, only the cells of the first one's order, without a message; its own count
+// reveals it.
+// @throws InputError if cells of one shape on one entity have different numbers of nodes
+void check_all_delivered(const std::map<int, std::size_t>& counts, int dimension, const std::string& name) {
+  for (const CellShape& shape : cell_shapes) {
+    if (shape.dimension != dimension) continue;
+    std::map<int, std::size_t> of_shape;
+    std::size_t delivered = 0;
+    for (const auto& [type, count] : counts)
+      if (vertex_count(static_cast<CellType>(type)) == shape.vertices) {
+        of_shape[type] = count;
+        delivered += count;
+      }
+    double all = 0;
+    gmsh::option::getNumber(std::string("Mesh.Nb") + shape.gmsh_name, all);
+    if (static_cast<double>(delivered) == all) continue;
+    const bool two_kinds = shape.vertices == shape.dimension + 1;
+    const std::string kinds = two_kinds
+                                  ? fmt::format("with {} and with {} nodes", shape.vertices, dimension == 2 ? 6 : 10)
+                                  : "with different numbers of nodes";
+    throw InputError(fmt::format(
+        "'{}' mixes {} {} {} ({} of {} {}): {}use one kind", name, shape.plural, kinds,
+        dimension == 2 ? "on one surface" : "in one volume", counts_text(of_shape), all, all == 1 ? "cell" : "cells",
+        dimension == 3 ? "their common faces do not fit together; " : ""));
+  }
+}
+
+// Numbers of the cells of each type.
+std::map<int, std::size_t> counts_of_types(int dimension) {
+  std::map<int, std::size_t> counts;
+  visit_elements(dimension, [&](int, int type, const Tags& elements, const Tags&) { counts[type] += elements.size(); });
+  return counts;
+}
+
+// @throws InputError for cells that are not in the table
+std::map<int, std::vector<Corners>> read_surfaces(const Nodes& nodes, const std::string& name) {
+  const std::map<int, std::size_t> counts = counts_of_types(2);
+  check_types(counts, 2, name);
+  check_all_delivered(counts, 2, name);
+  std::map<int, std::vector<Corners>> surfaces;
   visit_elements(2, [&](int entity, int type, const Tags& elements, const Tags& tags) {
-    if (type != static_cast<int>(CellType::tri3) && type != static_cast<int>(CellType::tri6))
-      throw InputError(fmt::format("'{}' holds {} of type '{}'; supported are triangles with 3 or 6 nodes", name,
-                                   counted(elements.size(), "surface cell"), gmsh_cell_name(type)));
-    count += elements.size();
     const std::size_t width = tags.size() / elements.size();
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      Triangle triangle;
-      for (int k = 0; k < 3; ++k) triangle[k] = nodes.number.at(tags[e * width + k]);
-      surfaces[entity].push_back(triangle);
+      Corners corners;
+      for (int k = 0; k < vertex_count(static_cast<CellType>(type)); ++k)
+        corners.push_back(nodes.number.at(tags[e * width + k]));
+      surfaces[entity].push_back(corners);
     }
   });
-  if (!all_delivered("Triangles", count))
-    throw InputError(fmt::format("'{}' mixes triangles with 3 and with 6 nodes on one surface; use one kind", name));
   return surfaces;
 }
 
 // Reads the solid cells with the original numbers of their nodes. @throws InputError
 void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& model) {
-  std::map<int, std::size_t> counts;
-  visit_elements(3, [&](int, int type, const Tags& elements, const Tags&) { counts[type] += elements.size(); });
-  for (const auto& [type, count] : counts)
-    if (type != static_cast<int>(CellType::tet4) && type != static_cast<int>(CellType::tet10))
-      throw InputError(
-          fmt::format("'{}' holds {} of type '{}'; supported are tetrahedra with 4 or 10 nodes: remesh "
-                      "the body with tetrahedra",
-                      name, counted(count, "cell"), gmsh_cell_name(type)));
-  if (counts.size() > 1 || (counts.size() == 1 && !all_delivered("Tetrahedra", counts.begin()->second)))
-    throw InputError(
-        fmt::format("'{}' mixes tetrahedra with 4 and with 10 nodes: their common faces do not fit together; "
-                    "use one kind",
-                    name));
+  const std::map<int, std::size_t> counts = counts_of_types(3);
+  check_types(counts, 3, name);
+  check_all_delivered(counts, 3, name);
+  if (counts.size() > 1)
+    throw InputError(fmt::format("'{}' mixes types of solid cells ({}); use one type", name, counts_text(counts)));
   if (counts.empty()) {
     std::size_t flat = 0;
-    visit_elements(2, [&](int, int, const Tags& elements, const Tags&) { flat += elements.size(); });
-    throw InputError(flat > 0 ? fmt::format("'{}' holds a surface mesh only ({}); a body needs tetrahedra: mesh its "
-                                            "volume",
+    for (const auto& [type, count] : counts_of_types(2)) flat += count;
+    throw InputError(flat > 0 ? fmt::format("'{}' holds a surface mesh only ({}); a body needs tetrahedra or other "
+                                            "solid cells: mesh its volume",
                                             name, counted(flat, "cell"))
                               : fmt::format("'{}' holds no cells", name));
   }
@@ -148,9 +208,9 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
     if (number[i] >= 0) model.points.col(number[i]) = points.col(i);
   for (Eigen::Index i = 0; i < model.solids.nodes.size(); ++i)
     model.solids.nodes.data()[i] = number[model.solids.nodes.data()[i]];
-  for (auto& [entity, triangles] : model.surfaces)
-    for (Triangle& triangle : triangles)
-      for (int& node : triangle) node = number[node];
+  for (auto& [entity, cells] : model.surfaces)
+    for (Corners& corners : cells)
+      for (int& node : corners) node = number[node];
 }
 
 }  // namespace
@@ -219,20 +279,20 @@ ExtractedModel extract_model(GmshSession& session, const std::string& name, doub
   session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres, name);
     read_solids(nodes, name, model);
-    model.surfaces = read_triangles(nodes, name);
+    model.surfaces = read_surfaces(nodes, name);
     model.groups = physical_groups();
     drop_unused_nodes(nodes.points, model);
   });
   return model;
 }
 
-std::map<int, std::vector<Triangle>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
+std::map<int, std::vector<Corners>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
                                                       Eigen::Matrix3Xd& points) {
-  std::map<int, std::vector<Triangle>> surfaces;
+  std::map<int, std::vector<Corners>> surfaces;
   session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres, name);
     points = nodes.points;
-    surfaces = read_triangles(nodes, name);
+    surfaces = read_surfaces(nodes, name);
   });
   return surfaces;
 }

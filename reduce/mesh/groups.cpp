@@ -43,17 +43,16 @@ namespace {
   throw InputError(subject, fmt::format("'{}' is not a physical {} of the geometry{}", name, kind, advice));
 }
 
-// Faces of solid cells that are the triangles of an entity.
-std::vector<int> faces_of(const std::vector<Triangle>& triangles, const FaceTable& faces, const std::string& group) {
+// Faces of solid cells that are the surface cells of an entity.
+std::vector<int> faces_of(const std::vector<Corners>& cells, const FaceTable& faces, const std::string& group) {
   std::vector<int> found;
-  for (const Triangle& triangle : triangles) {
-    const std::optional<int> face =
-        triangle[0] < 0 || triangle[1] < 0 || triangle[2] < 0 ? std::nullopt : faces.find(triangle);
+  for (const Corners& cell : cells) {
+    const std::optional<int> face = cell.contains(-1) ? std::nullopt : faces.find(cell);
     if (!face)
       throw InputError(
-          fmt::format("surface group '{}' holds a triangle that is no face of a solid cell: shells and loose "
+          fmt::format("surface group '{}' holds a {} that is no face of a solid cell: shells and loose "
                       "surfaces are not reduced",
-                      group));
+                      group, cell.size() == 3 ? "triangle" : "quadrilateral"));
     found.push_back(*face);
   }
   return found;
@@ -62,6 +61,14 @@ std::vector<int> faces_of(const std::vector<Triangle>& triangles, const FaceTabl
 void sort_unique(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// Adds the cells and nodes of a group of the same dimension.
+void add_part(Group& group, Group other) {
+  group.dimension = other.dimension;
+  group.parts.insert(group.parts.end(), other.parts.begin(), other.parts.end());
+  group.nodes.insert(group.nodes.end(), other.nodes.begin(), other.nodes.end());
+  sort_unique(group.nodes);
 }
 
 // Faces of every surface group of the requested mesh, by name.
@@ -87,9 +94,9 @@ std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& reques
         selected.insert(selected.end(), of_group.begin(), of_group.end());
         continue;
       }
-      const std::vector<int> triangles = about(
-          selection.subject, [&] { return select_triangles(std::get<ShapeSelector>(selector), mesh.points, surface); });
-      for (int triangle : triangles) selected.push_back(surface.faces[triangle]);
+      const std::vector<int> sides = about(
+          selection.subject, [&] { return select_sides(std::get<ShapeSelector>(selector), mesh.points, surface); });
+      for (int side : sides) selected.push_back(surface.faces[side]);
     }
     result[selection.group] = selected;
   }
@@ -141,22 +148,28 @@ void add_surface_groups(const MeshRequest& request, const ExtractedModel& model,
 }
 
 void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, const FaceTable& faces, Mesh& mesh) {
-  std::map<int, int> cell_of;  // face -> surface cell
+  std::map<CellType, std::map<int, int>> cells_of;  // face -> surface cell of its type
   for (const auto& [name, members] : groups)
-    for (int face : members) cell_of.emplace(face, 0);
-  CellBlock block{faces.type(), Eigen::MatrixXi(node_count(faces.type()), cell_of.size())};
-  int next = 0;
-  for (auto& [face, cell] : cell_of) {
-    cell = next++;
-    block.nodes.col(cell) = faces.nodes(face);
+    for (int face : members) cells_of[faces.type(face)].emplace(face, 0);
+  std::map<CellType, CellBlock> blocks;
+  for (auto& [type, cell_of] : cells_of) {
+    CellBlock block{type, Eigen::MatrixXi(node_count(type), cell_of.size())};
+    int next = 0;
+    for (auto& [face, cell] : cell_of) {
+      cell = next++;
+      block.nodes.col(cell) = faces.nodes(face);
+    }
+    blocks[type] = std::move(block);
   }
   for (const auto& [name, members] : groups) {
     if (members.empty()) continue;
-    std::vector<int> cells;
-    for (int face : members) cells.push_back(cell_of.at(face));
-    mesh.groups[name] = group_of(block, std::move(cells));
+    std::map<CellType, std::vector<int>> cells;
+    for (int face : members) cells[faces.type(face)].push_back(cells_of.at(faces.type(face)).at(face));
+    Group group;
+    for (auto& [type, of_type] : cells) add_part(group, group_of(blocks.at(type), std::move(of_type)));
+    mesh.groups[name] = std::move(group);
   }
-  if (block.nodes.cols() > 0) mesh.blocks.push_back(std::move(block));
+  for (auto& [type, block] : blocks) mesh.blocks.push_back(std::move(block));
 }
 
 }  // namespace bielle::reduce

@@ -1,7 +1,9 @@
-// The Jacobian of second-order tetrahedra, which tells whether a curved element is inverted anywhere.
+// The Jacobian of cells, which tells whether an element is inverted, its volume and its quality.
 #pragma once
 
 #include <Eigen/Core>
+
+#include "reduce/mesh/cell_type.hpp"
 
 namespace bielle::reduce {
 
@@ -21,8 +23,23 @@ double straight_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 /// @param nodes  (3,10) in gmsh's order
 Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
-/// Scaled Jacobian of a straight tetrahedron: the least over its corners of sqrt(2) det / (product of the three edges
-/// that meet there); 1 for the regular one, 0 for a flat one.
-double scaled_jacobian(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
+/// The type of the same shape with nodes at the vertices alone.
+CellType straight_type(CellType type);
+
+/// det(dx/dxi) [m^3] at the places at which a cell is checked: of tetrahedra of order 1 the constant value, of those of
+/// order 2 the Bernstein coefficients. Of other shapes they are the nodes of the type of order 2 that has the most (of
+/// a pyramid except the apex, where the gradients do not exist) and the points of a rule of degree 4. The straight cell
+/// and the curved one are checked at the same places: a straight cell that passes does so as a cell of order 2, too.
+/// @param nodes  (3, nodes of the type or more)
+Eigen::VectorXd checked_determinants(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
+
+/// Volume of a cell, straight or curved; exact up to rounding [m^3].
+double cell_volume(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
+
+/// Quality of a cell with straight edges: the least over its corners of c det / (product of the lengths), det and
+/// product of three edges that meet there. The factor c makes it 1 for the regular cell: sqrt(2) for tetrahedra, 1 for
+/// hexahedra (cube), 2/sqrt(3) for wedges (equilateral triangles and squares), sqrt(2) for pyramids (all edges equal;
+/// at the apex, all four triples of its edges). It is 0 for a flat corner and negative for an inverted one.
+double scaled_jacobian(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
 }  // namespace bielle::reduce

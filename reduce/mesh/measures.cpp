@@ -19,7 +19,7 @@ double mesh_volume(const Mesh& mesh) {
   double volume = 0;
   for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
     const Eigen::Matrix3Xd x = mesh.points(Eigen::all, block.nodes.col(e));
-    volume += (block.type == CellType::tet10 ? determinant_coefficients(x).mean() : straight_determinant(x)) / 6;
+    volume += cell_volume(block.type, x);
   }
   return volume;
 }

@@ -11,7 +11,7 @@ SurfaceFaces surface_faces(const Mesh& mesh, const FaceTable& faces) {
     for (const GroupPart& part : group.parts) {
       const Eigen::MatrixXi& nodes = mesh.block(part.type)->nodes;
       for (const int cell : part.cells)
-        if (const auto face = faces.find({nodes(0, cell), nodes(1, cell), nodes(2, cell)}))
+        if (const auto face = faces.find(corners_of(part.type, nodes.col(cell))))
           result[name].push_back(*face);
     }
   }
@@ -54,7 +54,7 @@ void MeshExtraction::add_surfaces(const FaceTable& faces, const SurfaceFaces& su
   const FaceTable own(part_.mesh);
   SurfaceFaces groups;
   const auto add = [&](const std::string& name, int face) {
-    std::array<int, 3> corners = faces.corners(face);
+    Corners corners = faces.corners(face);
     for (int& node : corners) node = number_in_part_[node];
     groups[name].push_back(own.find(corners).value());
   };

@@ -15,38 +15,38 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr double least_cosine = 0.5;  // between the normals of a triangle and of the shape on which it lies
+constexpr double least_cosine = 0.5;  // between the normals of a side and of the shape on which it lies
 
-Eigen::Vector3d normal_of(const Eigen::Matrix3Xd& points, const Triangle& t) {
-  return (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0])).normalized();
+Eigen::Vector3d normal_of(const Eigen::Matrix3Xd& points, const Corners& side) {
+  return area_vector(points, side).normalized();
 }
 
 Eigen::Vector3d radial_part(const Eigen::Vector3d& from_axis, const Eigen::Vector3d& axis) {
   return from_axis - axis * axis.dot(from_axis);
 }
 
-bool lies_on_shape(const CylinderSelector& cylinder, const Eigen::Matrix3Xd& points, const Triangle& triangle,
+bool lies_on_shape(const CylinderSelector& cylinder, const Eigen::Matrix3Xd& points, const Corners& side,
                    double tolerance) {
   const Eigen::Vector3d axis = cylinder.axis.normalized();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (int node : triangle) {
+  for (int node : side) {
     const Eigen::Vector3d radial = radial_part(points.col(node) - cylinder.point, axis);
     if (std::abs(radial.norm() - cylinder.radius) > tolerance) return false;
-    middle += radial / 3;
+    middle += radial / side.size();
   }
-  return std::abs(normal_of(points, triangle).dot(middle.normalized())) > least_cosine;
+  return std::abs(normal_of(points, side).dot(middle.normalized())) > least_cosine;
 }
 
-bool lies_on_shape(const PlaneSelector& plane, const Eigen::Matrix3Xd& points, const Triangle& triangle,
+bool lies_on_shape(const PlaneSelector& plane, const Eigen::Matrix3Xd& points, const Corners& side,
                    double tolerance) {
   const Eigen::Vector3d normal = plane.normal.normalized();
-  for (int node : triangle)
+  for (int node : side)
     if (std::abs(normal.dot(points.col(node) - plane.point)) > tolerance) return false;
-  return std::abs(normal_of(points, triangle).dot(normal)) > least_cosine;
+  return std::abs(normal_of(points, side).dot(normal)) > least_cosine;
 }
 
-bool lies_on_shape(const BoxSelector& box, const Eigen::Matrix3Xd& points, const Triangle& triangle, double tolerance) {
-  for (int node : triangle) {
+bool lies_on_shape(const BoxSelector& box, const Eigen::Matrix3Xd& points, const Corners& side, double tolerance) {
+  for (int node : side) {
     const Eigen::Array3d x = points.col(node).array();
     if ((x < box.low.array() - tolerance).any() || (x > box.high.array() + tolerance).any()) return false;
   }
@@ -59,10 +59,10 @@ double selection_tolerance(const Eigen::Matrix3Xd& points) {
   return 1e-4 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
 }
 
-bool lies_on(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const Triangle& triangle, double tolerance) {
-  return (!shape.cylinder || lies_on_shape(*shape.cylinder, points, triangle, tolerance)) &&
-         (!shape.plane || lies_on_shape(*shape.plane, points, triangle, tolerance)) &&
-         (!shape.box || lies_on_shape(*shape.box, points, triangle, tolerance));
+bool lies_on(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const Corners& side, double tolerance) {
+  return (!shape.cylinder || lies_on_shape(*shape.cylinder, points, side, tolerance)) &&
+         (!shape.plane || lies_on_shape(*shape.plane, points, side, tolerance)) &&
+         (!shape.box || lies_on_shape(*shape.box, points, side, tolerance));
 }
 
 std::string selector_name(const ShapeSelector& shape) {
@@ -78,14 +78,14 @@ std::string selector_name(const ShapeSelector& shape) {
   return fmt::format("{}", fmt::join(names, " and "));
 }
 
-std::vector<int> select_triangles(const ShapeSelector& shape, const Eigen::Matrix3Xd& points,
+std::vector<int> select_sides(const ShapeSelector& shape, const Eigen::Matrix3Xd& points,
                                   const BodySurface& surface) {
   const double tolerance = selection_tolerance(points);
-  const int count = static_cast<int>(surface.triangles.size());
+  const int count = static_cast<int>(surface.sides.size());
   std::vector<char> inside(count);
-  std::map<int, bool> whole;  // surface of the geometry -> all its triangles lie on the shape
+  std::map<int, bool> whole;  // surface of the geometry -> all its sides lie on the shape
   for (int i = 0; i < count; ++i) {
-    inside[i] = lies_on(shape, points, surface.triangles[i], tolerance);
+    inside[i] = lies_on(shape, points, surface.sides[i], tolerance);
     if (!surface.geometry) continue;
     const auto entry = whole.emplace(surface.entities[i], true).first;
     entry->second = entry->second && inside[i];

@@ -66,7 +66,7 @@ void measure_frequencies(const FullModel& model, const Superelement& body, RowMa
 Adequacy measure_adequacy(const FullModel& model, const Superelement& body, const RowMatrix& load_fields, int threads) {
   Adequacy result;
   result.next_mode = model.basis.next ? std::sqrt(*model.basis.next) / hertz : 0;
-  result.order = model.solid.type == CellType::tet4 ? 1 : 2;
+  result.order = cell_info(model.solid.type).order;
   result.one_element_thick = share_one_element_thick(model.solid.mesh);
   result.least_jacobian = mesh_quality(model.solid.mesh).least_scaled_jacobian;
   for (std::size_t i = 0; i < model.ties.interfaces.size(); ++i)

@@ -1,5 +1,6 @@
 #include "reduce/reduction/recovery.hpp"
 
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -21,12 +22,17 @@ SuperelementMesh kept_mesh(const Solid& solid, const std::vector<int>& points, b
   }
   if (skin) {
     const FaceTable faces(solid.mesh);
-    const std::vector<int> boundary = faces.boundary();
-    Eigen::MatrixXi cells(node_count(faces.type()), boundary.size());
-    for (std::size_t f = 0; f < boundary.size(); ++f) {
-      cells.col(static_cast<Eigen::Index>(f)) = faces.nodes(boundary[f]).unaryExpr([&](int a) { return number[a]; });
+    std::map<CellType, std::vector<int>> of_type;
+    for (const int face : faces.boundary()) {
+      of_type[faces.type(face)].push_back(face);
     }
-    result.cells[static_cast<int>(faces.type())] = std::move(cells);
+    for (const auto& [type, boundary] : of_type) {
+      Eigen::MatrixXi cells(node_count(type), boundary.size());
+      for (std::size_t f = 0; f < boundary.size(); ++f) {
+        cells.col(static_cast<Eigen::Index>(f)) = faces.nodes(boundary[f]).unaryExpr([&](int a) { return number[a]; });
+      }
+      result.cells[static_cast<int>(type)] = std::move(cells);
+    }
   } else {
     for (const CellBlock& block : solid.mesh.blocks) {
       result.cells[static_cast<int>(block.type)] = block.nodes;

@@ -27,7 +27,7 @@ struct Interface {
 struct SuperelementMesh {
   Eigen::Matrix3Xd points;  ///< [m]
   std::map<int, Eigen::MatrixXi>
-      cells;  ///< by gmsh element type (4 tet4, 11 tet10, 2 tri3, 9 tri6): nodes per cell x cells
+      cells;  ///< by gmsh element type (4 tet4, 17 hex20, 9 tri6, ...): nodes per cell x cells
   std::map<std::string, std::vector<int>> groups;  ///< nodes of each physical group, ascending
 };
 
