@@ -78,8 +78,8 @@ struct CellShape {
   int dimension, vertices;
 };
 constexpr CellShape cell_shapes[] = {{"Triangles", "triangles", 2, 3},    {"Quadrangles", "quadrilaterals", 2, 4},
-                            {"Tetrahedra", "tetrahedra", 3, 4},  {"Hexahedra", "hexahedra", 3, 8},
-                            {"Prisms", "wedges (prisms)", 3, 6}, {"Pyramids", "pyramids", 3, 5}};
+                                     {"Tetrahedra", "tetrahedra", 3, 4},  {"Hexahedra", "hexahedra", 3, 8},
+                                     {"Prisms", "wedges (prisms)", 3, 6}, {"Pyramids", "pyramids", 3, 5}};
 
 // "8, 20 or 27": numbers of nodes of the types of a shape.
 std::string node_counts(const CellShape& shape) {
@@ -94,7 +94,8 @@ std::string node_counts(const CellShape& shape) {
 std::string supported_types(int dimension) {
   std::vector<std::string> names;
   for (const CellShape& shape : cell_shapes)
-    if (shape.dimension == dimension) names.push_back(fmt::format("{} with {} nodes", shape.plural, node_counts(shape)));
+    if (shape.dimension == dimension)
+      names.push_back(fmt::format("{} with {} nodes", shape.plural, node_counts(shape)));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -135,10 +136,10 @@ void check_all_delivered(const std::map<int, std::size_t>& counts, int dimension
     const std::string kinds = two_kinds
                                   ? fmt::format("with {} and with {} nodes", shape.vertices, dimension == 2 ? 6 : 10)
                                   : "with different numbers of nodes";
-    throw InputError(fmt::format(
-        "'{}' mixes {} {} {} ({} of {} {}): {}use one kind", name, shape.plural, kinds,
-        dimension == 2 ? "on one surface" : "in one volume", counts_text(of_shape), all, all == 1 ? "cell" : "cells",
-        dimension == 3 ? "their common faces do not fit together; " : ""));
+    throw InputError(fmt::format("'{}' mixes {} {} {} ({} of {} {}): {}use one kind", name, shape.plural, kinds,
+                                 dimension == 2 ? "on one surface" : "in one volume", counts_text(of_shape), all,
+                                 all == 1 ? "cell" : "cells",
+                                 dimension == 3 ? "their common faces do not fit together; " : ""));
   }
 }
 
@@ -287,7 +288,7 @@ ExtractedModel extract_model(GmshSession& session, const std::string& name, doub
 }
 
 std::map<int, std::vector<Corners>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
-                                                      Eigen::Matrix3Xd& points) {
+                                                     Eigen::Matrix3Xd& points) {
   std::map<int, std::vector<Corners>> surfaces;
   session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres, name);

@@ -26,8 +26,8 @@ struct PhysicalGroup {
 struct ExtractedModel {
   Eigen::Matrix3Xd points;  ///< [m]
   CellBlock solids{CellType::tet4, {}};
-  std::vector<std::size_t> cell_tags;             ///< gmsh's (the file's) numbers of the solid cells
-  std::map<int, std::vector<int>> volumes;        ///< entity -> its cells
+  std::vector<std::size_t> cell_tags;            ///< gmsh's (the file's) numbers of the solid cells
+  std::map<int, std::vector<int>> volumes;       ///< entity -> its cells
   std::map<int, std::vector<Corners>> surfaces;  ///< entity -> its surface cells; nodes of none of the solids: -1
   std::vector<PhysicalGroup> groups;
   std::size_t dropped_nodes = 0;
@@ -60,6 +60,6 @@ ExtractedModel extract_model(GmshSession& session, const std::string& name, doub
 
 /// Surface cells of the surfaces of a model meshed in dimension 2, and all their nodes.
 std::map<int, std::vector<Corners>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
-                                                      Eigen::Matrix3Xd& points);
+                                                     Eigen::Matrix3Xd& points);
 
 }  // namespace bielle::reduce

@@ -11,8 +11,7 @@ SurfaceFaces surface_faces(const Mesh& mesh, const FaceTable& faces) {
     for (const GroupPart& part : group.parts) {
       const Eigen::MatrixXi& nodes = mesh.block(part.type)->nodes;
       for (const int cell : part.cells)
-        if (const auto face = faces.find(corners_of(part.type, nodes.col(cell))))
-          result[name].push_back(*face);
+        if (const auto face = faces.find(corners_of(part.type, nodes.col(cell)))) result[name].push_back(*face);
     }
   }
   return result;

@@ -37,8 +37,7 @@ bool lies_on_shape(const CylinderSelector& cylinder, const Eigen::Matrix3Xd& poi
   return std::abs(normal_of(points, side).dot(middle.normalized())) > least_cosine;
 }
 
-bool lies_on_shape(const PlaneSelector& plane, const Eigen::Matrix3Xd& points, const Corners& side,
-                   double tolerance) {
+bool lies_on_shape(const PlaneSelector& plane, const Eigen::Matrix3Xd& points, const Corners& side, double tolerance) {
   const Eigen::Vector3d normal = plane.normal.normalized();
   for (int node : side)
     if (std::abs(normal.dot(points.col(node) - plane.point)) > tolerance) return false;
@@ -78,8 +77,7 @@ std::string selector_name(const ShapeSelector& shape) {
   return fmt::format("{}", fmt::join(names, " and "));
 }
 
-std::vector<int> select_sides(const ShapeSelector& shape, const Eigen::Matrix3Xd& points,
-                                  const BodySurface& surface) {
+std::vector<int> select_sides(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface) {
   const double tolerance = selection_tolerance(points);
   const int count = static_cast<int>(surface.sides.size());
   std::vector<char> inside(count);

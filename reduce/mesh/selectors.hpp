@@ -26,7 +26,6 @@ std::string selector_name(const ShapeSelector& shape);
 /// Numbers of the sides that a shape selects, ascending. On a geometry a shape selects whole surfaces: those whose
 /// sides all lie on it. On a mesh it selects sides.
 /// @throws InputError if there are none; it names the nearest cylinders, planes or surfaces
-std::vector<int> select_sides(const ShapeSelector& shape, const Eigen::Matrix3Xd& points,
-                              const BodySurface& surface);
+std::vector<int> select_sides(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface);
 
 }  // namespace bielle::reduce

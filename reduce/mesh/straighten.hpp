@@ -14,9 +14,10 @@ struct Straightening {
 };
 
 /// Moves the mid-side nodes of every second-order element whose Jacobian is not positive (of tetrahedra: not provably
-/// anywhere; of others: not at the places of checked_determinants) to the middles of their edges, those inside the faces
-/// and cells of hex27 to the means of the vertices, until no such element is left. Neighbours share the nodes: an element that becomes invalid by the move is straightened in
-/// turn. The process ends because straight elements are valid.
+/// anywhere; of others: not at the places of checked_determinants) to the middles of their edges, those inside the
+/// faces and cells of hex27 to the means of the vertices, until no such element is left. Neighbours share the nodes: an
+/// element that becomes invalid by the move is straightened in turn. The process ends because straight elements are
+/// valid.
 /// @param mesh  its straight elements must have positive volume (check_elements); elements of order 1 are left alone
 Straightening straighten_elements(Mesh& mesh);
 

@@ -13,7 +13,7 @@ double share_one_element_thick(const Mesh& mesh) {
   const Eigen::MatrixXi& cells = mesh.solids().nodes;
   const int vertices = vertex_count(mesh.solids().type);
   const std::vector<int> boundary = faces.boundary();
-  std::vector<Eigen::Vector3d> normals;  // area vector of each boundary face
+  std::vector<Eigen::Vector3d> normals;                                // area vector of each boundary face
   std::vector<std::vector<std::size_t>> faces_at(mesh.point_count());  // faces at each corner, as positions in
                                                                        // `boundary`
   for (std::size_t k = 0; k < boundary.size(); ++k) {

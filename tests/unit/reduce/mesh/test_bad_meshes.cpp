@@ -152,14 +152,17 @@ TEST_CASE("linear and quadratic tetrahedra do not mix") {
              Contains("mixes tetrahedra with 4 and with 10 nodes"));
 }
 
-TEST_CASE("quadrilaterals that are no faces, other surface cells, and triangles of two orders on one surface, are refused") {
+TEST_CASE(
+    "quadrilaterals that are no faces, other surface cells, and triangles of two orders on one surface, are refused") {
   const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
   CHECK_THAT(message_for(msh(cube, {"4 2 1 1 1 2 4 5", "3 2 9 1 1 2 3 4"}, {"2 9 \"skin\""})),
              Contains("surface group 'skin' holds a quadrilateral that is no face of a solid cell"));
-  CHECK_THAT(message_for(msh({"0 0 0", "3 0 0", "0 3 0", "0 0 3", "1 0 0", "2 0 0", "2 1 0", "1 2 0", "0 2 0", "0 1 0", "1 1 0"},
-                             {"4 2 1 1 1 2 3 4", "21 2 9 1 1 2 3 5 6 7 8 9 10 11"})),
-             Contains("holds 1 surface cell of type 'Triangle 10', which is not supported; supported are triangles with "
-                      "3 or 6 nodes, quadrilaterals with 4, 8 or 9 nodes"));
+  CHECK_THAT(
+      message_for(
+          msh({"0 0 0", "3 0 0", "0 3 0", "0 0 3", "1 0 0", "2 0 0", "2 1 0", "1 2 0", "0 2 0", "0 1 0", "1 1 0"},
+              {"4 2 1 1 1 2 3 4", "21 2 9 1 1 2 3 5 6 7 8 9 10 11"})),
+      Contains("holds 1 surface cell of type 'Triangle 10', which is not supported; supported are triangles with "
+               "3 or 6 nodes, quadrilaterals with 4, 8 or 9 nodes"));
   const std::vector<std::string> points = {"0 0 0",   "1 0 0",  "0 1 0",  "0 0 1",   ".5 0 0",
                                            ".5 .5 0", "0 .5 0", "0 0 .5", "0 .5 .5", ".5 0 .5"};
   CHECK_THAT(message_for(msh(points, {"11 2 1 1 1 2 3 4 5 6 7 8 9 10", "2 2 9 1 1 2 3", "9 2 9 1 1 3 4 7 9 8"})),
