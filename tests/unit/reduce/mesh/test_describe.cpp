@@ -76,6 +76,15 @@ TEST_CASE("a mesh is listed with cells, groups and the shapes of its surface") {
                        Contains("; in end\n"));
 }
 
+TEST_CASE("a mesh of hexahedra is listed with cells, groups and the shapes of its surface") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
+  const std::string text =
+      list(folder.file("cube.msh", msh(cube, {"5 2 1 1 1 2 3 4 5 6 7 8", "3 2 9 1 1 4 3 2"}, {"2 9 \"base\""})));
+  CHECK_THAT(text, Contains("1 Hexahedron 8\n") && Contains("8 nodes, 1 hex8, edges from 1 m to 1 m") &&
+                       Contains("patch 6: plane normal to") && Contains("; in base\n"));
+}
+
 TEST_CASE("a mesh that cannot be reduced is listed with the reason") {
   const TemporaryFolder folder;
   std::vector<std::string> points;
