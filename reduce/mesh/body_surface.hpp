@@ -1,4 +1,4 @@
-// The surface of a body as triangles, and the named surfaces of the file to which they belong.
+// The surface of a body as triangles and quadrilaterals, and the named surfaces of the file to which they belong.
 #pragma once
 
 #include <vector>
@@ -9,17 +9,18 @@
 namespace bielle::reduce {
 
 struct BodySurface {
-  std::vector<FaceCorners> cells;  ///< triangles and quadrilaterals
-  bool outward = true;             ///< whether the cells are oriented out of the body
-  std::vector<int> faces;     ///< number of each cell's face in the FaceTable; empty if there are no solid cells yet
-  std::vector<int> entities;  ///< surface of the geometry or file, one per cell; empty unless all have one
+  std::vector<Corners> sides;
+  bool outward = true;        ///< whether the sides are oriented out of the body
+  std::vector<int> faces;     ///< number of each side's face in the FaceTable; empty if there are no solid cells
+                              ///< yet
+  std::vector<int> entities;  ///< surface of the geometry or file, one per side; empty unless all have one
   bool geometry = false;      ///< whether these are surfaces of a geometry, which shapes select as a whole
 };
 
 /// The boundary faces of a mesh.
 BodySurface body_surface(const ExtractedModel& model, const FaceTable& faces, bool geometry);
 
-/// The surfaces of a geometry that is meshed in two dimensions only; the orientation of the cells is arbitrary.
-BodySurface body_surface(const std::map<int, std::vector<FaceCorners>>& surfaces);
+/// The surfaces of a geometry that is meshed in two dimensions only; the orientation of the sides is arbitrary.
+BodySurface body_surface(const std::map<int, std::vector<Corners>>& surfaces);
 
 }  // namespace bielle::reduce

@@ -19,18 +19,16 @@ namespace bielle::reduce {
 namespace {
 
 Eigen::Matrix3Xd vertices_of(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
-  return mesh.points(Eigen::all, block.nodes.col(cell).head(vertex_count(block.type)));
+  const int count = vertex_count(block.type);
+  Eigen::Matrix3Xd vertices(3, count);
+  for (int k = 0; k < count; ++k) vertices.col(k) = mesh.points.col(block.nodes(k, cell));
+  return vertices;
 }
 
-double longest_edge(CellType type, const Eigen::Matrix3Xd& x) {
+double longest_edge(const CellInfo& cell, const Eigen::Matrix3Xd& x) {
   double longest = 0;
-  for (const auto& [a, b] : cell_info(type).edges) longest = std::max(longest, (x.col(a) - x.col(b)).norm());
+  for (const auto& edge : cell.edges) longest = std::max(longest, (x.col(edge[0]) - x.col(edge[1])).norm());
   return longest;
-}
-
-/// Volume of the cell with straight edges between the vertices.
-double straight_volume(CellType type, const Eigen::Matrix3Xd& x) {
-  return vertex_count(type) == 4 ? straight_determinant(x) / 6 : cell_volume(type, straight_nodes(type, x));
 }
 
 struct Piece {
@@ -43,12 +41,13 @@ struct Piece {
 template <class Number>
 std::vector<Piece> pieces_of(const Mesh& mesh, const Number& number_of) {
   const CellBlock& block = mesh.solids();
+  const CellType straight = straight_type(block.type);
   std::map<int, Piece> numbered;
   for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
     Piece& piece = numbered[number_of(e)];
     const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
     ++piece.cells;
-    piece.volume += straight_volume(block.type, x);
+    piece.volume += cell_volume(straight, x);
     for (const auto& vertex : x.colwise()) piece.box.extend(Eigen::Vector3d(vertex));
   }
   std::vector<Piece> pieces;
@@ -90,16 +89,20 @@ std::vector<std::pair<int, int>> near_pairs(const Eigen::Matrix3Xd& points, cons
 
 void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags) {
   const CellBlock& block = mesh.solids();
-  int inverted = 0, flat = 0;
+  const CellInfo& cell = cell_info(block.type);
+  const CellType straight = straight_type(block.type);
+  int inverted = 0, mirrored = 0, flat = 0;
   Eigen::Index first_inverted = 0, first_flat = 0;
   for (Eigen::Index e = block.nodes.cols() - 1; e >= 0; --e) {
     const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
-    const double determinant = least_triple_product(block.type, x);
-    if (std::abs(determinant) <= 1e-12 * std::pow(longest_edge(block.type, x), 3)) {
+    const Eigen::VectorXd determinants = checked_determinants(straight, x);
+    const double least = determinants.minCoeff(), negligible = 1e-12 * std::pow(longest_edge(cell, x), 3);
+    if (std::abs(least) <= negligible) {
       ++flat;
       first_flat = e;
-    } else if (determinant < 0) {
+    } else if (least < 0) {
       ++inverted;
+      mirrored += determinants.maxCoeff() < 0;
       first_inverted = e;
     }
   }
@@ -107,17 +110,21 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
     const std::size_t number = cell_tags.empty() ? static_cast<std::size_t>(e) + 1 : cell_tags[e];
     return fmt::format("element {} at {}", number, place_name(vertices_of(mesh, block, e).rowwise().mean()));
   };
-  if (inverted == block.nodes.cols())
+  // The determinant of a tetrahedron is constant; other cells may be folded in a part of them only.
+  const bool constant = cell.vertices == 4;
+  if (mirrored == block.nodes.cols())
     throw InputError(fmt::format(
         "every element is inverted (negative volume): the mesh is mirrored, or its nodes are ordered otherwise; "
         "the first is {}",
         named(first_inverted)));
   if (inverted > 0)
-    throw InputError(fmt::format("{} of {} elements {} inverted (negative volume); the first is {}", inverted,
-                                 block.nodes.cols(), inverted == 1 ? "is" : "are", named(first_inverted)));
+    throw InputError(fmt::format("{} of {} elements {} inverted (negative volume{}); the first is {}", inverted,
+                                 block.nodes.cols(), inverted == 1 ? "is" : "are",
+                                 constant ? "" : ", or folded at a corner", named(first_inverted)));
   if (flat > 0)
-    throw InputError(fmt::format("{} of {} elements {} degenerate (no volume); the first is {}", flat,
-                                 block.nodes.cols(), flat == 1 ? "is" : "are", named(first_flat)));
+    throw InputError(fmt::format("{} of {} elements {} degenerate (no volume{}); the first is {}", flat,
+                                 block.nodes.cols(), flat == 1 ? "is" : "are",
+                                 constant ? "" : ", or a flat or collapsed corner", named(first_flat)));
 }
 
 void check_connected(const Mesh& mesh) {
@@ -176,12 +183,13 @@ std::string implausible_length(double metres) {
 
 MeshQuality mesh_quality(const Mesh& mesh) {
   const CellBlock& block = mesh.solids();
+  const CellInfo& cell = cell_info(block.type);
   MeshQuality quality;
   quality.shortest_edge = quality.least_scaled_jacobian = std::numeric_limits<double>::infinity();
   for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
     const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
-    for (const auto& [a, b] : cell_info(block.type).edges) {
-      const double length = (x.col(a) - x.col(b)).norm();
+    for (const auto& edge : cell.edges) {
+      const double length = (x.col(edge[0]) - x.col(edge[1])).norm();
       quality.shortest_edge = std::min(quality.shortest_edge, length);
       quality.longest_edge = std::max(quality.longest_edge, length);
     }

@@ -9,8 +9,8 @@
 
 namespace bielle::reduce {
 
-/// The edges that meet at each vertex must have a positive triple product (least_triple_product), and more than 1e-12
-/// of the longest edge cubed.
+/// The straight cell of the vertices must have a Jacobian determinant of more than 1e-12 of its longest edge cubed: of
+/// a tetrahedron its only one, of other cells at the places of `checked_determinants`.
 /// @param cell_tags  numbers of the cells in the user's file; may be empty (cells are then numbered from 1)
 /// @throws InputError: inverted or flat elements, the first by number and place
 void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags);

@@ -38,11 +38,12 @@ std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>&
 std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& sides) {
   const Eigen::MatrixXi& nodes = mesh.solids().nodes;
   const int count = static_cast<int>(nodes.cols());
+  const int vertices = vertex_count(mesh.solids().type);
   DisjointSets sets(count);
   std::map<Sides, std::vector<int>> first_cells;  // first cells of each node, by their sides
   for (int e = 0; e < count; ++e) {
     std::vector<int>& first = first_cells.try_emplace(sides[e], mesh.point_count(), -1).first->second;
-    for (int k = 0; k < vertex_count(mesh.solids().type); ++k) {
+    for (int k = 0; k < vertices; ++k) {
       int& cell = first[nodes(k, e)];
       if (cell < 0) cell = e;
       sets.join(e, cell);
@@ -58,9 +59,10 @@ std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& si
 // to one neighbour is no piece and is joined to that neighbour.
 void join_islands(const Mesh& mesh, std::vector<int>& pieces) {
   const Eigen::MatrixXi& nodes = mesh.solids().nodes;
+  const int vertices = vertex_count(mesh.solids().type);
   std::vector<std::set<int>> at_node(mesh.point_count());
   for (Eigen::Index e = 0; e < nodes.cols(); ++e)
-    for (int k = 0; k < vertex_count(mesh.solids().type); ++k) at_node[nodes(k, e)].insert(pieces[e]);
+    for (int k = 0; k < vertices; ++k) at_node[nodes(k, e)].insert(pieces[e]);
   std::map<int, std::set<int>> around;  // piece -> those that have all its corners
   for (const std::set<int>& here : at_node)
     for (const int piece : here) {
@@ -157,7 +159,7 @@ int cell_at(const Mesh& mesh, const FaceTable& faces, const std::string& group) 
   if (found == mesh.groups.end() || found->second.parts.empty()) return 0;
   const GroupPart& part = found->second.parts.front();
   const Eigen::MatrixXi& nodes = mesh.block(part.type)->nodes;
-  const auto face = faces.find(FaceCorners(nodes.col(part.cells[0]), vertex_count(part.type)));
+  const auto face = faces.find(corners_of(part.type, nodes.col(part.cells[0])));
   return face ? faces.cell(*face) : 0;
 }
 

@@ -1,8 +1,8 @@
 // Division of a mesh into pieces along planes.
 //
-// A cell belongs to the side of a plane on which its centroid lies; a piece is a connected set of cells on the same
-// sides of all planes. If the geometry was cut (cut_geometry.hpp), faces of cells lie in the planes, and so do the
-// cuts. Otherwise the cuts follow the faces of cells next to the planes.
+// A cell belongs to the side of a plane on which the mean of its corners lies; a piece is a connected set of cells on
+// the same sides of all planes. If the geometry was cut (cut_geometry.hpp), faces of cells lie in the planes, and so do
+// the cuts. Otherwise the cuts follow the faces of cells next to the planes.
 #pragma once
 
 #include <array>

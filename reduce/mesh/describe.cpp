@@ -233,7 +233,7 @@ std::string mesh_text(GmshSession& session, const SourceFile& source) {
     if (group.dimension == 2)
       for (int entity : group.entities)
         if (const auto found = model.surfaces.find(entity); found != model.surfaces.end())
-          for (const FaceCorners& cell : found->second)
+          for (const Corners& cell : found->second)
             if (const auto face = faces.find(cell)) groups_of_face[*face].insert(group.name);
   std::vector<SurfaceEntry> entries;
   int number = 0;
@@ -247,8 +247,8 @@ std::string mesh_text(GmshSession& session, const SourceFile& source) {
                        patch.box,
                        ""};
     std::set<std::string> names;
-    for (int cell : patch.cells)
-      if (const auto found = groups_of_face.find(surface.faces[cell]); found != groups_of_face.end())
+    for (int side : patch.sides)
+      if (const auto found = groups_of_face.find(surface.faces[side]); found != groups_of_face.end())
         names.insert(found->second.begin(), found->second.end());
     for (const std::string& name : names) entry.groups += (entry.groups.empty() ? "" : ", ") + name;
     entries.push_back(entry);

@@ -10,23 +10,16 @@
 
 namespace bielle::reduce {
 
-namespace {
-
-/// The corners in ascending order; the fourth one of a triangle is -1 and stays the last.
-std::array<int, 4> key_of(FaceCorners corners) {
-  std::sort(corners.begin(), corners.end());
-  return {corners[0], corners[1], corners[2], corners[3]};
-}
-
-}  // namespace
-
 FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
   const std::vector<CellFace>& sides = cell_info(solids_.type).faces;
   std::vector<Face> all;
-  all.reserve(sides.size() * static_cast<std::size_t>(solids_.nodes.cols()));
+  all.reserve(sides.size() * solids_.nodes.cols());
   for (int cell = 0; cell < solids_.nodes.cols(); ++cell)
-    for (int side = 0; side < static_cast<int>(sides.size()); ++side)
-      all.push_back({key_of(corners_of(cell, side)), cell, -1, side});
+    for (int side = 0; side < static_cast<int>(sides.size()); ++side) {
+      Face face{{}, cell, -1, side};
+      face.key = corners_in(face).key();
+      all.push_back(face);
+    }
   std::sort(all.begin(), all.end(),
             [](const Face& a, const Face& b) { return std::tie(a.key, a.cell) < std::tie(b.key, b.cell); });
   for (const Face& face : all) {
@@ -41,32 +34,25 @@ FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
   }
 }
 
-FaceCorners FaceTable::corners_of(int cell, int side) const {
-  const CellFace& face = cell_info(solids_.type).faces[static_cast<std::size_t>(side)];
-  FaceCorners corners(face.nodes, vertex_count(face.type));
-  for (int& node : corners) node = solids_.nodes(node, cell);
+Eigen::VectorXi FaceTable::nodes(int face) const {
+  const std::vector<int>& of_side = side_of(faces_[face]).nodes;
+  return solids_.nodes(of_side, faces_[face].cell);
+}
+
+Corners FaceTable::corners(int face) const { return corners_in(faces_[face]); }
+
+Corners FaceTable::corners_in(const Face& face) const {
+  const CellFace& side = side_of(face);
+  Corners corners;
+  for (int k = 0; k < vertex_count(side.type); ++k) corners.push_back(solids_.nodes(side.nodes[k], face.cell));
   return corners;
 }
 
-CellType FaceTable::type(int face) const {
-  return cell_info(solids_.type).faces[static_cast<std::size_t>(faces_[face].side)].type;
-}
-
-Eigen::VectorXi FaceTable::nodes(int face) const {
-  const std::vector<int>& side = cell_info(solids_.type).faces[static_cast<std::size_t>(faces_[face].side)].nodes;
-  Eigen::VectorXi nodes(static_cast<Eigen::Index>(side.size()));
-  for (Eigen::Index k = 0; k < nodes.size(); ++k)
-    nodes[k] = solids_.nodes(side[static_cast<std::size_t>(k)], faces_[face].cell);
-  return nodes;
-}
-
-FaceCorners FaceTable::corners(int face) const { return corners_of(faces_[face].cell, faces_[face].side); }
-
-std::optional<int> FaceTable::find(const FaceCorners& corners) const {
-  const std::array<int, 4> sorted = key_of(corners);
-  const auto found = std::lower_bound(faces_.begin(), faces_.end(), sorted,
-                                      [](const Face& face, const std::array<int, 4>& key) { return face.key < key; });
-  if (found == faces_.end() || found->key != sorted) return {};
+std::optional<int> FaceTable::find(const Corners& corners) const {
+  const std::array<int, 4> key = corners.key();
+  const auto found = std::lower_bound(faces_.begin(), faces_.end(), key,
+                                      [](const Face& face, const std::array<int, 4>& k) { return face.key < k; });
+  if (found == faces_.end() || found->key != key) return {};
   return static_cast<int>(found - faces_.begin());
 }
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "reduce/mesh/face_corners.hpp"
+#include "reduce/mesh/corners.hpp"
 #include "reduce/mesh/mesh.hpp"
 
 namespace bielle::reduce {
@@ -22,22 +22,23 @@ class FaceTable {
 
   int size() const { return static_cast<int>(faces_.size()); }
   bool on_boundary(int face) const { return faces_[face].other < 0; }
-  int cell(int face) const { return faces_[face].cell; }         ///< its (first) solid cell
-  int other_cell(int face) const { return faces_[face].other; }  ///< its second one; -1 on the boundary
-  CellType type(int face) const;
-  Eigen::VectorXi nodes(int face) const;  ///< all of its nodes, in gmsh's order for its type
-  FaceCorners corners(int face) const;    ///< outward
+  int cell(int face) const { return faces_[face].cell; }                ///< its (first) solid cell
+  int other_cell(int face) const { return faces_[face].other; }         ///< its second one; -1 on the boundary
+  CellType type(int face) const { return side_of(faces_[face]).type; }  ///< tri3, quad8, ...
+  Eigen::VectorXi nodes(int face) const;                                ///< all its nodes in gmsh's order of its type
+  Corners corners(int face) const;                                      ///< three or four, outward
   /// Returns the face with these corners in any order.
-  std::optional<int> find(const FaceCorners& corners) const;
+  std::optional<int> find(const Corners& corners) const;
   std::vector<int> boundary() const;  ///< faces of one cell only, ascending
 
  private:
   struct Face {
-    std::array<int, 4> key;  // corner nodes, ascending; the fourth one of a triangle is -1
+    std::array<int, 4> key;  // corner nodes, ascending; -1 behind those of a triangle
     int cell, other;
     int side;  // side of the first cell
   };
-  FaceCorners corners_of(int cell, int side) const;
+  const CellFace& side_of(const Face& face) const { return cell_info(solids_.type).faces[face.side]; }
+  Corners corners_in(const Face& face) const;
   CellBlock solids_;
   std::vector<Face> faces_;
 };

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmsh.h>
 
 #include "reduce/common/counted.hpp"
@@ -70,77 +71,115 @@ void visit_elements(int dim, const Visit& visit) {
   }
 }
 
+// A shape of cells in gmsh's count.
+struct CellShape {
+  const char* gmsh_name;
+  const char* plural;
+  int dimension, vertices;
+};
+constexpr CellShape cell_shapes[] = {{"Triangles", "triangles", 2, 3},    {"Quadrangles", "quadrilaterals", 2, 4},
+                                     {"Tetrahedra", "tetrahedra", 3, 4},  {"Hexahedra", "hexahedra", 3, 8},
+                                     {"Prisms", "wedges (prisms)", 3, 6}, {"Pyramids", "pyramids", 3, 5}};
+
+// "8, 20 or 27": numbers of nodes of the types of a shape.
+std::string node_counts(const CellShape& shape) {
+  std::vector<int> counts;
+  for (const CellInfo& cell : cell_table())
+    if (cell.dimension == shape.dimension && cell.vertices == shape.vertices) counts.push_back(cell.nodes);
+  const auto last = counts.end() - 1;
+  return fmt::format("{} or {}", fmt::join(counts.begin(), last, ", "), *last);
+}
+
+// "triangles with 3 or 6 nodes, quadrilaterals with ..": all supported types of a dimension.
+std::string supported_types(int dimension) {
+  std::vector<std::string> names;
+  for (const CellShape& shape : cell_shapes)
+    if (shape.dimension == dimension)
+      names.push_back(fmt::format("{} with {} nodes", shape.plural, node_counts(shape)));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// "12 hex8 and 3 wedge6"
+std::string counts_text(const std::map<int, std::size_t>& counts) {
+  std::vector<std::string> names;
+  for (const auto& [type, count] : counts)
+    names.push_back(fmt::format("{} {}", count, cell_name(static_cast<CellType>(type))));
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+// @throws InputError for types that are not in the table
+void check_types(const std::map<int, std::size_t>& counts, int dimension, const std::string& name) {
+  for (const auto& [type, count] : counts)
+    if (!is_cell_type(type))
+      throw InputError(fmt::format("'{}' holds {} of type '{}', which is not supported; supported are {}", name,
+                                   counted(count, dimension == 3 ? "cell" : "surface cell"), gmsh_cell_name(type),
+                                   supported_types(dimension)));
+}
+
 // gmsh returns, for one entity and shape, only the cells of the first one's order, without a message; its own count
 // reveals it.
-bool all_delivered(const std::vector<const char*>& shapes, std::size_t delivered) {
-  double all = 0;
-  for (const char* shape : shapes) {
-    double of_shape = 0;
-    gmsh::option::getNumber(std::string("Mesh.Nb") + shape, of_shape);
-    all += of_shape;
+// @throws InputError if cells of one shape on one entity have different numbers of nodes
+void check_all_delivered(const std::map<int, std::size_t>& counts, int dimension, const std::string& name) {
+  for (const CellShape& shape : cell_shapes) {
+    if (shape.dimension != dimension) continue;
+    std::map<int, std::size_t> of_shape;
+    std::size_t delivered = 0;
+    for (const auto& [type, count] : counts)
+      if (vertex_count(static_cast<CellType>(type)) == shape.vertices) {
+        of_shape[type] = count;
+        delivered += count;
+      }
+    double all = 0;
+    gmsh::option::getNumber(std::string("Mesh.Nb") + shape.gmsh_name, all);
+    if (static_cast<double>(delivered) == all) continue;
+    const bool two_kinds = shape.vertices == shape.dimension + 1;
+    const std::string kinds = two_kinds
+                                  ? fmt::format("with {} and with {} nodes", shape.vertices, dimension == 2 ? 6 : 10)
+                                  : "with different numbers of nodes";
+    throw InputError(fmt::format("'{}' mixes {} {} {} ({} of {} {}): {}use one kind", name, shape.plural, kinds,
+                                 dimension == 2 ? "on one surface" : "in one volume", counts_text(of_shape), all,
+                                 all == 1 ? "cell" : "cells",
+                                 dimension == 3 ? "their common faces do not fit together; " : ""));
   }
-  return static_cast<double>(delivered) == all;
 }
 
-// "tri3, tri6, quad4, ..": the types of cells that are known.
-std::string known_types(int dim) {
-  std::string names;
-  for (const CellInfo& cell : cell_table())
-    if (cell.dimension == dim) names += (names.empty() ? "" : ", ") + cell.name;
-  return names;
+// Numbers of the cells of each type.
+std::map<int, std::size_t> counts_of_types(int dimension) {
+  std::map<int, std::size_t> counts;
+  visit_elements(dimension, [&](int, int type, const Tags& elements, const Tags&) { counts[type] += elements.size(); });
+  return counts;
 }
 
-// @throws InputError for types that are not known
-std::map<int, std::vector<FaceCorners>> read_surface_cells(const Nodes& nodes, const std::string& name) {
-  std::map<int, std::vector<FaceCorners>> surfaces;
-  std::size_t count = 0;
+// @throws InputError for cells that are not in the table
+std::map<int, std::vector<Corners>> read_surfaces(const Nodes& nodes, const std::string& name) {
+  const std::map<int, std::size_t> counts = counts_of_types(2);
+  check_types(counts, 2, name);
+  check_all_delivered(counts, 2, name);
+  std::map<int, std::vector<Corners>> surfaces;
   visit_elements(2, [&](int entity, int type, const Tags& elements, const Tags& tags) {
-    if (!is_cell_type(type))
-      throw InputError(fmt::format("'{}' holds {} of type '{}'; supported on surfaces are {}", name,
-                                   counted(elements.size(), "surface cell"), gmsh_cell_name(type), known_types(2)));
-    count += elements.size();
-    const int corners = vertex_count(static_cast<CellType>(type));
     const std::size_t width = tags.size() / elements.size();
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      FaceCorners face(&tags[e * width], corners);
-      for (int k = 0; k < corners; ++k)
-        face[static_cast<std::size_t>(k)] = nodes.number.at(tags[e * width + static_cast<std::size_t>(k)]);
-      surfaces[entity].push_back(face);
+      Corners corners;
+      for (int k = 0; k < vertex_count(static_cast<CellType>(type)); ++k)
+        corners.push_back(nodes.number.at(tags[e * width + k]));
+      surfaces[entity].push_back(corners);
     }
   });
-  if (!all_delivered({"Triangles", "Quadrangles"}, count))
-    throw InputError(fmt::format("'{}' mixes cells of order 1 and of order 2 on one surface; use one kind", name));
   return surfaces;
 }
 
 // Reads the solid cells with the original numbers of their nodes. @throws InputError
 void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& model) {
-  std::map<int, std::size_t> counts;
-  std::size_t all = 0;
-  visit_elements(3, [&](int, int type, const Tags& elements, const Tags&) {
-    counts[type] += elements.size();
-    all += elements.size();
-  });
-  std::string found;
-  for (const auto& [type, count] : counts) {
-    if (!is_cell_type(type))
-      throw InputError(fmt::format("'{}' holds {} of type '{}'; supported are {}", name, counted(count, "cell"),
-                                   gmsh_cell_name(type), known_types(3)));
-    found += fmt::format("{}{} {}", found.empty() ? "" : ", ", count, cell_name(static_cast<CellType>(type)));
-  }
+  const std::map<int, std::size_t> counts = counts_of_types(3);
+  check_types(counts, 3, name);
+  check_all_delivered(counts, 3, name);
   if (counts.size() > 1)
-    throw InputError(fmt::format("'{}' mixes types of cells ({}); a body has cells of one type: mesh it with one kind",
-                                 name, found));
-  if (!all_delivered({"Tetrahedra", "Hexahedra", "Prisms", "Pyramids"}, all))
-    throw InputError(
-        fmt::format("'{}' mixes cells of order 1 and of order 2: their common faces do not fit together; "
-                    "use one kind",
-                    name));
+    throw InputError(fmt::format("'{}' mixes types of solid cells ({}); use one type", name, counts_text(counts)));
   if (counts.empty()) {
     std::size_t flat = 0;
-    visit_elements(2, [&](int, int, const Tags& elements, const Tags&) { flat += elements.size(); });
-    throw InputError(flat > 0 ? fmt::format("'{}' holds a surface mesh only ({}); a body needs solid cells: mesh its "
-                                            "volume",
+    for (const auto& [type, count] : counts_of_types(2)) flat += count;
+    throw InputError(flat > 0 ? fmt::format("'{}' holds a surface mesh only ({}); a body needs tetrahedra or other "
+                                            "solid cells: mesh its volume",
                                             name, counted(flat, "cell"))
                               : fmt::format("'{}' holds no cells", name));
   }
@@ -171,8 +210,8 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
   for (Eigen::Index i = 0; i < model.solids.nodes.size(); ++i)
     model.solids.nodes.data()[i] = number[model.solids.nodes.data()[i]];
   for (auto& [entity, cells] : model.surfaces)
-    for (FaceCorners& face : cells)
-      for (int& node : face) node = number[node];
+    for (Corners& corners : cells)
+      for (int& node : corners) node = number[node];
 }
 
 }  // namespace
@@ -241,20 +280,20 @@ ExtractedModel extract_model(GmshSession& session, const std::string& name, doub
   session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres, name);
     read_solids(nodes, name, model);
-    model.surfaces = read_surface_cells(nodes, name);
+    model.surfaces = read_surfaces(nodes, name);
     model.groups = physical_groups();
     drop_unused_nodes(nodes.points, model);
   });
   return model;
 }
 
-std::map<int, std::vector<FaceCorners>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
-                                                         Eigen::Matrix3Xd& points) {
-  std::map<int, std::vector<FaceCorners>> surfaces;
+std::map<int, std::vector<Corners>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
+                                                     Eigen::Matrix3Xd& points) {
+  std::map<int, std::vector<Corners>> surfaces;
   session.read(fmt::format("'{}' cannot be read", name), [&] {
     const Nodes nodes = read_nodes(metres, name);
     points = nodes.points;
-    surfaces = read_surface_cells(nodes, name);
+    surfaces = read_surfaces(nodes, name);
   });
   return surfaces;
 }

@@ -1,7 +1,6 @@
 // The content of gmsh after it has read a file or meshed a geometry, as plain numbers in metres.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "reduce/mesh/face_corners.hpp"
+#include "reduce/mesh/corners.hpp"
 #include "reduce/mesh/gmsh_session.hpp"
 #include "reduce/mesh/mesh.hpp"
 #include "reduce/mesh/source_file.hpp"
@@ -27,9 +26,9 @@ struct PhysicalGroup {
 struct ExtractedModel {
   Eigen::Matrix3Xd points;  ///< [m]
   CellBlock solids{CellType::tet4, {}};
-  std::vector<std::size_t> cell_tags;                ///< gmsh's (the file's) numbers of the solid cells
-  std::map<int, std::vector<int>> volumes;           ///< entity -> its cells
-  std::map<int, std::vector<FaceCorners>> surfaces;  ///< entity -> its surface cells; nodes of none of the solids: -1
+  std::vector<std::size_t> cell_tags;            ///< gmsh's (the file's) numbers of the solid cells
+  std::map<int, std::vector<int>> volumes;       ///< entity -> its cells
+  std::map<int, std::vector<Corners>> surfaces;  ///< entity -> its surface cells; nodes of none of the solids: -1
   std::vector<PhysicalGroup> groups;
   std::size_t dropped_nodes = 0;
 };
@@ -55,12 +54,12 @@ std::vector<PhysicalGroup> physical_groups();
 double model_extent(GmshSession& session);
 
 /// @param metres  metres per unit of the model
-/// @throws InputError for types of cells that are not known, for a model without cells or with several types of solid
-///         cells
+/// @throws InputError for cells of types that are not in the table, for a model without solid cells, for solid cells
+///         of several types
 ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres);
 
-/// Cells of the surfaces of a model meshed in dimension 2, and all their nodes.
-std::map<int, std::vector<FaceCorners>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
-                                                         Eigen::Matrix3Xd& points);
+/// Surface cells of the surfaces of a model meshed in dimension 2, and all their nodes.
+std::map<int, std::vector<Corners>> extract_surfaces(GmshSession& session, const std::string& name, double metres,
+                                                     Eigen::Matrix3Xd& points);
 
 }  // namespace bielle::reduce

@@ -44,11 +44,10 @@ namespace {
 }
 
 // Faces of solid cells that are the surface cells of an entity.
-std::vector<int> faces_of(const std::vector<FaceCorners>& cells, const FaceTable& faces, const std::string& group) {
+std::vector<int> faces_of(const std::vector<Corners>& cells, const FaceTable& faces, const std::string& group) {
   std::vector<int> found;
-  for (const FaceCorners& cell : cells) {
-    const bool is_loose = std::any_of(cell.begin(), cell.end(), [](int node) { return node < 0; });
-    const std::optional<int> face = is_loose ? std::nullopt : faces.find(cell);
+  for (const Corners& cell : cells) {
+    const std::optional<int> face = cell.contains(-1) ? std::nullopt : faces.find(cell);
     if (!face)
       throw InputError(
           fmt::format("surface group '{}' holds a {} that is no face of a solid cell: shells and loose "
@@ -62,6 +61,14 @@ std::vector<int> faces_of(const std::vector<FaceCorners>& cells, const FaceTable
 void sort_unique(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// Adds the cells and nodes of a group of the same dimension.
+void add_part(Group& group, Group other) {
+  group.dimension = other.dimension;
+  group.parts.insert(group.parts.end(), other.parts.begin(), other.parts.end());
+  group.nodes.insert(group.nodes.end(), other.nodes.begin(), other.nodes.end());
+  sort_unique(group.nodes);
 }
 
 // Faces of every surface group of the requested mesh, by name.
@@ -87,9 +94,9 @@ std::map<std::string, std::vector<int>> surface_groups(const MeshRequest& reques
         selected.insert(selected.end(), of_group.begin(), of_group.end());
         continue;
       }
-      const std::vector<int> cells = about(
-          selection.subject, [&] { return select_cells(std::get<ShapeSelector>(selector), mesh.points, surface); });
-      for (int cell : cells) selected.push_back(surface.faces[cell]);
+      const std::vector<int> sides = about(
+          selection.subject, [&] { return select_sides(std::get<ShapeSelector>(selector), mesh.points, surface); });
+      for (int side : sides) selected.push_back(surface.faces[side]);
     }
     result[selection.group] = selected;
   }
@@ -141,30 +148,25 @@ void add_surface_groups(const MeshRequest& request, const ExtractedModel& model,
 }
 
 void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, const FaceTable& faces, Mesh& mesh) {
-  std::map<CellType, std::map<int, int>> cells;  // of each type: face -> surface cell
+  std::map<CellType, std::map<int, int>> cells_of;  // face -> surface cell of its type
   for (const auto& [name, members] : groups)
-    for (int face : members) cells[faces.type(face)].emplace(face, 0);
+    for (int face : members) cells_of[faces.type(face)].emplace(face, 0);
   std::map<CellType, CellBlock> blocks;
-  for (auto& [type, of_type] : cells) {
-    CellBlock block{type, Eigen::MatrixXi(node_count(type), static_cast<Eigen::Index>(of_type.size()))};
+  for (auto& [type, cell_of] : cells_of) {
+    CellBlock block{type, Eigen::MatrixXi(node_count(type), cell_of.size())};
     int next = 0;
-    for (auto& [face, cell] : of_type) {
+    for (auto& [face, cell] : cell_of) {
       cell = next++;
       block.nodes.col(cell) = faces.nodes(face);
     }
-    blocks.emplace(type, std::move(block));
+    blocks[type] = std::move(block);
   }
   for (const auto& [name, members] : groups) {
     if (members.empty()) continue;
-    std::map<CellType, std::vector<int>> of_group;
-    for (int face : members) of_group[faces.type(face)].push_back(cells.at(faces.type(face)).at(face));
-    Group group{2, {}, {}};
-    for (auto& [type, list] : of_group) {
-      const Group part = group_of(blocks.at(type), std::move(list));
-      group.parts.push_back(part.parts.front());
-      group.nodes.insert(group.nodes.end(), part.nodes.begin(), part.nodes.end());
-    }
-    sort_unique(group.nodes);
+    std::map<CellType, std::vector<int>> cells;
+    for (int face : members) cells[faces.type(face)].push_back(cells_of.at(faces.type(face)).at(face));
+    Group group;
+    for (auto& [type, of_type] : cells) add_part(group, group_of(blocks.at(type), std::move(of_type)));
     mesh.groups[name] = std::move(group);
   }
   for (auto& [type, block] : blocks) mesh.blocks.push_back(std::move(block));

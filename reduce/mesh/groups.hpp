@@ -33,7 +33,7 @@ void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, co
 
 /// Adds the surface groups of the model and those that the user selects, and their surface cells.
 /// @param geometry  whether the model's surfaces are those of a geometry, which shapes then select as a whole
-/// @throws InputError when a group is empty, holds loose triangles, or no surface lies on a shape
+/// @throws InputError when a group is empty, holds loose surface cells, or no surface lies on a shape
 void add_surface_groups(const MeshRequest& request, const ExtractedModel& model, bool geometry, const FaceTable& faces,
                         Mesh& mesh);
 

@@ -1,4 +1,4 @@
-// Import of a geometry or a mesh in any supported format as a mesh of tetrahedra in metres with named groups.
+// Import of a geometry or a mesh in any supported format as a mesh of solid cells in metres with named groups.
 #pragma once
 
 #include "reduce/mesh/mesh.hpp"
@@ -14,9 +14,9 @@ namespace bielle::reduce {
 ///
 /// Geometries (.geo, .step/.stp, .brep, .iges/.igs) are meshed by gmsh; meshes are read by gmsh (.msh, .unv) or
 /// converted by tools/convert_mesh.py (.inp, .bdf, .nas, .vtu, .vtk, .med and all other formats of meshio). The result
-/// has one type of solid cells (tet4 or tet10, all of positive Jacobian); its surface cells are those of its surface
-/// groups, all points are used, and lengths are in metres. Without physical volumes the whole body becomes the group
-/// `all`.
+/// has one type of solid cells (any of cell_type.hpp, all of positive Jacobian); its surface cells are those of its
+/// surface groups, all points are used, and lengths are in metres. Without physical volumes the whole body becomes the
+/// group `all`.
 ///
 /// The import runs in a child process: this program survives if gmsh crashes on a damaged file.
 ///

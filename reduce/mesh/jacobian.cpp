@@ -79,144 +79,135 @@ Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eig
 
 namespace {
 
-/// A vertex at which three edges meet, with its neighbours in the order that makes their triple product positive.
-struct Corner {
-  int vertex;
-  std::array<int, 3> neighbours;
-};
+bool is_tetrahedron(const CellInfo& cell) { return cell.dimension == 3 && cell.vertices == 4; }
 
-std::vector<Corner> make_corners(const CellInfo& cell) {
-  const Eigen::MatrixXd x = local_nodes(cell.type);
-  std::vector<Corner> corners;
-  for (int v = 0; v < cell.vertices; ++v) {
-    std::vector<int> around;
-    for (const auto& [a, b] : cell.edges)
-      if (a == v || b == v) around.push_back(a == v ? b : a);
-    if (around.size() != 3) continue;
-    if (triple(x.col(around[0]) - x.col(v), x.col(around[1]) - x.col(v), x.col(around[2]) - x.col(v)) < 0)
-      std::swap(around[1], around[2]);
-    corners.push_back({v, {around[0], around[1], around[2]}});
-  }
-  return corners;
-}
-
-const std::vector<Corner>& corners_of(CellType type) {
-  static const std::map<CellType, std::vector<Corner>> of_types = [] {
-    std::map<CellType, std::vector<Corner>> all;
-    for (const CellInfo& cell : cell_table())
-      if (cell.dimension == 3) all.emplace(cell.type, make_corners(cell));
-    return all;
-  }();
-  return of_types.at(type);
-}
-
-/// Gradients of the shape functions at the points of a rule, and the weights.
-struct Tabulated {
-  Eigen::VectorXd weights;
+// Gradients of the shape functions at some places of a reference cell, and the weights of a rule.
+struct GradientTable {
   std::vector<Eigen::MatrixXd> gradients;
-
-  Tabulated(CellType type, const Eigen::MatrixXd& points, const Eigen::VectorXd& of_points) : weights(of_points) {
-    for (const auto& point : points.colwise()) gradients.push_back(shape_gradients(type, point));
-  }
-  double determinant(std::size_t p, const Eigen::Ref<const Eigen::Matrix3Xd>& x) const {
-    return Eigen::Matrix3d(x * gradients[p]).determinant();
-  }
+  Eigen::VectorXd weights;
 };
 
-/// The rule for volumes, and the points at which curved cells are examined.
-struct Examined {
-  Tabulated volume, points;
-};
-
-Tabulated examined_points(CellType type) {
-  const Quadrature rule = cell_quadrature(type, 4);
-  const Eigen::MatrixXd nodes = local_nodes(type);
-  std::vector<int> used;  // the gradients of a pyramid do not exist at its apex
-  for (int a = 0; a < nodes.cols(); ++a)
-    if (!(vertex_count(type) == 5 && a == 4)) used.push_back(a);
-  Eigen::MatrixXd points(3, rule.points.cols() + static_cast<Eigen::Index>(used.size()));
-  points << rule.points, nodes(Eigen::all, used);
-  return {type, points, Eigen::VectorXd::Zero(points.cols())};
+GradientTable gradient_table(CellType type, const Quadrature& rule) {
+  GradientTable table;
+  for (const auto& xi : rule.points.colwise()) table.gradients.push_back(shape_gradients(type, xi));
+  table.weights = rule.weights;
+  return table;
 }
 
-const Examined& examined(CellType type) {
-  static const std::map<CellType, Examined> of_types = [] {
-    std::map<CellType, Examined> all;
-    for (const CellInfo& cell : cell_table()) {
-      if (cell.dimension != 3) continue;
-      const Quadrature rule = cell_quadrature(cell.type, cell.order == 1 ? 3 : 5);
-      all.emplace(cell.type, Examined{Tabulated(cell.type, rule.points, rule.weights), examined_points(cell.type)});
-    }
-    return all;
-  }();
-  return of_types.at(type);
+// Tables of all solid types, made once.
+template <class Rule>
+std::map<CellType, GradientTable> gradient_tables(const Rule& rule_of) {
+  std::map<CellType, GradientTable> tables;
+  for (const CellInfo& cell : cell_table())
+    if (cell.dimension == 3) tables[cell.type] = gradient_table(cell.type, rule_of(cell));
+  return tables;
 }
 
-CellType linear_type(CellType type) {
-  switch (vertex_count(type)) {
-    case 4:
-      return CellType::tet4;
-    case 5:
-      return CellType::pyramid5;
-    case 6:
-      return CellType::wedge6;
-    default:
-      return CellType::hex8;
+// A rule that integrates det(dx/dxi) exactly. Along one coordinate of the reference cell the gradient with respect to
+// it has degree order - 1, the other two have `order`; those of pyramids have `order` in x/(1 - z) and y/(1 - z).
+Quadrature volume_rule(const CellInfo& cell) {
+  return cell_quadrature(cell.type, cell.vertices == 5 ? 3 * cell.order : 3 * cell.order - 1);
+}
+
+Quadrature places_of_check(const CellInfo& cell) {
+  CellType richest = cell.type;
+  for (const CellInfo& other : cell_table())
+    if (other.dimension == 3 && other.vertices == cell.vertices && other.nodes > node_count(richest))
+      richest = other.type;
+  Eigen::MatrixXd nodes = local_nodes(richest);
+  if (cell.vertices == 5) {  // without the apex
+    nodes.col(4) = nodes.rightCols<1>();
+    nodes.conservativeResize(3, nodes.cols() - 1);
   }
+  const Quadrature rule = cell_quadrature(cell.type, 4);
+  Quadrature places{Eigen::MatrixXd(3, nodes.cols() + rule.points.cols()), {}};
+  places.points << nodes, rule.points;
+  return places;
+}
+
+Eigen::VectorXd determinants(const GradientTable& table, const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
+  Eigen::VectorXd result(table.gradients.size());
+  for (std::size_t p = 0; p < table.gradients.size(); ++p) {
+    const Eigen::MatrixXd& gradients = table.gradients[p];
+    const Eigen::Matrix3d jacobian = x.leftCols(gradients.rows()) * gradients;
+    result[static_cast<Eigen::Index>(p)] = triple(jacobian.col(0), jacobian.col(1), jacobian.col(2));
+  }
+  return result;
+}
+
+// A vertex and three vertices at the other ends of its edges, right-handed in a cell that is not inverted.
+using EdgeTriple = std::array<int, 4>;
+
+std::vector<EdgeTriple> edge_triples(const CellInfo& cell) {
+  const Eigen::Matrix3Xd x = local_nodes(cell.type);
+  std::vector<EdgeTriple> result;
+  for (int p = 0; p < cell.vertices; ++p) {
+    std::vector<int> ends;
+    for (const auto& [a, b] : cell.edges)
+      if (a == p || b == p) ends.push_back(a == p ? b : a);
+    const std::size_t count = ends.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = i + 1; j < count; ++j)
+        for (std::size_t k = j + 1; k < count; ++k) {
+          EdgeTriple triple_at{p, ends[i], ends[j], ends[k]};
+          if (triple(x.col(ends[i]) - x.col(p), x.col(ends[j]) - x.col(p), x.col(ends[k]) - x.col(p)) < 0)
+            std::swap(triple_at[2], triple_at[3]);
+          result.push_back(triple_at);
+        }
+  }
+  return result;
+}
+
+double scaled_jacobian_of_tetrahedron(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
+  const double determinant = straight_determinant(x);
+  double least = std::numeric_limits<double>::infinity();
+  for (int p = 0; p < 4; ++p) {
+    double edges = 1;
+    for (int q = 0; q < 4; ++q)
+      if (q != p) edges *= (x.col(q) - x.col(p)).norm();
+    least = std::min(least, edges > 0 ? std::sqrt(2.0) * determinant / edges : 0.0);
+  }
+  return least;
 }
 
 }  // namespace
 
-double least_triple_product(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
-  if (vertex_count(type) == 4) return straight_determinant(x);
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [v, n] : corners_of(type))
-    least = std::min(least, triple(x.col(n[0]) - x.col(v), x.col(n[1]) - x.col(v), x.col(n[2]) - x.col(v)));
-  return least;
+CellType straight_type(CellType type) {
+  const CellInfo& cell = cell_info(type);
+  for (const CellInfo& other : cell_table())
+    if (other.order == 1 && other.dimension == cell.dimension && other.vertices == cell.vertices) return other.type;
+  return type;
+}
+
+Eigen::VectorXd checked_determinants(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
+  const CellInfo& cell = cell_info(type);
+  if (is_tetrahedron(cell))
+    return cell.order == 1 ? Eigen::VectorXd::Constant(1, straight_determinant(x))
+                           : Eigen::VectorXd(determinant_coefficients(x));
+  static const std::map<CellType, GradientTable> tables = gradient_tables(places_of_check);
+  return determinants(tables.at(type), x);
 }
 
 double cell_volume(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
-  if (type == CellType::tet4) return straight_determinant(x) / 6;
-  if (type == CellType::tet10) return determinant_coefficients(x).mean() / 6;
-  const Tabulated& rule = examined(type).volume;
-  double volume = 0;
-  for (std::size_t p = 0; p < rule.gradients.size(); ++p)
-    volume += rule.weights(static_cast<Eigen::Index>(p)) * rule.determinant(p, x);
-  return volume;
-}
-
-bool may_be_inverted(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x, double share) {
-  if (type == CellType::tet10) return determinant_coefficients(x).minCoeff() <= share * straight_determinant(x);
-  const Tabulated& points = examined(type).points;
-  const Eigen::Matrix3Xd straight = straight_nodes(type, x);
-  for (std::size_t p = 0; p < points.gradients.size(); ++p)
-    if (points.determinant(p, x) <= share * points.determinant(p, straight)) return true;
-  return false;
-}
-
-Eigen::Matrix3Xd straight_nodes(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
-  static const std::map<CellType, Eigen::MatrixXd> shares = [] {
-    std::map<CellType, Eigen::MatrixXd> all;
-    for (const CellInfo& cell : cell_table()) {
-      if (cell.dimension != 3) continue;
-      const Eigen::MatrixXd local = local_nodes(cell.type);
-      Eigen::MatrixXd of_type(cell.vertices, cell.nodes);
-      for (int a = 0; a < cell.nodes; ++a) of_type.col(a) = shape_values(linear_type(cell.type), local.col(a));
-      all.emplace(cell.type, of_type);
-    }
-    return all;
-  }();
-  return x.leftCols(vertex_count(type)) * shares.at(type);
+  const CellInfo& cell = cell_info(type);
+  if (is_tetrahedron(cell)) return (cell.order == 2 ? determinant_coefficients(x).mean() : straight_determinant(x)) / 6;
+  static const std::map<CellType, GradientTable> tables = gradient_tables(volume_rule);
+  const GradientTable& table = tables.at(type);
+  return table.weights.dot(determinants(table, x));
 }
 
 double scaled_jacobian(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
-  const int vertices = vertex_count(type);
-  const double of_regular = vertices == 8 ? 1 : vertices == 6 ? std::sqrt(3.0) / 2 : std::sqrt(0.5);
+  const CellInfo& cell = cell_info(type);
+  if (is_tetrahedron(cell)) return scaled_jacobian_of_tetrahedron(x);
+  static const std::map<int, std::vector<EdgeTriple>> triples = {{8, edge_triples(cell_info(CellType::hex8))},
+                                                                 {6, edge_triples(cell_info(CellType::wedge6))},
+                                                                 {5, edge_triples(cell_info(CellType::pyramid5))}};
+  const double factor = cell.vertices == 8 ? 1 : cell.vertices == 6 ? 2 / std::sqrt(3.0) : std::sqrt(2.0);
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& [v, n] : corners_of(type)) {
-    const Eigen::Vector3d a = x.col(n[0]) - x.col(v), b = x.col(n[1]) - x.col(v), c = x.col(n[2]) - x.col(v);
-    const double lengths = a.norm() * b.norm() * c.norm();
-    least = std::min(least, lengths > 0 ? triple(a, b, c) / lengths / of_regular : 0.0);
+  for (const auto& [p, i, j, k] : triples.at(cell.vertices)) {
+    const Eigen::Vector3d a = x.col(i) - x.col(p), b = x.col(j) - x.col(p), c = x.col(k) - x.col(p);
+    const double edges = a.norm() * b.norm() * c.norm();
+    least = std::min(least, edges > 0 ? factor * triple(a, b, c) / edges : 0.0);
   }
   return least;
 }

@@ -1,4 +1,4 @@
-// The Jacobian of solid cells, which tells whether one is inverted, flat or badly shaped.
+// The Jacobian of cells, which tells whether an element is inverted, its volume and its quality.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,21 +14,6 @@ inline constexpr int tet_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, 
 /// @param nodes  (3, 4 or more), corners first
 double straight_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
-/// The least triple product of the three edges that meet at a vertex of a cell with straight edges, which is negative
-/// if the cell is inverted there [m^3]; the apex of a pyramid, where four edges meet, is left out.
-/// @param nodes  (3, vertices or more), vertices first
-double least_triple_product(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
-
-/// Volume of a cell, which may be curved [m^3]. @param nodes  (3, nodes)
-double cell_volume(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
-
-/// Whether the determinant of a curved cell may fall below a share of that of the straight cell: a lower bound says so
-/// for tetrahedra, the values at nodes and quadrature points for others. @param nodes  (3, nodes) of a cell of order 2
-bool may_be_inverted(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes, double share);
-
-/// The places of all nodes of a cell with straight edges and nodes in their middle. @param nodes  vertices first
-Eigen::Matrix3Xd straight_nodes(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
-
 /// Bernstein coefficients of det(dx/dxi) of a tet10, a cubic polynomial [m^3].
 ///
 /// The Bernstein polynomials are non-negative, add up to one and have equal integrals. The least coefficient is
@@ -38,9 +23,23 @@ Eigen::Matrix3Xd straight_nodes(CellType type, const Eigen::Ref<const Eigen::Mat
 /// @param nodes  (3,10) in gmsh's order
 Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
-/// Scaled Jacobian of a cell with straight edges: the least over its vertices of the triple product of the three edges
-/// that meet there over the product of their lengths, in units of that of the regular cell: 1 for a cube or a regular
-/// tetrahedron, 0 for a flat cell. @param nodes  vertices first
+/// The type of the same shape with nodes at the vertices alone.
+CellType straight_type(CellType type);
+
+/// det(dx/dxi) [m^3] at the places at which a cell is checked: of tetrahedra of order 1 the constant value, of those of
+/// order 2 the Bernstein coefficients. Of other shapes they are the nodes of the type of order 2 that has the most (of
+/// a pyramid except the apex, where the gradients do not exist) and the points of a rule of degree 4. The straight cell
+/// and the curved one are checked at the same places: a straight cell that passes does so as a cell of order 2, too.
+/// @param nodes  (3, nodes of the type or more)
+Eigen::VectorXd checked_determinants(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
+
+/// Volume of a cell, straight or curved; exact up to rounding [m^3].
+double cell_volume(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
+
+/// Quality of a cell with straight edges: the least over its corners of c det / (product of the lengths), det and
+/// product of three edges that meet there. The factor c makes it 1 for the regular cell: sqrt(2) for tetrahedra, 1 for
+/// hexahedra (cube), 2/sqrt(3) for wedges (equilateral triangles and squares), sqrt(2) for pyramids (all edges equal;
+/// at the apex, all four triples of its edges). It is 0 for a flat corner and negative for an inverted one.
 double scaled_jacobian(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
 }  // namespace bielle::reduce

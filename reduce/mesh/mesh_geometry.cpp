@@ -67,9 +67,9 @@ std::vector<int> selected_entities(const SurfaceSelection& selection, const std:
       entities.insert(of_group.begin(), of_group.end());
       continue;
     }
-    const std::vector<int> cells =
-        about(selection.subject, [&] { return select_cells(std::get<ShapeSelector>(selector), points, surface); });
-    for (int cell : cells) entities.insert(surface.entities[cell]);
+    const std::vector<int> sides =
+        about(selection.subject, [&] { return select_sides(std::get<ShapeSelector>(selector), points, surface); });
+    for (int side : sides) entities.insert(surface.entities[side]);
   }
   return {entities.begin(), entities.end()};
 }
@@ -92,7 +92,7 @@ void check_selections(GmshSession& session, const MeshRequest& request, const So
 std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source,
                                      const std::vector<PhysicalGroup>& groups, const MeshSizes& plain) {
   std::vector<EntitySize> result;
-  BodySurface surface;  // cells of a first mesh, made when a shape needs it
+  BodySurface surface;  // that of a first mesh, made when a shape needs it
   Eigen::Matrix3Xd points;
   for (const auto& [name, wish] : request.sizes) {
     if (const PhysicalGroup* group = find_group(groups, name)) {
@@ -108,7 +108,7 @@ std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& re
       throw InputError(wish.subject,
                        fmt::format("'{}' is no physical group and no interface{}", name, did_you_mean(name, names)));
     }
-    if (surface.cells.empty()) {
+    if (surface.sides.empty()) {
       mesh_surfaces(session, source.name, plain);
       surface = body_surface(extract_surfaces(session, source.name, source.metres, points));
     }

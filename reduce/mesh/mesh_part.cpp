@@ -11,8 +11,7 @@ SurfaceFaces surface_faces(const Mesh& mesh, const FaceTable& faces) {
     for (const GroupPart& part : group.parts) {
       const Eigen::MatrixXi& nodes = mesh.block(part.type)->nodes;
       for (const int cell : part.cells)
-        if (const auto face = faces.find(FaceCorners(nodes.col(cell), vertex_count(part.type))))
-          result[name].push_back(*face);
+        if (const auto face = faces.find(corners_of(part.type, nodes.col(cell)))) result[name].push_back(*face);
     }
   }
   return result;
@@ -54,7 +53,7 @@ void MeshExtraction::add_surfaces(const FaceTable& faces, const SurfaceFaces& su
   const FaceTable own(part_.mesh);
   SurfaceFaces groups;
   const auto add = [&](const std::string& name, int face) {
-    FaceCorners corners = faces.corners(face);
+    Corners corners = faces.corners(face);
     for (int& node : corners) node = number_in_part_[node];
     groups[name].push_back(own.find(corners).value());
   };

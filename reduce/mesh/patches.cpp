@@ -20,9 +20,9 @@ using Eigen::Vector3d;
 constexpr double feature_angle = 40 * std::numbers::pi / 180;
 constexpr std::size_t most_candidates = 6;
 
-// Number of the patch of each cell.
+// Number of the patch of each side.
 std::vector<int> divide(const Matrix3Xd& points, const BodySurface& surface) {
-  const int count = static_cast<int>(surface.cells.size());
+  const int count = static_cast<int>(surface.sides.size());
   std::vector<int> patch(count);
   if (!surface.entities.empty()) {
     std::map<int, int> number;
@@ -30,13 +30,13 @@ std::vector<int> divide(const Matrix3Xd& points, const BodySurface& surface) {
       patch[i] = number.emplace(surface.entities[i], static_cast<int>(number.size())).first->second;
     return patch;
   }
-  // Fills a patch across edges with two cells whose normals differ little.
+  // Fills a patch across edges with two sides whose normals differ little.
   std::map<std::pair<int, int>, std::vector<int>> edges;
   std::vector<Vector3d> normals(count);
   for (int i = 0; i < count; ++i) {
-    const FaceCorners& t = surface.cells[i];
-    normals[i] = twice_area(points, t).normalized();
-    for (std::size_t k = 0; k < t.size(); ++k) edges[std::minmax({t[k], t[(k + 1) % t.size()]})].push_back(i);
+    const Corners& t = surface.sides[i];
+    normals[i] = area_vector(points, t).normalized();
+    for (int k = 0; k < t.size(); ++k) edges[std::minmax(t[k], t[(k + 1) % t.size()])].push_back(i);
   }
   std::vector<std::vector<int>> neighbours(count);
   for (const auto& [edge, sides] : edges) {
@@ -67,12 +67,15 @@ std::vector<int> divide(const Matrix3Xd& points, const BodySurface& surface) {
 void measure(const Matrix3Xd& points, const BodySurface& surface, double body_size, Patch& patch) {
   std::map<int, Vector3d> normal_at;  // node -> sum of area vectors
   patch.centre = Vector3d::Zero();
-  for (int i : patch.cells) {
-    const FaceCorners& t = surface.cells[i];
-    const Vector3d area = twice_area(points, t) / 2;
-    patch.area += area.norm();
-    for (const int node : t) patch.centre += area.norm() / static_cast<double>(t.size()) * points.col(node);
-    for (int node : t) {
+  for (int i : patch.sides) {
+    const Corners& side = surface.sides[i];
+    for (const auto& t : triangles_of(side)) {
+      const double area = area_vector(points, t).norm();
+      patch.area += area;
+      patch.centre += area * (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
+    }
+    const Vector3d area = area_vector(points, side);
+    for (int node : side) {
       normal_at.emplace(node, Vector3d::Zero()).first->second += area;
       patch.box.extend(Vector3d(points.col(node)));
     }
@@ -140,7 +143,7 @@ std::vector<Patch> find_patches(const Matrix3Xd& points, const BodySurface& surf
   const std::vector<int> patch_of = divide(points, surface);
   for (std::size_t i = 0; i < patch_of.size(); ++i) {
     Patch& patch = numbered[patch_of[i]];
-    patch.cells.push_back(static_cast<int>(i));
+    patch.sides.push_back(static_cast<int>(i));
     if (!surface.entities.empty()) patch.entity = surface.entities[i];
   }
   const double size = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();

@@ -14,13 +14,13 @@ namespace bielle::reduce {
 
 /// A connected part of the surface, bounded by sharp edges or by those of the geometry's surface.
 struct Patch {
-  std::vector<int> cells;
+  std::vector<int> sides;
   int entity = 0;          ///< surface of the geometry; 0 on a mesh without geometry
-  double area = 0;         ///< area of its cells, as plane ones [m^2]
+  double area = 0;         ///< area of the plane triangles of its sides [m^2]
   Eigen::Vector3d centre;  ///< centroid [m]
   Eigen::AlignedBox3d box;
   Shape shape;
-  bool hollow = false;  ///< a cylinder whose inside is empty: a bore. Known where cells are known to be outward
+  bool hollow = false;  ///< a cylinder whose inside is empty: a bore. Known where sides are known to be outward
 };
 
 /// Divides the surface, by surfaces of the geometry if known, otherwise at edges at which the normal turns by more than

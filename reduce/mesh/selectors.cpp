@@ -15,34 +15,37 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr double least_cosine = 0.5;  // between the normals of a face and of the shape on which it lies
+constexpr double least_cosine = 0.5;  // between the normals of a side and of the shape on which it lies
+
+Eigen::Vector3d normal_of(const Eigen::Matrix3Xd& points, const Corners& side) {
+  return area_vector(points, side).normalized();
+}
 
 Eigen::Vector3d radial_part(const Eigen::Vector3d& from_axis, const Eigen::Vector3d& axis) {
   return from_axis - axis * axis.dot(from_axis);
 }
 
-bool lies_on_shape(const CylinderSelector& cylinder, const Eigen::Matrix3Xd& points, const FaceCorners& face,
+bool lies_on_shape(const CylinderSelector& cylinder, const Eigen::Matrix3Xd& points, const Corners& side,
                    double tolerance) {
   const Eigen::Vector3d axis = cylinder.axis.normalized();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (int node : face) {
+  for (int node : side) {
     const Eigen::Vector3d radial = radial_part(points.col(node) - cylinder.point, axis);
     if (std::abs(radial.norm() - cylinder.radius) > tolerance) return false;
-    middle += radial;
+    middle += radial / side.size();
   }
-  return std::abs(twice_area(points, face).normalized().dot(middle.normalized())) > least_cosine;
+  return std::abs(normal_of(points, side).dot(middle.normalized())) > least_cosine;
 }
 
-bool lies_on_shape(const PlaneSelector& plane, const Eigen::Matrix3Xd& points, const FaceCorners& face,
-                   double tolerance) {
+bool lies_on_shape(const PlaneSelector& plane, const Eigen::Matrix3Xd& points, const Corners& side, double tolerance) {
   const Eigen::Vector3d normal = plane.normal.normalized();
-  for (int node : face)
+  for (int node : side)
     if (std::abs(normal.dot(points.col(node) - plane.point)) > tolerance) return false;
-  return std::abs(twice_area(points, face).normalized().dot(normal)) > least_cosine;
+  return std::abs(normal_of(points, side).dot(normal)) > least_cosine;
 }
 
-bool lies_on_shape(const BoxSelector& box, const Eigen::Matrix3Xd& points, const FaceCorners& face, double tolerance) {
-  for (int node : face) {
+bool lies_on_shape(const BoxSelector& box, const Eigen::Matrix3Xd& points, const Corners& side, double tolerance) {
+  for (int node : side) {
     const Eigen::Array3d x = points.col(node).array();
     if ((x < box.low.array() - tolerance).any() || (x > box.high.array() + tolerance).any()) return false;
   }
@@ -55,10 +58,10 @@ double selection_tolerance(const Eigen::Matrix3Xd& points) {
   return 1e-4 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
 }
 
-bool lies_on(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const FaceCorners& face, double tolerance) {
-  return (!shape.cylinder || lies_on_shape(*shape.cylinder, points, face, tolerance)) &&
-         (!shape.plane || lies_on_shape(*shape.plane, points, face, tolerance)) &&
-         (!shape.box || lies_on_shape(*shape.box, points, face, tolerance));
+bool lies_on(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const Corners& side, double tolerance) {
+  return (!shape.cylinder || lies_on_shape(*shape.cylinder, points, side, tolerance)) &&
+         (!shape.plane || lies_on_shape(*shape.plane, points, side, tolerance)) &&
+         (!shape.box || lies_on_shape(*shape.box, points, side, tolerance));
 }
 
 std::string selector_name(const ShapeSelector& shape) {
@@ -74,13 +77,13 @@ std::string selector_name(const ShapeSelector& shape) {
   return fmt::format("{}", fmt::join(names, " and "));
 }
 
-std::vector<int> select_cells(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface) {
+std::vector<int> select_sides(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface) {
   const double tolerance = selection_tolerance(points);
-  const int count = static_cast<int>(surface.cells.size());
+  const int count = static_cast<int>(surface.sides.size());
   std::vector<char> inside(count);
-  std::map<int, bool> whole;  // surface of the geometry -> all its cells lie on the shape
+  std::map<int, bool> whole;  // surface of the geometry -> all its sides lie on the shape
   for (int i = 0; i < count; ++i) {
-    inside[i] = lies_on(shape, points, surface.cells[i], tolerance);
+    inside[i] = lies_on(shape, points, surface.sides[i], tolerance);
     if (!surface.geometry) continue;
     const auto entry = whole.emplace(surface.entities[i], true).first;
     entry->second = entry->second && inside[i];

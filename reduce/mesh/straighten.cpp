@@ -1,7 +1,9 @@
 #include "reduce/mesh/straighten.hpp"
 
+#include <utility>
 #include <vector>
 
+#include "reduce/mesh/cell_type.hpp"
 #include "reduce/mesh/jacobian.hpp"
 
 namespace bielle::reduce {
@@ -12,6 +14,18 @@ namespace {
 // rounding.
 constexpr double least_ratio = 1e-3;
 
+// Nodes of a cell that are no vertices, and the vertices of the edge, face or cell in the middle of which they lie.
+std::vector<std::pair<int, std::vector<int>>> middle_nodes(const CellInfo& cell) {
+  std::vector<std::pair<int, std::vector<int>>> result;
+  int node = cell.vertices;
+  for (const auto& [a, b] : cell.edges) result.emplace_back(node++, std::vector<int>{a, b});
+  if (cell.type != CellType::hex27) return result;
+  for (const CellFace& face : cell.faces)
+    result.emplace_back(face.nodes.back(), std::vector<int>(face.nodes.begin(), face.nodes.begin() + 4));
+  result.emplace_back(cell.nodes - 1, std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7});
+  return result;
+}
+
 }  // namespace
 
 Straightening straighten_elements(Mesh& mesh) {
@@ -19,6 +33,8 @@ Straightening straighten_elements(Mesh& mesh) {
   const CellBlock& block = mesh.solids();
   const CellInfo& cell = cell_info(block.type);
   if (cell.order == 1) return result;
+  const CellType straight = straight_type(block.type);
+  const auto middles = middle_nodes(cell);
   std::vector<char> offended(block.nodes.cols(), 0);
   std::vector<char> moved(mesh.points.cols(), 0);
   for (bool changed = true; changed;) {
@@ -26,18 +42,19 @@ Straightening straighten_elements(Mesh& mesh) {
     for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
       const auto nodes = block.nodes.col(e);
       const Eigen::Matrix3Xd x = mesh.points(Eigen::all, nodes);
-      if (!may_be_inverted(block.type, x, least_ratio)) continue;
+      if (checked_determinants(block.type, x).minCoeff() > least_ratio * checked_determinants(straight, x).minCoeff())
+        continue;
       offended[e] = 1;
-      const Eigen::Matrix3Xd straight = straight_nodes(block.type, x);
-      for (int k = cell.vertices; k < cell.nodes; ++k) {
-        if (moved[nodes[k]]) continue;
-        const Eigen::Vector3d middle = straight.col(k);
-        const double way = (x.col(k) - middle).norm();
+      for (const auto& [node, ends] : middles) {
+        if (moved[nodes[node]]) continue;
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        for (const int end : ends) middle += x.col(end);
+        middle /= static_cast<double>(ends.size());
+        const double way = (x.col(node) - middle).norm();
         // Nodes that are already in the middle (up to rounding) are neither moved nor counted.
-        const auto [a, b] = cell.edges[static_cast<std::size_t>(k - cell.vertices) % cell.edges.size()];
-        if (way <= 1e-12 * (x.col(a) - x.col(b)).norm()) continue;
-        mesh.points.col(nodes[k]) = middle;
-        moved[nodes[k]] = 1;
+        if (way <= 1e-12 * (x.col(ends.front()) - x.col(ends.back())).norm()) continue;
+        mesh.points.col(nodes[node]) = middle;
+        moved[nodes[node]] = 1;
         changed = true;
         ++result.nodes;
         if (way > result.farthest) {

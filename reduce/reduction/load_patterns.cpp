@@ -15,7 +15,7 @@ void check_on_boundary(const Mesh& mesh, const LoadRequest& request) {
   for (const GroupPart& part : mesh.groups.at(request.group).parts) {
     const Eigen::MatrixXi& nodes = mesh.block(part.type)->nodes;
     for (const int cell : part.cells) {
-      const auto face = faces.find(FaceCorners(nodes.col(cell), vertex_count(part.type)));
+      const auto face = faces.find(corners_of(part.type, nodes.col(cell)));
       if (!face || !faces.on_boundary(*face)) {
         throw InputError(request.subject,
                          fmt::format("surface '{}' has faces inside the body, on which a pressure has no direction; "

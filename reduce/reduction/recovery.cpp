@@ -1,5 +1,6 @@
 #include "reduce/reduction/recovery.hpp"
 
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -21,12 +22,14 @@ SuperelementMesh kept_mesh(const Solid& solid, const std::vector<int>& points, b
   }
   if (skin) {
     const FaceTable faces(solid.mesh);
-    std::map<CellType, std::vector<int>> by_type;
-    for (const int face : faces.boundary()) by_type[faces.type(face)].push_back(face);
-    for (const auto& [type, of_type] : by_type) {
-      Eigen::MatrixXi cells(node_count(type), of_type.size());
-      for (std::size_t f = 0; f < of_type.size(); ++f) {
-        cells.col(static_cast<Eigen::Index>(f)) = faces.nodes(of_type[f]).unaryExpr([&](int a) { return number[a]; });
+    std::map<CellType, std::vector<int>> of_type;
+    for (const int face : faces.boundary()) {
+      of_type[faces.type(face)].push_back(face);
+    }
+    for (const auto& [type, boundary] : of_type) {
+      Eigen::MatrixXi cells(node_count(type), boundary.size());
+      for (std::size_t f = 0; f < boundary.size(); ++f) {
+        cells.col(static_cast<Eigen::Index>(f)) = faces.nodes(boundary[f]).unaryExpr([&](int a) { return number[a]; });
       }
       result.cells[static_cast<int>(type)] = std::move(cells);
     }

@@ -25,8 +25,9 @@ struct Interface {
 
 /// The body's mesh, kept for drawing. Node numbers start at 0; node order within a cell is gmsh's.
 struct SuperelementMesh {
-  Eigen::Matrix3Xd points;                         ///< [m]
-  std::map<int, Eigen::MatrixXi> cells;            ///< by gmsh's number of the type (CellType): nodes per cell x cells
+  Eigen::Matrix3Xd points;  ///< [m]
+  std::map<int, Eigen::MatrixXi>
+      cells;  ///< by gmsh element type (4 tet4, 17 hex20, 9 tri6, ...): nodes per cell x cells
   std::map<std::string, std::vector<int>> groups;  ///< nodes of each physical group, ascending
 };
 

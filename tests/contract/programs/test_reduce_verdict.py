@@ -65,7 +65,7 @@ class Verdict(CommandTest):
     def test_elements_of_order_1(self):
         said = self.said(GOOD, ("order: 2", "order: 1"))
         self.assertTrue(said.startswith("verdict: not good yet: a mesh that is too stiff"), said)
-        self.assertIn("elements: of order 1 (tet4), which are too stiff", said)
+        self.assertIn("elements: of order 1 (tet4, wedge6 or pyramid5), which are too stiff", said)
         self.assertIn("change first: mesh: {order: 2}", said)
         part = float(re.search(r"the mesh makes the first free-free frequency about ([\d.]+) % too high", said).group(1))
         stiff = self.frequencies()[0]

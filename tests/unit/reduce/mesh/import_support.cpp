@@ -6,6 +6,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/mesh/corners.hpp"
 #include "reduce/mesh/gmsh_session.hpp"
 #include "reduce/mesh/import.hpp"
 #include "tests/support/messages.hpp"
@@ -63,22 +64,16 @@ void gmsh_convert(const std::string& source, const std::string& target, double s
 Eigen::Vector3d area_vector(const Mesh& mesh, const std::string& group) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const GroupPart& part : mesh.groups.at(group).parts)
-    for (int cell : part.cells) {
-      const auto nodes = mesh.block(part.type)->nodes.col(cell);
-      const Eigen::Vector3d a = mesh.points.col(nodes[0]), b = mesh.points.col(nodes[1]), c = mesh.points.col(nodes[2]);
-      sum += 0.5 * (b - a).cross(c - a);
-    }
+    for (int cell : part.cells)
+      sum += reduce::area_vector(mesh.points, corners_of(part.type, mesh.block(part.type)->nodes.col(cell)));
   return sum;
 }
 
 double corner_area(const Mesh& mesh, const std::string& group) {
   double sum = 0;
   for (const GroupPart& part : mesh.groups.at(group).parts)
-    for (int cell : part.cells) {
-      const auto nodes = mesh.block(part.type)->nodes.col(cell);
-      const Eigen::Vector3d a = mesh.points.col(nodes[0]), b = mesh.points.col(nodes[1]), c = mesh.points.col(nodes[2]);
-      sum += 0.5 * (b - a).cross(c - a).norm();
-    }
+    for (int cell : part.cells)
+      sum += area_of(mesh.points, corners_of(part.type, mesh.block(part.type)->nodes.col(cell)));
   return sum;
 }
 

@@ -128,11 +128,15 @@ TEST_CASE("cells that stand twice are refused") {
              Contains("three or more cells share the face at (") && Contains("cells overlap or stand twice"));
 }
 
-TEST_CASE("cells that are no tetrahedra are named with what is supported") {
-  const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
-  CHECK_THAT(message_for(msh(cube, {"5 2 1 1 1 2 3 4 5 6 7 8"})),
-             Contains("holds 1 cell of type 'Hexahedron 8'; supported are tetrahedra with 4 or 10 nodes"));
-  CHECK_THAT(message_for(msh(cube, {"6 2 1 1 1 2 4 5 6 8"})), Contains("1 cell of type 'Prism 6'"));
+TEST_CASE("cells of other types are named with what is supported") {
+  std::vector<std::string> points;
+  for (int i = 0; i < 18; ++i) points.push_back(std::to_string(i % 3) + " " + std::to_string(i / 3) + " 0");
+  CHECK_THAT(message_for(msh(points, {"13 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18"})),
+             Contains("holds 1 cell of type 'Prism 18', which is not supported; supported are tetrahedra with 4 or 10 "
+                      "nodes, hexahedra with 8, 20 or 27 nodes, wedges (prisms) with 6 or 15 nodes, pyramids with 5 "
+                      "or 13 nodes"));
+  CHECK_THAT(message_for(msh(points, {"14 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14"})),
+             Contains("holds 1 cell of type 'Pyramid 14', which is not supported"));
 }
 
 TEST_CASE("a surface mesh and a mesh without cells are no bodies") {
@@ -148,10 +152,17 @@ TEST_CASE("linear and quadratic tetrahedra do not mix") {
              Contains("mixes tetrahedra with 4 and with 10 nodes"));
 }
 
-TEST_CASE("surface cells that are no triangles, and triangles of two orders on one surface, are refused") {
+TEST_CASE(
+    "quadrilaterals that are no faces, other surface cells, and triangles of two orders on one surface, are refused") {
   const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
-  CHECK_THAT(message_for(msh(cube, {"4 2 1 1 1 2 4 5", "3 2 9 1 1 2 3 4"})),
-             Contains("holds 1 surface cell of type 'Quadrilateral 4'; supported are triangles with 3 or 6 nodes"));
+  CHECK_THAT(message_for(msh(cube, {"4 2 1 1 1 2 4 5", "3 2 9 1 1 2 3 4"}, {"2 9 \"skin\""})),
+             Contains("surface group 'skin' holds a quadrilateral that is no face of a solid cell"));
+  CHECK_THAT(
+      message_for(
+          msh({"0 0 0", "3 0 0", "0 3 0", "0 0 3", "1 0 0", "2 0 0", "2 1 0", "1 2 0", "0 2 0", "0 1 0", "1 1 0"},
+              {"4 2 1 1 1 2 3 4", "21 2 9 1 1 2 3 5 6 7 8 9 10 11"})),
+      Contains("holds 1 surface cell of type 'Triangle 10', which is not supported; supported are triangles with "
+               "3 or 6 nodes, quadrilaterals with 4, 8 or 9 nodes"));
   const std::vector<std::string> points = {"0 0 0",   "1 0 0",  "0 1 0",  "0 0 1",   ".5 0 0",
                                            ".5 .5 0", "0 .5 0", "0 0 .5", "0 .5 .5", ".5 0 .5"};
   CHECK_THAT(message_for(msh(points, {"11 2 1 1 1 2 3 4 5 6 7 8 9 10", "2 2 9 1 1 2 3", "9 2 9 1 1 3 4 7 9 8"})),

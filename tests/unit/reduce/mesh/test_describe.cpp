@@ -76,11 +76,21 @@ TEST_CASE("a mesh is listed with cells, groups and the shapes of its surface") {
                        Contains("; in end\n"));
 }
 
-TEST_CASE("a mesh that cannot be reduced is listed with the reason") {
+TEST_CASE("a mesh of hexahedra is listed with cells, groups and the shapes of its surface") {
   const TemporaryFolder folder;
   const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
-  CHECK_THAT(list(folder.file("cube.msh", msh(cube, {"5 2 1 1 1 2 3 4 5 6 7 8"}))),
-             Contains("1 Hexahedron 8\n") && Contains("not usable as it is:") && Contains("supported are tetrahedra"));
+  const std::string text =
+      list(folder.file("cube.msh", msh(cube, {"5 2 1 1 1 2 3 4 5 6 7 8", "3 2 9 1 1 4 3 2"}, {"2 9 \"base\""})));
+  CHECK_THAT(text, Contains("1 Hexahedron 8\n") && Contains("8 nodes, 1 hex8, edges from 1 m to 1 m") &&
+                       Contains("patch 6: plane normal to") && Contains("; in base\n"));
+}
+
+TEST_CASE("a mesh that cannot be reduced is listed with the reason") {
+  const TemporaryFolder folder;
+  std::vector<std::string> points;
+  for (int i = 0; i < 14; ++i) points.push_back(std::to_string(i % 3) + " " + std::to_string(i / 3) + " 0");
+  CHECK_THAT(list(folder.file("pyramid.msh", msh(points, {"14 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14"}))),
+             Contains("1 Pyramid 14\n") && Contains("not usable as it is:") && Contains("supported are tetrahedra"));
   CHECK_THAT(message_of<InputError>([&] { list(folder / "nothing.step"); }), Contains("does not exist"));
 }
 

@@ -135,15 +135,15 @@ TEST_CASE("the end of a coarse shaft, whose nodes all lie on its rim, is not tak
       points.col(i + 8 * k) << std::cos(i * std::numbers::pi / 4), std::sin(i * std::numbers::pi / 4), k;
   BodySurface surface;
   for (int i = 1; i < 7; ++i) {
-    surface.cells.push_back({0, i + 1, i});
-    surface.cells.push_back({8, 8 + i, 9 + i});
+    surface.sides.push_back({0, i + 1, i});
+    surface.sides.push_back({8, 8 + i, 9 + i});
   }
   for (int i = 0; i < 8; ++i) {
     const int j = (i + 1) % 8;
-    surface.cells.push_back({i, j, j + 8});
-    surface.cells.push_back({i, j + 8, i + 8});
+    surface.sides.push_back({i, j, j + 8});
+    surface.sides.push_back({i, j + 8, i + 8});
   }
-  const std::vector<int> selected = select_cells(CylinderSelector{{0, 0, 0}, {0, 0, 1}, 1}, points, surface);
+  const std::vector<int> selected = select_sides(CylinderSelector{{0, 0, 0}, {0, 0, 1}, 1}, points, surface);
   CHECK(selected.size() == 16);
   CHECK(selected.front() == 12);
 }
@@ -155,11 +155,11 @@ TEST_CASE("on a mesh without geometry a box takes the triangles that lie in it, 
   BodySurface surface;
   const CellBlock& triangles = *mesh.block(CellType::tri6);
   for (Eigen::Index i = 0; i < triangles.nodes.cols(); ++i) {
-    surface.cells.push_back({triangles.nodes(0, i), triangles.nodes(1, i), triangles.nodes(2, i)});
+    surface.sides.push_back({triangles.nodes(0, i), triangles.nodes(1, i), triangles.nodes(2, i)});
     surface.entities.push_back(1);
   }
   const BoxSelector half{{-0.1, -0.1, 1}, {0.5, 1.1, 1}};  // half of the upper face: two bricks, four triangles
-  CHECK(select_cells(half, mesh.points, surface).size() == 4);
+  CHECK(select_sides(half, mesh.points, surface).size() == 4);
   surface.geometry = true;
-  CHECK_THROWS(select_cells(half, mesh.points, surface));
+  CHECK_THROWS(select_sides(half, mesh.points, surface));
 }
