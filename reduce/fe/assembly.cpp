@@ -80,7 +80,7 @@ void add_block(const BlockPlace& to, const double* block, SymmetricMatrix& k) {
   }
 }
 
-/// What the internal modes of a cell take from its stiffness, (3 nodes, 3 nodes); empty if it has none.
+/// Returns the part that the internal modes of a cell take from its stiffness, (3 nodes, 3 nodes); 0 if it has none.
 template <int N>
 auto condensed_stiffness(const CellPoints<N>& x, const Eigen::Matrix<double, 6, 6>& elasticity) {
   if constexpr (InternalModes<N>::any) {

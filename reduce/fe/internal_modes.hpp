@@ -72,7 +72,7 @@ class InternalModes {
   const Eigen::Matrix<double, 3 * N, 3 * N>& condensed() const { return condensed_; }
 
   /// Strain at a point, with the modes. @param local  the point in the reference cell
-  /// @param determinant  of the Jacobian there
+  /// @param determinant  determinant of the Jacobian there
   Strain strain(const Eigen::Matrix<double, N, 3>& gradients, const Eigen::Vector3d& local, double determinant) const {
     return strain_matrix<N>(gradients) + strains(local, determinant) * amplitudes_;
   }

@@ -26,10 +26,11 @@ Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eig
 /// The type of the same shape with nodes at the vertices alone.
 CellType straight_type(CellType type);
 
-/// det(dx/dxi) [m^3] at the places at which a cell is checked: of tetrahedra of order 1 the constant value, of those of
-/// order 2 the Bernstein coefficients. Of other shapes they are the nodes of the type of order 2 that has the most (of
-/// a pyramid except the apex, where the gradients do not exist) and the points of a rule of degree 4. The straight cell
-/// and the curved one are checked at the same places: a straight cell that passes does so as a cell of order 2, too.
+/// det(dx/dxi) [m^3] at the places at which a cell is checked: the constant value of tetrahedra of order 1, the
+/// Bernstein coefficients of those of order 2. Other shapes are checked at the nodes of the type of order 2 that has
+/// the most (of a pyramid except the apex, where the gradients do not exist) and the points of a rule of degree 4. The
+/// straight cell and the curved one are checked at the same places: a straight cell that passes does so as a cell of
+/// order 2, too.
 /// @param nodes  (3, nodes of the type or more)
 Eigen::VectorXd checked_determinants(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 

@@ -181,7 +181,7 @@ TEST_CASE("an inverted cell of any type is named by its number in the file") {
   for (const CellType type : types) {
     CAPTURE(cell_name(type));
     Mesh mesh = mesh_of(type, {2, 2, 2}, {2, 2, 2});
-    const int first_number = 1;  // of the solid group in the file: "solid" stands first
+    const int first_number = 1;  // the solid group stands first in the file
     // Cell 2 is mirrored: its base and its top change places; of a pyramid, the base runs the other way round.
     CellBlock& solids = mesh.blocks.front();
     auto cell = solids.nodes.col(2);
