@@ -4,6 +4,7 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include <fcntl.h>
@@ -66,6 +67,8 @@ std::optional<std::string> failure(const std::function<void()>& work) {
   try {
     work();
     return {};
+  } catch (const std::length_error&) {  // gmsh believes the numbers of a damaged file
+    reason = "a number of its items is too large";
   } catch (const std::exception&) {
     throw;
   } catch (const std::string& thrown) {

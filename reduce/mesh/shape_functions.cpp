@@ -34,12 +34,12 @@ Values<Number> of_simplex(const CellInfo& cell, const Point<Number>& x) {
 /// On [-1, 1]^d without nodes inside: products of 1 + s x at vertices, with 1 - x^2 along the edge of a mid-side node;
 /// at vertices of order 2 times (sum of s x) + 1 - d.
 template <class Number>
-Values<Number> of_serendipity_cube(const CellInfo& cell, const Eigen::MatrixXd& nodes, const Point<Number>& x) {
+Values<Number> of_serendipity_cube(const CellInfo& cell, const Eigen::MatrixXd& local, const Point<Number>& x) {
   Values<Number> n;
   for (int a = 0; a < cell.nodes; ++a) {
     Number product(1.0), sum(1.0 - cell.dimension);
     for (int k = 0; k < cell.dimension; ++k) {
-      const double s = nodes(k, a);
+      const double s = local(k, a);
       const Number& z = x[static_cast<std::size_t>(k)];
       product *= s == 0 ? 1.0 - z * z : 0.5 * (1.0 + s * z);
       sum += s * z;
@@ -51,12 +51,12 @@ Values<Number> of_serendipity_cube(const CellInfo& cell, const Eigen::MatrixXd& 
 
 /// On [-1, 1]^d with all nodes of the grid of three by three (by three): products of quadratic Lagrange polynomials.
 template <class Number>
-Values<Number> of_full_cube(const CellInfo& cell, const Eigen::MatrixXd& nodes, const Point<Number>& x) {
+Values<Number> of_full_cube(const CellInfo& cell, const Eigen::MatrixXd& local, const Point<Number>& x) {
   Values<Number> n;
   for (int a = 0; a < cell.nodes; ++a) {
     Number product(1.0);
     for (int k = 0; k < cell.dimension; ++k) {
-      const double s = nodes(k, a);
+      const double s = local(k, a);
       const Number& z = x[static_cast<std::size_t>(k)];
       product *= s == 0 ? 1.0 - z * z : 0.5 * z * (z + s);
     }
@@ -66,13 +66,13 @@ Values<Number> of_full_cube(const CellInfo& cell, const Eigen::MatrixXd& nodes, 
 }
 
 template <class Number>
-Values<Number> of_wedge(const CellInfo& cell, const Eigen::MatrixXd& nodes, const Point<Number>& x) {
+Values<Number> of_wedge(const CellInfo& cell, const Eigen::MatrixXd& local, const Point<Number>& x) {
   const std::array<Number, 3> l = {1.0 - x[0] - x[1], x[0], x[1]};
   const Number& z = x[2];
   Values<Number> n;
   for (int a = 0; a < 6; ++a) {
     const Number& of_triangle = l[static_cast<std::size_t>(a % 3)];
-    const Number along = 1.0 + nodes(2, a) * z;
+    const Number along = 1.0 + local(2, a) * z;
     n.push_back(cell.order == 1 ? 0.5 * of_triangle * along
                                 : 0.5 * of_triangle * ((2.0 * of_triangle - 1.0) * along - (1.0 - z * z)));
   }
@@ -80,18 +80,18 @@ Values<Number> of_wedge(const CellInfo& cell, const Eigen::MatrixXd& nodes, cons
     for (const auto& [a, b] : cell.edges) {
       const Number product = l[static_cast<std::size_t>(a % 3)] * l[static_cast<std::size_t>(b % 3)];
       n.push_back(a % 3 == b % 3 ? l[static_cast<std::size_t>(a % 3)] * (1.0 - z * z)
-                                 : 2.0 * product * (1.0 + nodes(2, a) * z));
+                                 : 2.0 * product * (1.0 + local(2, a) * z));
     }
   return n;
 }
 
 template <class Number>
-Values<Number> of_pyramid(const CellInfo& cell, const Eigen::MatrixXd& nodes, const Point<Number>& x) {
+Values<Number> of_pyramid(const CellInfo& cell, const Eigen::MatrixXd& local, const Point<Number>& x) {
   const Number &r = x[0], &s = x[1], &t = x[2], left = 1.0 - t;
-  const auto corner = [&](int a) { return (left + nodes(0, a) * r) * (left + nodes(1, a) * s) / left; };
+  const auto corner = [&](int a) { return (left + local(0, a) * r) * (left + local(1, a) * s) / left; };
   Values<Number> n;
   for (int a = 0; a < 4; ++a)
-    n.push_back(cell.order == 1 ? 0.25 * corner(a) : 0.25 * corner(a) * (nodes(0, a) * r + nodes(1, a) * s - 1.0));
+    n.push_back(cell.order == 1 ? 0.25 * corner(a) : 0.25 * corner(a) * (local(0, a) * r + local(1, a) * s - 1.0));
   n.push_back(cell.order == 1 ? t : t * (2.0 * t - 1.0));
   if (cell.order == 2)
     for (const auto& [a, b] : cell.edges) {
@@ -99,9 +99,9 @@ Values<Number> of_pyramid(const CellInfo& cell, const Eigen::MatrixXd& nodes, co
         n.push_back(t * corner(a));
         continue;
       }
-      const int along = nodes(0, a) != nodes(0, b) ? 0 : 1;
+      const int along = local(0, a) != local(0, b) ? 0 : 1;
       const Number &moving = x[static_cast<std::size_t>(along)], &held = x[static_cast<std::size_t>(1 - along)];
-      n.push_back(0.5 * (left * left - moving * moving) * (left + nodes(1 - along, a) * held) / left);
+      n.push_back(0.5 * (left * left - moving * moving) * (left + local(1 - along, a) * held) / left);
     }
   return n;
 }

@@ -143,7 +143,8 @@ void judge_mesh(const Adequacy& found, Findings& findings) {
                                 place_name(found.worst_place)));
   if (!parts.empty()) findings.lines.emplace_back(fmt::format("mesh: {}", fmt::join(parts, "; ")));
   if (found.order == 1)
-    findings.lines.emplace_back("elements: of order 1 (tet4, wedge6 or pyramid5), which are too stiff, in bending by far");
+    findings.lines.emplace_back(
+        "elements: of order 1 (tet4, wedge6 or pyramid5), which are too stiff, in bending by far");
   if (found.one_element_thick > thin)
     findings.lines.emplace_back(
         fmt::format("walls: below {:.0f} % of its surface the body is one element thick, "

@@ -26,12 +26,13 @@ const KeyTable& wall_keys() {
 }
 
 const KeyTable& port_keys() {
-  static const KeyTable table{"the ports of a servo-valve",
-                              "Places that the ports of a servo-valve join.",
-                              {{"P", name_of("place of the hydraulics"), required, "Place of the supply."},
-                               {"T", name_of("place of the hydraulics"), required, "Place of the tank."},
-                               {"A", name_of("place of the hydraulics"), required, "Place that a positive command joins to P."},
-                               {"B", name_of("place of the hydraulics"), required, "Place that a positive command joins to T."}}};
+  static const KeyTable table{
+      "the ports of a servo-valve",
+      "Places that the ports of a servo-valve join.",
+      {{"P", name_of("place of the hydraulics"), required, "Place of the supply."},
+       {"T", name_of("place of the hydraulics"), required, "Place of the tank."},
+       {"A", name_of("place of the hydraulics"), required, "Place that a positive command joins to P."},
+       {"B", name_of("place of the hydraulics"), required, "Place that a positive command joins to T."}}};
   return table;
 }
 
@@ -130,8 +131,10 @@ const KeyTable& pipe_keys() {
 }
 
 std::vector<Key> line_end_keys() {
-  return {{"from", name_of("place of the hydraulics"), optional, "Place from which the line leads; required but for a servo_valve."},
-          {"to", name_of("place of the hydraulics"), optional, "Place to which the line leads; required but for a servo_valve."},
+  return {{"from", name_of("place of the hydraulics"), optional,
+           "Place from which the line leads; required but for a servo_valve."},
+          {"to", name_of("place of the hydraulics"), optional,
+           "Place to which the line leads; required but for a servo_valve."},
           {"ports", nested(port_keys), optional, "Places of the four ports of a `servo_valve`, which requires them."}};
 }
 

@@ -55,7 +55,9 @@ std::vector<int> all_nodes(const Mesh& mesh) {
   return nodes;
 }
 
-bool is_inside(const Eigen::Vector3d& x) { return (x.array() > 1e-9).all() && (x.array() < extent.array() - 1e-9).all(); }
+bool is_inside(const Eigen::Vector3d& x) {
+  return (x.array() > 1e-9).all() && (x.array() < extent.array() - 1e-9).all();
+}
 
 }  // namespace
 
