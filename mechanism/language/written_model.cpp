@@ -92,30 +92,38 @@ Frame WrittenModel::frame_of_entry(const Tree& entry, const std::string& path) c
   return at ? frame_of_node(at->scalar, *at, path) * own : own;
 }
 
-void WrittenModel::carry_nodes() {
-  for (const Carried& carried : carried_) carry_node(carried);
-}
-
-void WrittenModel::carry_node(const Carried& carried) {
-  Section& elements = sections_["elements"];
-  const auto found = elements.places.find(carried.body);
-  if (found == elements.places.end())
-    fail_at(*carried.place, main_file_, carried.path,
-            fmt::format("there is no element '{}'{}", carried.body, did_you_mean(carried.body, names_in("elements"))));
-  Tree& body = elements.pairs[found->second].value;
-  const Tree type = find_value(*body, "type"), node = find_value(*body, "node");
-  if (!type || type->scalar != "rigid_body" || !node)
+void WrittenModel::check_carrier(const Carried& carried, const YamlNode& body) const {
+  const Tree type = find_value(body, "type");
+  if (!type || type->scalar != "rigid_body" || !find_value(body, "node"))
     fail_at(*carried.place, main_file_, carried.path,
             fmt::format("'{}' is no rigid_body; points of superelements stand in the section `points`", carried.body));
-  if (carried.is_new) {
-    Tree entry = with(*without(*carried.place, {"body", "at"}), "at", node);
-    if (const Tree at = find_value(*carried.place, "at")) entry = with(*entry, "position", at);
-    add("nodes", carried.node, entry);
+}
+
+void WrittenModel::carry_nodes() {
+  Section& elements = sections_["elements"];
+  std::map<std::size_t, std::vector<Tree>> also;  // nodes of each body: lists grow once, however many a body carries
+  for (const Carried& carried : carried_) {
+    const auto found = elements.places.find(carried.body);
+    if (found == elements.places.end())
+      fail_at(
+          *carried.place, main_file_, carried.path,
+          fmt::format("there is no element '{}'{}", carried.body, did_you_mean(carried.body, names_in("elements"))));
+    const Tree& body = elements.pairs[found->second].value;
+    check_carrier(carried, *body);
+    if (carried.is_new) {
+      Tree entry = with(*without(*carried.place, {"body", "at"}), "at", find_value(*body, "node"));
+      if (const Tree at = find_value(*carried.place, "at")) entry = with(*entry, "position", at);
+      add("nodes", carried.node, entry);
+    }
+    also[found->second].push_back(make_scalar(carried.node, *carried.place));
   }
-  const Tree also = find_value(*body, "also");
-  std::vector<Tree> nodes = also ? also->items : std::vector<Tree>{};
-  nodes.push_back(make_scalar(carried.node, *carried.place));
-  body = with(*body, "also", make_list(std::move(nodes), *carried.place));
+  for (auto& [place, nodes] : also) {
+    Tree& body = elements.pairs[place].value;
+    if (const Tree given = find_value(*body, "also"))
+      nodes.insert(nodes.begin(), given->items.begin(), given->items.end());
+    const YamlNode& first = *nodes.back();
+    body = with(*body, "also", make_list(nodes, first));
+  }
 }
 
 Tree WrittenModel::finish(const YamlNode& root) {

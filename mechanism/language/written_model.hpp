@@ -49,7 +49,7 @@ class WrittenModel {
     std::string path;
   };
   void carry_nodes();
-  void carry_node(const Carried& carried);
+  void check_carrier(const Carried& carried, const YamlNode& body) const;
   std::vector<std::string> names_in(const std::string& section) const;
 
   std::string main_file_;

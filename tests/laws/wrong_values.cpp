@@ -26,6 +26,7 @@ std::optional<double> number_in(const std::string& text) {
 }
 
 bool is_number_of(const KeyForm& form, const std::string& text) {
+  if (text == ".nan") return false;
   if (const auto value = number_in(text))
     return std::isfinite(*value) && form.in_range(*value) &&
            (form.kind != Kind::integer || *value == std::floor(*value));
@@ -123,7 +124,7 @@ void add_wrong_values(const KeyForm& form, const YamlNode& shown, std::vector<Wr
     if (form.most < infinity) values.push_back({fmt::format("{}", form.below ? form.most : form.most + 1), range});
     if (form.kind == Kind::integer) values.push_back({"1.5", "whole"});
     values.push_back({"1 cd", "cd"});
-    values.push_back({".nan", "finite"});
+    values.push_back({".nan", "nan"});
   }
   if (form.kind == Kind::word) values.push_back({"nonsense", "nonsense"});
   if (form.kind == Kind::boolean) values.push_back({"maybe", "maybe"});

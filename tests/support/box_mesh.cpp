@@ -1,9 +1,7 @@
 #include "tests/support/box_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -51,110 +49,9 @@ std::vector<int> sorted_nodes(const Eigen::MatrixXi& nodes, const std::vector<in
   return result;
 }
 
-// Vertices of the cells of a brick. @param at  number of a point of the grid by its place in the brick
-std::vector<std::vector<int>> cells_of_brick(int vertices, const std::function<int(int, int, int)>& at, int middle) {
-  const std::vector<int> v = {at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0),
-                              at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)};
-  if (vertices == 8) return {v};
-  if (vertices == 6) return {{v[0], v[1], v[2], v[4], v[5], v[6]}, {v[0], v[2], v[3], v[4], v[6], v[7]}};
-  std::vector<std::vector<int>> pyramids;
-  for (const reduce::CellFace& face : reduce::cell_info(CellType::hex8).faces)  // inward: the apex is inside
-    pyramids.push_back({v[face.nodes[3]], v[face.nodes[2]], v[face.nodes[1]], v[face.nodes[0]], middle});
-  return pyramids;
-}
-
-/// Gives a cell its nodes that are no vertices; each is in the middle of some vertices, and made once.
-class Middles {
- public:
-  explicit Middles(std::vector<Eigen::Vector3d>& points) : points_(points) {}
-  void complete(const reduce::CellInfo& info, std::vector<int>& cell) {
-    if (info.order == 1) return;
-    for (const auto& [a, b] : info.edges) cell.push_back(middle({cell[a], cell[b]}));
-    if (info.type != CellType::hex27) return;
-    for (const reduce::CellFace& face : info.faces)
-      cell.push_back(middle({cell[face.nodes[0]], cell[face.nodes[1]], cell[face.nodes[2]], cell[face.nodes[3]]}));
-    cell.push_back(middle({cell.begin(), cell.begin() + 8}));
-  }
-
- private:
-  int middle(std::vector<int> vertices) {
-    std::sort(vertices.begin(), vertices.end());
-    const auto [place, is_new] = numbers_.try_emplace(vertices, static_cast<int>(points_.size()));
-    if (is_new) {
-      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-      for (const int v : vertices) mean += points_[v] / static_cast<double>(vertices.size());
-      points_.push_back(mean);
-    }
-    return place->second;
-  }
-  std::vector<Eigen::Vector3d>& points_;
-  std::map<std::vector<int>, int> numbers_;
-};
-
-Mesh other_cells(const Box& box, CellType type, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map) {
-  const reduce::CellInfo& info = reduce::cell_info(type);
-  const auto [nx, ny, nz] = box.bricks;
-  const auto number = [&, nx_ = nx, ny_ = ny](int i, int j, int k) { return i + (nx_ + 1) * (j + (ny_ + 1) * k); };
-  const auto place = [&, nx_ = nx, ny_ = ny, nz_ = nz](double i, double j, double k) {
-    return Eigen::Vector3d(Eigen::Vector3d(i / nx_, j / ny_, k / nz_).cwiseProduct(box.size));
-  };
-  std::vector<Eigen::Vector3d> points;
-  for (int k = 0; k <= nz; ++k)
-    for (int j = 0; j <= ny; ++j)
-      for (int i = 0; i <= nx; ++i) points.push_back(place(i, j, k));
-  std::vector<std::vector<int>> cells;
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i) {
-        const auto at = [&](int a, int b, int c) { return number(i + a, j + b, k + c); };
-        const int middle = static_cast<int>(points.size());
-        if (info.vertices == 5) points.push_back(place(i + 0.5, j + 0.5, k + 0.5));
-        for (const std::vector<int>& cell : cells_of_brick(info.vertices, at, middle)) cells.push_back(cell);
-      }
-  Middles middles(points);
-  for (std::vector<int>& cell : cells) middles.complete(info, cell);
-
-  std::map<CellType, std::vector<std::vector<int>>> surface;
-  std::map<std::string, std::map<CellType, std::vector<int>>> sides;
-  for (const std::vector<int>& cell : cells)
-    for (const reduce::CellFace& face : info.faces) {
-      std::vector<int> nodes;
-      for (const int node : face.nodes) nodes.push_back(cell[node]);
-      for (int axis = 0; axis < 3; ++axis)
-        for (const double end : {0.0, box.size(axis)}) {
-          const auto on_side = [&](int v) { return std::abs(points[v](axis) - end) < 1e-12 * box.size(axis); };
-          if (!std::all_of(nodes.begin(), nodes.end(), on_side)) continue;
-          const std::string name = std::string(1, "xyz"[axis]) + (end == 0 ? '0' : '1');
-          sides[name][face.type].push_back(static_cast<int>(surface[face.type].size()));
-          surface[face.type].push_back(nodes);
-        }
-    }
-
-  Mesh mesh;
-  mesh.points.resize(3, points.size());
-  for (std::size_t p = 0; p < points.size(); ++p) mesh.points.col(p) = map ? map(points[p]) : points[p];
-  mesh.blocks.push_back({type, columns(cells)});
-  for (const auto& [face, of_type] : surface) mesh.blocks.push_back({face, columns(of_type)});
-  std::vector<int> all(cells.size());
-  std::iota(all.begin(), all.end(), 0);
-  mesh.groups["solid"] = {3, {{type, all}}, sorted_nodes(mesh.blocks[0].nodes, all)};
-  for (const auto& [name, of_types] : sides) {
-    reduce::Group& group = mesh.groups[name];
-    group.dimension = 2;
-    for (const auto& [face, of_type] : of_types) {
-      group.parts.push_back({face, of_type});
-      for (const int node : sorted_nodes(mesh.block(face)->nodes, of_type)) group.nodes.push_back(node);
-    }
-    std::sort(group.nodes.begin(), group.nodes.end());
-    group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
-  }
-  return mesh;
-}
-
 }  // namespace
 
 Mesh box_mesh(const Box& box, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map) {
-  if (box.type && reduce::vertex_count(*box.type) != 4) return other_cells(box, *box.type, map);
   const auto [nx, ny, nz] = box.bricks;
   const auto number = [&, nx_ = nx, ny_ = ny](int i, int j, int k) { return i + (nx_ + 1) * (j + (ny_ + 1) * k); };
   std::vector<Eigen::Vector3d> points;

@@ -1,9 +1,8 @@
-// Structured meshes of boxes, for tests that must not depend on a mesh generator.
+// Structured tetrahedral meshes of boxes, for tests that must not depend on a mesh generator.
 #pragma once
 
 #include <array>
 #include <functional>
-#include <optional>
 
 #include <Eigen/Core>
 
@@ -11,13 +10,11 @@
 
 namespace bielle::test {
 
-/// A box [0,a]x[0,b]x[0,c] of nx*ny*nz bricks, each split into six tetrahedra around the brick's diagonal, or
-/// into cells of another type: itself a hexahedron, two wedges along z, six pyramids with their apex in the middle.
+/// A box [0,a]x[0,b]x[0,c] of nx*ny*nz bricks, each split into six tetrahedra around the brick's diagonal.
 struct Box {
-  Eigen::Vector3d size{1, 1, 1};              ///< a b c [m]
-  std::array<int, 3> bricks{1, 1, 1};         ///< nx ny nz
-  bool quadratic = true;                      ///< tet10 and tri6, or tet4 and tri3
-  std::optional<reduce::CellType> type = {};  ///< hexahedra, wedges or pyramids in place of tetrahedra
+  Eigen::Vector3d size{1, 1, 1};       ///< a b c [m]
+  std::array<int, 3> bricks{1, 1, 1};  ///< nx ny nz
+  bool quadratic = true;               ///< tet10 and tri6, or tet4 and tri3
 };
 
 /// The mesh, with the volume group "solid" and the surface groups "x0" "x1" "y0" "y1" "z0" "z1" (faces oriented

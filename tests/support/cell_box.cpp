@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reduce/mesh/jacobian.hpp"
 #include "reduce/mesh/shape_functions.hpp"
 
 namespace bielle::test {
@@ -81,10 +82,7 @@ std::vector<int> sorted_nodes(const Eigen::MatrixXi& nodes, const std::vector<in
 reduce::Mesh cell_box(CellType type, const Eigen::Vector3d& size, std::array<int, 3> bricks, const PointMap& map,
                       const PointMap& curve) {
   const CellInfo& cell = reduce::cell_info(type);
-  const CellType linear = cell.vertices == 4   ? CellType::tet4
-                          : cell.vertices == 5 ? CellType::pyramid5
-                          : cell.vertices == 6 ? CellType::wedge6
-                                               : CellType::hex8;
+  const CellType linear = reduce::straight_type(type);
   const Eigen::MatrixXd local = reduce::local_nodes(type);
   Eigen::MatrixXd shares(cell.vertices, cell.nodes);
   for (int a = 0; a < cell.nodes; ++a) shares.col(a) = reduce::shape_values(linear, local.col(a));

@@ -20,7 +20,7 @@
 #include "reduce/mesh/selectors.hpp"
 #include "reduce/mesh/straighten.hpp"
 #include "reduce/mesh/wall_thickness.hpp"
-#include "tests/support/box_mesh.hpp"
+#include "tests/support/cell_box.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -36,11 +36,7 @@ const std::vector<CellType> types = {CellType::hex8,    CellType::hex20,    Cell
 
 Mesh mesh_of(CellType type, const Eigen::Vector3d& size, const std::array<int, 3>& bricks,
              const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map = {}) {
-  Box box;
-  box.size = size;
-  box.bricks = bricks;
-  box.type = type;
-  return box_mesh(box, map);
+  return cell_box(type, size, bricks, {}, map);
 }
 
 // A mesh as gmsh's text, each group of the mesh a physical one.
