@@ -39,10 +39,9 @@ void divide(const Eigen::Matrix3Xd& centroids, std::span<int> cells, int first_p
 }  // namespace
 
 std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts) {
-  Eigen::Matrix3Xd centroids(3, solid.cells());
-  for (Eigen::Index e = 0; e < solid.cells(); ++e)
-    centroids.col(e) = solid.mesh.points(Eigen::all, solid.nodes.col(e)).rowwise().mean();
-  std::vector<int> cells(static_cast<std::size_t>(solid.cells()));
+  Eigen::Matrix3Xd centroids(3, solid.cells.size());
+  for (int e = 0; e < solid.cells.size(); ++e) centroids.col(e) = solid.cells.points(e).rowwise().mean();
+  std::vector<int> cells(static_cast<std::size_t>(solid.cells.size()));
   std::iota(cells.begin(), cells.end(), 0);
   std::vector<std::vector<int>> result(static_cast<std::size_t>(parts));
   divide(centroids, cells, 0, parts, result);
@@ -53,21 +52,20 @@ SolidPart part_of(const Solid& solid, const std::vector<int>& cells) {
   SolidPart part;
   std::vector<int> number(static_cast<std::size_t>(solid.points()), -1);
   for (const int cell : cells)
-    for (const int node : solid.nodes.col(cell)) number[node] = 0;
+    for (const int node : solid.cells.nodes(cell)) number[node] = 0;
   for (std::size_t a = 0; a < number.size(); ++a) {
     if (number[a] < 0) continue;
     number[a] = static_cast<int>(part.points.size());
     part.points.push_back(static_cast<int>(a));
   }
   MeshShare& share = part.share;
-  share.type = solid.type;
   share.points = solid.mesh.points(Eigen::all, part.points);
-  share.nodes.resize(solid.nodes.rows(), static_cast<Eigen::Index>(cells.size()));
-  for (std::size_t e = 0; e < cells.size(); ++e) {
-    for (Eigen::Index a = 0; a < solid.nodes.rows(); ++a)
-      share.nodes(a, static_cast<Eigen::Index>(e)) = number[solid.nodes(a, cells[e])];
-    share.material_of.push_back(solid.material_of[cells[e]]);
+  for (const GroupPart& of_type : solid.cells.group_of(cells).parts) {
+    CellBlock own{of_type.type, solid.mesh.block(of_type.type)->nodes(Eigen::all, of_type.cells)};
+    for (int& node : own.nodes.reshaped()) node = number[node];
+    share.blocks.push_back(std::move(own));
   }
+  for (const int cell : cells) share.material_of.push_back(solid.material_of[cell]);
   for (const Material& material : solid.materials) {
     share.elasticities.push_back(material.elasticity);
     share.densities.push_back(material.density);

@@ -20,6 +20,7 @@ struct SolidPart {
 /// @param parts  >= 1; there may be more than cells
 std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts);
 
+/// @param cells  ascending
 SolidPart part_of(const Solid& solid, const std::vector<int>& cells);
 
 }  // namespace bielle::reduce

@@ -1,11 +1,12 @@
 #include "reduce/distributed/shares.hpp"
 
+#include "reduce/mesh/mesh_packing.hpp"
+
 namespace bielle::reduce {
 
 void exchange(Packing& packing, MeshShare& share) {
-  packing(share.type);
   packing(share.points);
-  packing(share.nodes);
+  packing(share.blocks);
   packing(share.material_of);
   packing(share.elasticities);
   packing(share.densities);

@@ -13,10 +13,9 @@ namespace bielle::reduce {
 
 /// Cells with their points, numbered anew, and their materials.
 struct MeshShare {
-  CellType type = CellType::tet10;
-  Eigen::Matrix3Xd points;  ///< [m]
-  Eigen::MatrixXi nodes;    ///< (nodes of a cell, cells)
-  std::vector<int> material_of;
+  Eigen::Matrix3Xd points;                                ///< [m]
+  std::vector<CellBlock> blocks;                          ///< one for each type of cells
+  std::vector<int> material_of;                           ///< of each cell, block after block
   std::vector<Eigen::Matrix<double, 6, 6>> elasticities;  ///< [Pa]
   std::vector<double> densities;                          ///< [kg/m^3]
 };

@@ -8,9 +8,9 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/dense/blas.hpp"
-#include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/fe/internal_modes.hpp"
+#include "reduce/fe/solid_block.hpp"
 
 namespace bielle::reduce {
 
@@ -19,14 +19,14 @@ namespace {
 /// Records the inverted cell with the lowest number; any thread may call it.
 class InvertedCells {
  public:
-  void note(Eigen::Index cell) {
-    Eigen::Index lowest = lowest_.load();
+  void note(int cell) {
+    int lowest = lowest_.load();
     while ((lowest < 0 || cell < lowest) && !lowest_.compare_exchange_weak(lowest, cell)) {
     }
   }
   void check(const Solid& solid) const {
-    if (const Eigen::Index cell = lowest_.load(); cell >= 0) {
-      const Eigen::Vector3d centre = solid.mesh.points(Eigen::all, solid.nodes.col(cell)).rowwise().mean();
+    if (const int cell = lowest_.load(); cell >= 0) {
+      const Eigen::Vector3d centre = solid.cells.points(cell).rowwise().mean();
       throw ComputationError(
           fmt::format("cell {} of the mesh, near ({:.6g}, {:.6g}, {:.6g}) m, is turned inside out; mesh "
                       "that region finer or with straight edges",
@@ -35,7 +35,7 @@ class InvertedCells {
   }
 
  private:
-  std::atomic<Eigen::Index> lowest_{-1};
+  std::atomic<int> lowest_{-1};
 };
 
 /// Pattern of K: columns of node b hold the rest of its own block, then the blocks of its neighbours with higher
@@ -94,24 +94,24 @@ auto condensed_stiffness(const CellPoints<N>& x, const Eigen::Matrix<double, 6, 
 
 /// The cell's stiffness by blocks: K_ab(i,k) in row i + 3 k of column a + N b, for all a >= b in the order of the mesh.
 template <int N>
-void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
+void add_stiffness(const SolidBlock& block, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
   const CellRules<N> rules(stiffness_degrees<N>());
   std::vector<Eigen::Matrix<double, 9, 9>> tensors;
-  for (const Material& material : solid.materials) {
+  for (const Material& material : block.solid.materials) {
     tensors.push_back(elasticity_tensor(material.elasticity));
   }
   InvertedCells inverted;
   constexpr int most_points = N == 4 ? 1 : SolidCell<N>::is_second_order ? 27 : 8, pairs = N * (N + 1) / 2;
   const BlasThreads one(1);
-  for_each_cell(solid.nodes, solid.points(), threads, [&](Eigen::Index e) {
-    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+  for_each_cell(block, threads, [&](int e) {
+    const CellPoints<N> x = block.points<N>(e);
     const CellRule<N>& rule = rules.of(x);
     Eigen::Matrix<double, 3 * N, most_points> g, weighted;
     Eigen::Matrix<double, N, 3> gradients;
     for (std::size_t p = 0; p < rule.size(); ++p) {
       const double volume = map_point<N>(rule, p, x, gradients);
       if (!(volume > 0)) {
-        inverted.note(e);
+        inverted.note(block.first + e);
         return;
       }
       g.col(static_cast<Eigen::Index>(p)) = gradients.transpose().reshaped();
@@ -122,13 +122,13 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
     const auto points = static_cast<Eigen::Index>(rule.size());
     add_dense_product({weighted.data(), 3 * N, points, 3 * N, false}, {g.data(), points, 3 * N, 3 * N, true}, w.data(),
                       3 * N);
-    const CellPlaces<N> places(graph, solid.nodes, e);
+    const CellPlaces<N> places(graph, block.nodes, e);
     std::array<BlockPlace, pairs> to;
     Eigen::Matrix<double, 9, pairs> w_of_pairs, k_of_pairs = Eigen::Matrix<double, 9, pairs>::Zero();
-    const auto condensed = condensed_stiffness<N>(x, solid.materials[solid.material_of[e]].elasticity);
+    const auto condensed = condensed_stiffness<N>(x, block.material(e).elasticity);
     int pair = 0;
     for (int cell_b = 0; cell_b < N; ++cell_b) {
-      const int b = solid.nodes(cell_b, e);
+      const int b = block.nodes(cell_b, e);
       const std::int64_t own = graph.place(b, b);
       places.from(cell_b, own, [&](int cell_a, std::int64_t place) {
         w_of_pairs.col(pair) = w.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
@@ -137,22 +137,22 @@ void add_stiffness(const Solid& solid, const NodeGraph& graph, SymmetricMatrix& 
         to[static_cast<std::size_t>(pair++)] = {b, place - own};
       });
     }
-    const Eigen::Matrix<double, 9, 9>& tensor = tensors[solid.material_of[e]];
+    const Eigen::Matrix<double, 9, 9>& tensor = tensors[block.material_number(e)];
     add_dense_product({tensor.data(), 9, 9, 9, false}, {w_of_pairs.data(), 9, pairs, 9, false}, k_of_pairs.data(), 9);
     for (pair = 0; pair < pairs; ++pair) add_block(to[static_cast<std::size_t>(pair)], k_of_pairs.col(pair).data(), k);
   });
-  inverted.check(solid);
+  inverted.check(block.solid);
 }
 
 template <int N>
-void add_to_node_matrix(const Solid& solid, const NodeGraph& graph, Eigen::Index e,
+void add_to_node_matrix(const SolidBlock& block, const NodeGraph& graph, Eigen::Index e,
                         const Eigen::Matrix<double, N, N>& values, NodeMatrix& m) {
-  const CellPlaces<N> places(graph, solid.nodes, e);
+  const CellPlaces<N> places(graph, block.nodes, e);
   for (int a = 0; a < N; ++a) places.all(a, [&](int b, std::int64_t place) { m.values[place] += values(a, b); });
 }
 
 template <int N>
-void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int threads) {
+void add_mass(const SolidBlock& block, const NodeGraph& graph, NodeMatrix& m, int threads) {
   const CellRules<N> rules(N == 4                          ? CellDegrees{2, 2}
                            : N == 10                       ? CellDegrees{4, 7}
                            : SolidCell<N>::is_second_order ? CellDegrees{4, 7}
@@ -166,35 +166,35 @@ void add_mass(const Solid& solid, const NodeGraph& graph, NodeMatrix& m, int thr
   };
   const Eigen::Matrix<double, N, N> straight = integrate(rules.straight, [](std::size_t) { return 1.0; });
   InvertedCells inverted;
-  for_each_cell(solid.nodes, solid.points(), threads, [&](Eigen::Index e) {
-    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+  for_each_cell(block, threads, [&](int e) {
+    const CellPoints<N> x = block.points<N>(e);
     const CellRule<N>& rule = rules.of(x);
     const auto jacobian = [&](std::size_t p) {
       const double value = Eigen::Matrix3d(x * rule.local_gradients[p]).determinant();
       if (!(value > 0)) {
-        inverted.note(e);
+        inverted.note(block.first + e);
       }
       return value;
     };
-    const double density = solid.materials[solid.material_of[e]].density;
+    const double density = block.material(e).density;
     const Eigen::Matrix<double, N, N> reference =
         &rule == &rules.straight ? Eigen::Matrix<double, N, N>(jacobian(0) * straight) : integrate(rule, jacobian);
-    add_to_node_matrix<N>(solid, graph, e, density * reference, m);
+    add_to_node_matrix<N>(block, graph, e, density * reference, m);
   });
-  inverted.check(solid);
+  inverted.check(block.solid);
 }
 
 }  // namespace
 
 SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, int threads) {
   SymmetricMatrix k = stiffness_pattern(graph);
-  with_nodes_of(solid.type, [&]<int N>() { add_stiffness<N>(solid, graph, k, threads); });
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) { add_stiffness<N>(block, graph, k, threads); });
   return k;
 }
 
 NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads) {
   NodeMatrix m{&graph, std::vector<double>(graph.neighbours.size(), 0.0)};
-  with_nodes_of(solid.type, [&]<int N>() { add_mass<N>(solid, graph, m, threads); });
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) { add_mass<N>(block, graph, m, threads); });
   return m;
 }
 

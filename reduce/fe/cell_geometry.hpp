@@ -56,11 +56,6 @@ struct SolidCell {
                                    : N == 15 ? CellType::wedge15
                                    : N == 20 ? CellType::hex20
                                              : CellType::hex27;
-  /// The type of order 1 with the same vertices, whose functions extend values at points over the cell.
-  static constexpr CellType linear_type = vertices == 4   ? CellType::tet4
-                                          : vertices == 5 ? CellType::pyramid5
-                                          : vertices == 6 ? CellType::wedge6
-                                                          : CellType::hex8;
 };
 
 template <int N>
@@ -137,17 +132,6 @@ constexpr CellDegrees stiffness_degrees() {
   if constexpr (N == 4) return {0, 0};
   if constexpr (N == 10) return {2, 5};
   return SolidCell<N>::is_second_order ? CellDegrees{4, 4} : CellDegrees{2, 2};
-}
-
-/// Calls work(cell) for every cell; cells of one colour run at the same time.
-template <typename Work>
-void for_each_cell(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads, const Work& work) {
-  for (const std::vector<int>& cells : colour_cells(nodes, points)) {
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      work(cells[k]);
-    }
-  }
 }
 
 template <int N>

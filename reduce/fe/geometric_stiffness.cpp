@@ -7,8 +7,8 @@
 
 #include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_fields.hpp"
-#include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/internal_modes.hpp"
+#include "reduce/fe/solid_block.hpp"
 
 namespace bielle::reduce {
 
@@ -74,13 +74,14 @@ constexpr int pair_number(int a, int b, int nodes) {
 }
 
 template <int N>
-void add_cells(const Solid& solid, const NodeGraph& graph, const RowMatrix& fields, FieldMatrices& g, int threads) {
+void add_cells(const SolidBlock& block, const NodeGraph& graph, const RowMatrix& fields, FieldMatrices& g,
+               int threads) {
   constexpr int pairs = N * (N + 1) / 2;
   const CellRule<N> straight(N == 10 ? five_points()
                                      : cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().straight));
   const CellRule<N> curved(cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().curved));
   const Index count = fields.cols(), most = static_cast<Index>(std::max(straight.size(), curved.size()));
-  const std::vector<std::vector<int>> colours = colour_cells(solid.nodes, solid.points());
+  const std::vector<std::vector<int>> colours = colour_cells(block.nodes, block.solid.points());
 #pragma omp parallel num_threads(threads)
   {
     CellFields<N> cell(most, count);
@@ -90,21 +91,21 @@ void add_cells(const Solid& solid, const NodeGraph& graph, const RowMatrix& fiel
 #pragma omp for schedule(static)
       for (std::size_t k = 0; k < colour.size(); ++k) {
         const int e = colour[k];
-        const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+        const CellPoints<N> x = block.points<N>(e);
         const CellRule<N>& rule = is_straight<N>(x) ? straight : curved;
         const auto points = static_cast<Index>(rule.size());
-        const auto& elasticity = solid.materials[solid.material_of[e]].elasticity;
+        const auto& elasticity = block.material(e).elasticity;
         set_strains(
             cell, modes, rule, x, elasticity, [&](double volume) { return Matrix6(volume * elasticity); },
             [&](Index p, const auto& gradients, double) { set_products<N>(gradients, p, products); });
-        cell.take(fields, solid.nodes, e);
+        cell.take(fields, block.nodes, e);
         cell.evaluate(points, stresses.data());
         sums.setZero();
         add_dense_product({stresses.data(), count, 6 * points, count, false},
                           {products.data(), 6 * points, pairs, products.rows(), false}, sums.data(), count);
-        const CellPlaces<N> places(graph, solid.nodes, e);
+        const CellPlaces<N> places(graph, block.nodes, e);
         for (int a = 0; a < N; ++a) {
-          const int low = solid.nodes(a, e);
+          const int low = block.nodes(a, e);
           places.from(a, g.own[low], [&](int b, std::int64_t place) {
             Eigen::Map<Eigen::VectorXd>(g.column(g.first[low] + place - g.own[low]), count) +=
                 sums.col(pair_number(a, b, N));
@@ -205,7 +206,7 @@ std::vector<MatrixXd> reduced_geometric_stiffness(const Solid& solid, const Node
   const Index count = fields.cols(), n = shapes.cols();
   const BlasThreads one(1);
   FieldMatrices g(graph, count, threads);
-  with_nodes_of(solid.type, [&]<int N>() { add_cells<N>(solid, graph, fields, g, threads); });
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) { add_cells<N>(block, graph, fields, g, threads); });
   const MatrixXd sums = reduce(graph, g, shapes, threads);
   std::vector<MatrixXd> result;
   for (Index f = 0; f < count; ++f) {

@@ -45,18 +45,16 @@ class InternalModes {
         middle_(shape_gradients(SolidCell<N>::type,
                                 N == 6 ? Eigen::Vector3d(1.0 / 3, 1.0 / 3, 0) : Eigen::Vector3d(0, 0, 0))) {}
 
-  /// Condenses the modes of a cell. @returns false if it is inverted at a point of its rule
-  bool set(const CellPoints<N>& x, const Matrix6& elasticity) {
+  /// Condenses the modes of a cell that is nowhere inverted.
+  void set(const CellPoints<N>& x, const Matrix6& elasticity) {
     const Eigen::Matrix3d jacobian = x * middle_;
     inverse_ = jacobian.inverse();
     determinant_ = jacobian.determinant();
-    if (!(determinant_ > 0)) return false;
     Eigen::Matrix<double, count, count> K_aa = Eigen::Matrix<double, count, count>::Zero();
     Eigen::Matrix<double, count, 3 * N> K_au = Eigen::Matrix<double, count, 3 * N>::Zero();
     Eigen::Matrix<double, N, 3> gradients;
     for (std::size_t p = 0; p < rule_.size(); ++p) {
       const double volume = map_point<N>(rule_, p, x, gradients);
-      if (!(volume > 0)) return false;
       const Modes G =
           strains(rule_.points.col(static_cast<Eigen::Index>(p)), volume / rule_.weights(static_cast<Eigen::Index>(p)));
       const Eigen::Matrix<double, count, 6> stress = volume * G.transpose() * elasticity;
@@ -65,7 +63,6 @@ class InternalModes {
     }
     amplitudes_ = -K_aa.ldlt().solve(K_au);
     condensed_.noalias() = K_au.transpose() * amplitudes_;
-    return true;
   }
 
   /// K_ua times the amplitudes by displacements: added to the stiffness of the displacements alone, (3 N, 3 N).

@@ -1,37 +1,37 @@
 #include "reduce/fe/mean_strain.hpp"
 
-#include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/solid_block.hpp"
 
 namespace bielle::reduce {
 
 namespace {
 
-/// Integral mean of the gradient of each node's shape function: (3, points).
+/// Adds the integrals of the gradient of each node's shape function, (3, points), and the volume.
 template <int N>
-Eigen::Matrix3Xd mean_gradients(const Solid& solid) {
+void add_gradients(const SolidBlock& block, Eigen::Matrix3Xd& sums, double& volume) {
   // Gradient times Jacobian is a product of local gradients, three of them on a curved cell.
   const CellRules<N> rules(SolidCell<N>::is_simplex        ? CellDegrees{1, 3}
                            : SolidCell<N>::is_second_order ? CellDegrees{2, 6}
                                                            : CellDegrees{2, 3});
-  Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, solid.points());
   Eigen::Matrix<double, N, 3> gradients;
-  double volume = 0;
-  for (Eigen::Index cell = 0; cell < solid.cells(); ++cell) {
-    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, cell);
+  for (Eigen::Index cell = 0; cell < block.cells(); ++cell) {
+    const CellPoints<N> x = block.points<N>(cell);
     const CellRule<N>& rule = rules.of(x);
     for (std::size_t p = 0; p < rule.size(); ++p) {
       const double part = map_point(rule, p, x, gradients);
       volume += part;
-      for (int a = 0; a < N; ++a) result.col(solid.nodes(a, cell)) += part * gradients.row(a).transpose();
+      for (int a = 0; a < N; ++a) sums.col(block.nodes(a, cell)) += part * gradients.row(a).transpose();
     }
   }
-  return result / volume;
 }
 
 }  // namespace
 
 Eigen::MatrixXd mean_strain(const Solid& solid, const RowMatrix& fields) {
-  const Eigen::Matrix3Xd gradients = with_nodes_of(solid.type, [&]<int N>() { return mean_gradients<N>(solid); });
+  Eigen::Matrix3Xd gradients = Eigen::Matrix3Xd::Zero(3, solid.points());
+  double volume = 0;
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) { add_gradients<N>(block, gradients, volume); });
+  gradients /= volume;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(6, fields.cols());
   for (Eigen::Index a = 0; a < solid.points(); ++a) {
     const auto x = fields.row(3 * a), y = fields.row(3 * a + 1), z = fields.row(3 * a + 2);

@@ -11,9 +11,11 @@
 #include "reduce/dense/dense_solves.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/fe/cell_fields.hpp"
-#include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/elasticity.hpp"
 #include "reduce/fe/internal_modes.hpp"
+#include "reduce/fe/solid_block.hpp"
 #include "reduce/fe/vertex_patches.hpp"
+#include "reduce/mesh/jacobian.hpp"
 
 namespace bielle::reduce {
 
@@ -36,81 +38,187 @@ Matrix6 root_of(const Matrix6& elasticity) {
   return vectors * pairs.values.cwiseMax(0).cwiseSqrt().asDiagonal() * vectors.transpose();
 }
 
-/// Data that depend on the type of cell: points at which stress is most accurate, and the polynomial that is fitted to
-/// them.
-template <int N>
-struct Fit {
-  static constexpr bool is_quadratic = SolidCell<N>::is_second_order;
-  static constexpr int terms = is_quadratic ? 10 : 4;
-  static constexpr int sampling_degree = N == 4 ? 0 : 2;
-  static constexpr int error_degree = N == 10 ? 3 : is_quadratic ? 4 : 2;
-  using Terms = Eigen::Matrix<double, terms, 1>;
-  using Normal = Eigen::Matrix<double, terms, terms>;
+/// Stresses of all cells at the points at which they are most accurate. They are those for unit compliance, W^-1 s = W
+/// eps: their square is twice the energy. The fits are not affected, since each component has its own.
+struct Samples {
+  std::vector<Eigen::Index> first{0};  // first point of each cell, and the number of all points
+  Eigen::Matrix3Xd places;             // [m]
+  Numbers stress;                      // (fields, 6 points), one column after the other
+  Eigen::Index fields = 0;
 
-  static Terms polynomials(const Eigen::Vector3d& x) {
-    Terms result;
-    result.template head<4>() << 1, x;
-    if constexpr (is_quadratic) result.template tail<6>() << x.cwiseAbs2(), x.y() * x.z(), x.x() * x.z(), x.x() * x.y();
-    return result;
-  }
+  Eigen::Index points(int cell) const { return first[cell + 1] - first[cell]; }
+  double* of(int cell) { return stress.get() + 6 * fields * first[cell]; }
+  const double* of(int cell) const { return stress.get() + 6 * fields * first[cell]; }
 };
+
+/// Number of terms of a polynomial of degree 1 or 2 in space.
+constexpr int most_terms = 10;
+constexpr int terms_of_order(int order) { return order == 1 ? 4 : most_terms; }
+
+/// The terms of a polynomial at a place, those of lower degree first.
+void set_terms(const Eigen::Vector3d& x, Eigen::Index terms, double* column) {
+  Eigen::Map<Eigen::Vector4d>(column) << 1, x;
+  if (terms == most_terms)
+    Eigen::Map<Vector6>(column + 4) << x.cwiseAbs2(), x.y() * x.z(), x.x() * x.z(), x.x() * x.y();
+}
 
 /// The polynomials of all vertices of one material, in coordinates from the vertex in units of `scale`: for each vertex
 /// (6 fields, terms), one column after the other.
 struct FittedStress {
-  double* coefficients;
+  Eigen::Index terms, fields;
+  const double* coefficients;
   std::vector<double> scale;  // [m]
 };
 
-/// The estimate for some fields. Stresses are those for unit compliance, W^-1 s = W eps: their square is twice the
-/// energy. The fits are not affected, since each component has its own.
-template <int N>
-class Estimate {
+/// Fits polynomials to the samples around each vertex.
+class PatchFit {
  public:
-  /// @param width  fields at a time, at most
-  Estimate(const Solid& solid, const RowMatrix& fields, Eigen::Index width, int threads)
-      : solid_(solid),
-        fields_(fields),
-        threads_(threads),
-        sampling_(cell_quadrature(SolidCell<N>::type, Fit<N>::sampling_degree)),
-        rule_(cell_quadrature(SolidCell<N>::type, Fit<N>::error_degree)),
-        around_(all_surroundings(solid)),
-        samples_(numbers(solid.cells() * size_of_samples(width))),
-        coefficients_(numbers(most_vertices() * terms * 6 * width)) {
-    for (const Material& material : solid.materials) roots_.push_back(root_of(material.elasticity));
-    set_interpolation();
-    shares_.resize(SolidCell<N>::vertices, rule_.weights.size());
-    for (Eigen::Index p = 0; p < shares_.cols(); ++p)
-      shares_.col(p) = shape_values(SolidCell<N>::linear_type, rule_.points.col(p));
-  }
+  PatchFit(const Solid& solid, const Samples& samples, Eigen::Index terms, std::size_t least_cells)
+      : solid_(solid), samples_(samples), terms_(terms), least_cells_(least_cells) {}
 
-  /// Energies, doubled, of the error and of the fields from `first` on: (cells, fields).
-  void calc(Eigen::Index first, RowArray& error, RowArray& energy) {
-    first_ = first;
-    width_ = error.cols();
-    sample(energy);
-    for (std::size_t m = 0; m < around_.size(); ++m) compare(fit(around_[m]), static_cast<int>(m), error, energy);
+  /// @param coefficients  memory for those of all vertices
+  FittedStress fit(const Surroundings& around, int threads, double* coefficients) const {
+    const auto count = static_cast<Eigen::Index>(around.vertices.size());
+    const Eigen::Index size = 6 * samples_.fields;
+    FittedStress result{terms_, samples_.fields, coefficients, std::vector<double>(around.vertices.size())};
+#pragma omp parallel num_threads(threads)
+    {
+      Eigen::Matrix3Xd places;
+      Eigen::MatrixXd polynomials, values, normal(terms_, terms_), right(terms_, size);
+#pragma omp for schedule(dynamic, 64)
+      for (Eigen::Index v = 0; v < count; ++v) {
+        const std::vector<int> patch = patch_of(solid_, around, static_cast<std::size_t>(v), least_cells_);
+        result.scale[v] = gather(patch, solid_.mesh.points.col(around.vertices[v]), places, values);
+        polynomials.resize(terms_, places.cols());
+        for (Eigen::Index p = 0; p < places.cols(); ++p) set_terms(places.col(p), terms_, polynomials.col(p).data());
+        normal.setZero();
+        right.setZero();
+        const DenseBlock of_terms{polynomials.data(), terms_, places.cols(), terms_, false};
+        add_dense_product(of_terms, {polynomials.data(), places.cols(), terms_, terms_, true}, normal.data(), terms_);
+        add_dense_product(of_terms, {values.data(), places.cols(), size, size, true}, right.data(), terms_);
+        // Regular meshes and small bodies leave terms undetermined; the terms of high degree are then set to zero, not
+        // those of low degree.
+        const double trace = normal.trace();
+        normal.diagonal().tail(terms_ - 1).array() += 1e-12 * trace;
+        if (terms_ == most_terms) normal.diagonal().tail(terms_ - 4).array() += 1e-9 * trace;
+        Eigen::Map<Eigen::MatrixXd>(coefficients + v * terms_ * size, size, terms_) =
+            solve_symmetric(normal, right).transpose();
+      }
+    }
+    return result;
   }
 
  private:
-  static constexpr int terms = Fit<N>::terms;
-  static constexpr int most_points = Fit<N>::is_quadratic && N != 10 ? 27 : 8;  // number of points of `rule_`
+  /// Sets the samples of a patch and their positions from a vertex, in units of the largest distance.
+  /// @returns that distance
+  double gather(const std::vector<int>& patch, const Eigen::Vector3d& centre, Eigen::Matrix3Xd& places,
+                Eigen::MatrixXd& values) const {
+    Eigen::Index count = 0, at = 0;
+    for (const int cell : patch) count += samples_.points(cell);
+    places.resize(3, count);
+    values.resize(6 * samples_.fields, count);
+    for (const int cell : patch) {
+      const Eigen::Index points = samples_.points(cell);
+      places.middleCols(at, points) = samples_.places.middleCols(samples_.first[cell], points).colwise() - centre;
+      std::copy_n(samples_.of(cell), values.rows() * points, values.col(at).data());
+      at += points;
+    }
+    const double scale = places.colwise().norm().maxCoeff();
+    places /= scale;
+    return scale;
+  }
 
-  static std::vector<Surroundings> all_surroundings(const Solid& solid) {
-    std::vector<Surroundings> result;
-    for (int m = 0; m < static_cast<int>(solid.materials.size()); ++m) result.push_back(surroundings(solid, m));
-    return result;
+  const Solid& solid_;
+  const Samples& samples_;
+  Eigen::Index terms_;
+  std::size_t least_cells_;
+};
+
+/// The cells of one type: their samples, and the difference between their stress and the smoother one.
+template <int N>
+class BlockError {
+ public:
+  BlockError(const SolidBlock& block, const std::vector<Matrix6>& roots, int threads)
+      : block_(block),
+        roots_(roots),
+        threads_(threads),
+        sampling_(sampling_rule()),
+        rule_(cell_quadrature(SolidCell<N>::type, N == 10                         ? 3
+                                                  : SolidCell<N>::is_second_order ? 4
+                                                                                  : 2)) {
+    set_interpolation();
+    shares_.resize(SolidCell<N>::vertices, rule_.weights.size());
+    for (Eigen::Index p = 0; p < shares_.cols(); ++p)
+      shares_.col(p) = shape_values(straight_type(SolidCell<N>::type), rule_.points.col(p));
   }
-  Eigen::Index most_vertices() const {
-    std::size_t most = 0;
-    for (const Surroundings& around : around_) most = std::max(most, around.vertices.size());
-    return static_cast<Eigen::Index>(most);
+
+  static Quadrature sampling_rule() { return cell_quadrature(SolidCell<N>::type, N == 4 ? 0 : 2); }
+
+  /// Computes the stresses of the fields from `first` on at the sampling points, and doubled energies (cells, fields)
+  /// of cells with linear stress: the sampling points integrate its square exactly.
+  void sample(const RowMatrix& fields, Eigen::Index first, Samples& samples, RowArray& energy) const {
+    const auto points = static_cast<Eigen::Index>(sampling_.size());
+#pragma omp parallel num_threads(threads_)
+    {
+      CellFields<N> cell(points, samples.fields);
+      InternalModes<N> modes;
+      Eigen::VectorXd volumes(points);
+#pragma omp for schedule(static)
+      for (Eigen::Index e = 0; e < block_.cells(); ++e) {
+        const CellPoints<N> x = block_.points<N>(e);
+        const int number = block_.first + static_cast<int>(e);
+        set_strains(
+            cell, modes, sampling_, x, block_.material(e).elasticity, [&](double) { return root(e); },
+            [&](Eigen::Index p, const auto&, double volume) { volumes(p) = volume; });
+        cell.take(fields, block_.nodes, e, first);
+        cell.evaluate(points, samples.of(number));
+        if (has_linear_stress(x)) add_squares(samples.of(number), volumes, energy, number);
+      }
+    }
   }
-  Eigen::Index size_of_samples(Eigen::Index fields) const {
-    return 6 * fields * static_cast<Eigen::Index>(sampling_.size());
+
+  /// Adds the doubled energies of the error, and of the fields in cells without linear stress, in the cells of one
+  /// material.
+  void compare(const RowMatrix& fields, Eigen::Index first, const Samples& samples, const FittedStress& fitted,
+               const Surroundings& around, int material, RowArray& error, RowArray& energy) const {
+    const auto points = static_cast<Eigen::Index>(rule_.size()), sampled = static_cast<Eigen::Index>(sampling_.size());
+    const Eigen::Index size = 6 * samples.fields;
+    const Eigen::MatrixXd backward = -interpolation_;
+#pragma omp parallel num_threads(threads_)
+    {
+      CellFields<N> curved(points, samples.fields);
+      InternalModes<N> modes;
+      Eigen::MatrixXd stress(size, points), own(size, points);
+      Eigen::VectorXd volumes(points);
+#pragma omp for schedule(static)
+      for (Eigen::Index e = 0; e < block_.cells(); ++e) {
+        if (block_.material_number(e) != material) continue;
+        const CellPoints<N> x = block_.points<N>(e);
+        const int number = block_.first + static_cast<int>(e);
+        stress.setZero();
+        if (has_linear_stress(x)) {
+          volumes = rule_.weights * Eigen::Matrix3d(x * rule_.local_gradients[0]).determinant();
+          add_dense_product({samples.of(number), size, sampled, size, false},
+                            {backward.data(), sampled, points, sampled, false}, stress.data(), size);
+        } else {
+          set_strains(
+              curved, modes, rule_, x, block_.material(e).elasticity, [&](double) { return root(e); },
+              [&](Eigen::Index p, const auto&, double volume) { volumes(p) = volume; });
+          curved.take(fields, block_.nodes, e, first);
+          curved.evaluate(points, own.data());
+          add_squares(own.data(), volumes, energy, number);
+          stress = -own;
+        }
+        add_smooth_stress(e, x, fitted, around, stress.data());
+        add_squares(stress.data(), volumes, error, number);
+      }
+    }
   }
-  CellPoints<N> points_of(Eigen::Index cell) const { return cell_points<N>(solid_.mesh.points, solid_.nodes, cell); }
-  double* samples_of(Eigen::Index cell) { return samples_.get() + cell * size_of_samples(width_); }
+
+ private:
+  static constexpr int most_points = SolidCell<N>::is_second_order && N != 10 ? 27 : 8;  // number of points of `rule_`
+
+  const Matrix6& root(Eigen::Index e) const { return roots_[static_cast<std::size_t>(block_.material_number(e))]; }
 
   /// Whether the stress of a cell is the linear function that its sampling points give.
   static bool has_linear_stress(const CellPoints<N>& x) { return SolidCell<N>::is_simplex && is_straight<N>(x); }
@@ -129,87 +237,13 @@ class Estimate {
     interpolation_ = Eigen::Matrix4d(barycentric(sampling_.points)).inverse() * barycentric(rule_.points);
   }
 
-  /// Computes the stress at the sampling points, and its energy in each cell; these points integrate the square of a
-  /// linear stress exactly. The energy of curved cells is integrated with `rule_`.
-  void sample(RowArray& energy) {
-    const auto points = static_cast<Eigen::Index>(sampling_.size());
-#pragma omp parallel num_threads(threads_)
-    {
-      CellFields<N> cell(points, width_);
-      InternalModes<N> modes;
-      Eigen::VectorXd volumes(points);
-#pragma omp for schedule(static)
-      for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
-        const CellPoints<N> x = points_of(e);
-        const auto material = static_cast<std::size_t>(solid_.material_of[e]);
-        set_strains(
-            cell, modes, sampling_, x, solid_.materials[material].elasticity, [&](double) { return roots_[material]; },
-            [&](Eigen::Index p, const auto&, double volume) { volumes(p) = volume; });
-        cell.take(fields_, solid_.nodes, e, first_);
-        cell.evaluate(points, samples_of(e));
-        if (has_linear_stress(x)) add_squares(samples_of(e), volumes, &energy(e, 0));
-      }
-    }
-  }
-
   /// Adds to each field the integral of the square of its stress, (fields, 6 points).
-  void add_squares(const double* stress, const Eigen::VectorXd& volumes, double* sums) const {
-    Eigen::Map<Eigen::ArrayXd> sum(sums, width_);
+  static void add_squares(const double* stress, const Eigen::VectorXd& volumes, RowArray& sums, int cell) {
+    const Eigen::Index width = sums.cols();
+    Eigen::Map<Eigen::ArrayXd> sum(&sums(cell, 0), width);
     for (Eigen::Index p = 0; p < volumes.size(); ++p)
       for (int s = 0; s < 6; ++s)
-        sum += volumes(p) * Eigen::Map<const Eigen::ArrayXd>(stress + (6 * p + s) * width_, width_).square();
-  }
-
-  /// Sets the positions of a patch's sampling points relative to a vertex, in units of the largest distance.
-  double set_places(const std::vector<int>& patch, const Eigen::Vector3d& centre, Eigen::Matrix3Xd& places) const {
-    const auto points = static_cast<Eigen::Index>(sampling_.size());
-    places.resize(3, static_cast<Eigen::Index>(patch.size()) * points);
-    for (std::size_t c = 0; c < patch.size(); ++c) {
-      const CellPoints<N> x = points_of(patch[c]);
-      for (Eigen::Index p = 0; p < points; ++p)
-        places.col(static_cast<Eigen::Index>(c) * points + p) =
-            x * sampling_.values[static_cast<std::size_t>(p)] - centre;
-    }
-    const double scale = places.colwise().norm().maxCoeff();
-    places /= scale;
-    return scale;
-  }
-
-  FittedStress fit(const Surroundings& around) {
-    const auto points = static_cast<Eigen::Index>(sampling_.size());
-    const auto count = static_cast<Eigen::Index>(around.vertices.size());
-    const Eigen::Index size = 6 * width_;  // length of a sample
-    FittedStress result{coefficients_.get(), std::vector<double>(count)};
-    const std::size_t least = 2 * terms / sampling_.size() + 1;  // cells: two samples for each term
-#pragma omp parallel num_threads(threads_)
-    {
-      Eigen::Matrix3Xd places;
-      Eigen::Matrix<double, terms, Eigen::Dynamic> polynomials;
-      Eigen::MatrixXd values, right(terms, size);
-#pragma omp for schedule(dynamic, 64)
-      for (Eigen::Index v = 0; v < count; ++v) {
-        const std::vector<int> patch = patch_of(solid_, around, static_cast<std::size_t>(v), least);
-        result.scale[v] = set_places(patch, solid_.mesh.points.col(around.vertices[v]), places);
-        polynomials.resize(terms, places.cols());
-        for (Eigen::Index p = 0; p < places.cols(); ++p) polynomials.col(p) = Fit<N>::polynomials(places.col(p));
-        values.resize(size, places.cols());
-        for (std::size_t c = 0; c < patch.size(); ++c)
-          std::copy_n(samples_of(patch[c]), size * points, values.col(static_cast<Eigen::Index>(c) * points).data());
-        typename Fit<N>::Normal normal = Fit<N>::Normal::Zero();
-        right.setZero();
-        const DenseBlock of_terms{polynomials.data(), terms, places.cols(), terms, false};
-        add_dense_product(of_terms, {polynomials.data(), places.cols(), terms, terms, true}, normal.data(), terms);
-        add_dense_product(of_terms, {values.data(), places.cols(), size, size, true}, right.data(), terms);
-        // Regular meshes and small bodies leave terms undetermined; the terms of high degree are then set to zero, not
-        // those of low degree.
-        const double trace = normal.trace();
-        normal.diagonal().tail(terms - 1).array() += 1e-12 * trace;
-        if constexpr (Fit<N>::is_quadratic) normal.diagonal().tail(terms - 4).array() += 1e-9 * trace;
-        Eigen::Map<Eigen::MatrixXd>(result.coefficients + v * terms * size, size, terms) =
-            solve_symmetric(normal, right).transpose();
-      }
-    }
-    return result;
+        sum += volumes(p) * Eigen::Map<const Eigen::ArrayXd>(stress + (6 * p + s) * width, width).square();
   }
 
   /// Adds the polynomials of the vertices of a cell, weighted by its linear functions, at the points of `rule_`.
@@ -217,106 +251,124 @@ class Estimate {
   void add_smooth_stress(Eigen::Index cell, const CellPoints<N>& x, const FittedStress& fitted,
                          const Surroundings& around, double* stress) const {
     const auto points = static_cast<Eigen::Index>(rule_.size());
-    const Eigen::Index size = 6 * width_;
-    Eigen::Matrix<double, terms, most_points> weighted;
+    const Eigen::Index size = 6 * fitted.fields, terms = fitted.terms;
+    Eigen::Matrix<double, most_terms * most_points, 1> weighted;
     for (int v = 0; v < SolidCell<N>::vertices; ++v) {
-      const Eigen::Index vertex = around.number[solid_.nodes(v, cell)];
+      const Eigen::Index vertex = around.number[block_.nodes(v, cell)];
       const double scale = fitted.scale[static_cast<std::size_t>(vertex)];
       for (Eigen::Index p = 0; p < points; ++p) {
         const Eigen::Vector3d place = x * rule_.values[static_cast<std::size_t>(p)];
-        weighted.col(p) = shares_(v, p) * Fit<N>::polynomials((place - x.col(v)) / scale);
+        set_terms((place - x.col(v)) / scale, terms, &weighted(terms * p));
+        weighted.segment(terms * p, terms) *= shares_(v, p);
       }
       add_dense_product({fitted.coefficients + vertex * terms * size, size, terms, size, false},
                         {weighted.data(), terms, points, terms, false}, stress, size);
     }
   }
 
-  void compare(const FittedStress& fitted, int material, RowArray& error, RowArray& energy) {
-    const auto points = static_cast<Eigen::Index>(rule_.size()), sampled = static_cast<Eigen::Index>(sampling_.size());
-    const Eigen::Index size = 6 * width_;
-    const Eigen::MatrixXd backward = -interpolation_;
-#pragma omp parallel num_threads(threads_)
-    {
-      CellFields<N> curved(points, width_);
-      InternalModes<N> modes;
-      Eigen::MatrixXd stress(size, points), own(size, points);
-      Eigen::VectorXd volumes(points);
-#pragma omp for schedule(static)
-      for (Eigen::Index e = 0; e < solid_.cells(); ++e) {
-        if (solid_.material_of[e] != material) continue;
-        const CellPoints<N> x = points_of(e);
-        stress.setZero();
-        if (has_linear_stress(x)) {
-          volumes = rule_.weights * Eigen::Matrix3d(x * rule_.local_gradients[0]).determinant();
-          add_dense_product({samples_of(e), size, sampled, size, false},
-                            {backward.data(), sampled, points, sampled, false}, stress.data(), size);
-        } else {
-          const auto number = static_cast<std::size_t>(material);
-          set_strains(
-              curved, modes, rule_, x, solid_.materials[number].elasticity, [&](double) { return roots_[number]; },
-              [&](Eigen::Index p, const auto&, double volume) { volumes(p) = volume; });
-          curved.take(fields_, solid_.nodes, e, first_);
-          curved.evaluate(points, own.data());
-          add_squares(own.data(), volumes, &energy(e, 0));
-          stress = -own;
-        }
-        add_smooth_stress(e, x, fitted, around_[static_cast<std::size_t>(material)], stress.data());
-        add_squares(stress.data(), volumes, &error(e, 0));
-      }
+  SolidBlock block_;
+  const std::vector<Matrix6>& roots_;  // W of each material
+  int threads_;
+  CellRule<N> sampling_, rule_;
+  Eigen::MatrixXd interpolation_;  // (sampling points, points of `rule_`)
+  Eigen::MatrixXd shares_;         // functions of order 1 of the vertices at the points of `rule_`
+};
+
+/// Places of all samples, and memory for the stresses of some fields.
+Samples make_samples(const Solid& solid, Eigen::Index fields) {
+  Samples samples;
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) {
+    const Eigen::Index points = BlockError<N>::sampling_rule().weights.size();
+    for (Eigen::Index e = 0; e < block.cells(); ++e) samples.first.push_back(samples.first.back() + points);
+  });
+  samples.places.resize(3, samples.first.back());
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) {
+    const CellRule<N> rule(BlockError<N>::sampling_rule());
+    for (Eigen::Index e = 0; e < block.cells(); ++e)
+      for (std::size_t p = 0; p < rule.size(); ++p)
+        samples.places.col(samples.first[block.first + e] + static_cast<Eigen::Index>(p)) =
+            block.points<N>(e) * rule.values[p];
+  });
+  samples.stress = numbers(6 * fields * samples.first.back());
+  return samples;
+}
+
+/// The estimate for some fields at a time.
+class Estimate {
+ public:
+  /// @param width  fields at a time, at most
+  Estimate(const Solid& solid, const RowMatrix& fields, Eigen::Index width, int threads)
+      : solid_(solid), fields_(fields), threads_(threads), samples_(make_samples(solid, width)) {
+    int order = 2;  // cells that fit together have one order
+    std::size_t sampled = std::numeric_limits<std::size_t>::max();
+    for_each_block(solid, [&]<int N>(const SolidBlock&) {
+      order = std::min(order, SolidCell<N>::is_second_order ? 2 : 1);
+      sampled = std::min(sampled, static_cast<std::size_t>(BlockError<N>::sampling_rule().weights.size()));
+    });
+    terms_ = terms_of_order(order);
+    least_cells_ = 2 * static_cast<std::size_t>(terms_) / sampled + 1;  // two samples for each term
+    std::size_t most_vertices = 0;
+    for (int m = 0; m < static_cast<int>(solid.materials.size()); ++m) {
+      around_.push_back(surroundings(solid, m));
+      roots_.push_back(root_of(solid.materials[static_cast<std::size_t>(m)].elasticity));
+      most_vertices = std::max(most_vertices, around_.back().vertices.size());
+    }
+    coefficients_ = numbers(static_cast<Eigen::Index>(most_vertices) * terms_ * 6 * width);
+  }
+
+  /// Energies, doubled, of the error and of the fields from `first` on: (cells, fields).
+  void calc(Eigen::Index first, RowArray& error, RowArray& energy) {
+    samples_.fields = error.cols();
+    for_each_block(solid_, [&]<int N>(const SolidBlock& block) {
+      BlockError<N>(block, roots_, threads_).sample(fields_, first, samples_, energy);
+    });
+    const PatchFit patches(solid_, samples_, terms_, least_cells_);
+    for (std::size_t m = 0; m < around_.size(); ++m) {
+      const FittedStress fitted = patches.fit(around_[m], threads_, coefficients_.get());
+      for_each_block(solid_, [&]<int N>(const SolidBlock& block) {
+        BlockError<N>(block, roots_, threads_)
+            .compare(fields_, first, samples_, fitted, around_[m], static_cast<int>(m), error, energy);
+      });
     }
   }
 
+ private:
   const Solid& solid_;
   const RowMatrix& fields_;
   int threads_;
-  CellRule<N> sampling_, rule_;
+  Samples samples_;
+  Eigen::Index terms_ = 0;
+  std::size_t least_cells_ = 0;
   std::vector<Surroundings> around_;  // patches of each material
   std::vector<Matrix6> roots_;        // W of each material
-  Eigen::MatrixXd interpolation_;     // (sampling points, points of `rule_`)
-  Eigen::MatrixXd shares_;            // functions of order 1 of the vertices at the points of `rule_`
-  Numbers samples_;                   // stresses of each cell (fields, 6 points), one column after the other
-  Numbers coefficients_;              // coefficients of `FittedStress`
-  Eigen::Index first_ = 0, width_ = 0;
+  Numbers coefficients_;              // of `FittedStress`
 };
 
-template <int N>
-MeshError mesh_error(const Solid& solid, const RowMatrix& fields, int threads) {
+}  // namespace
+
+MeshError estimate_mesh_error(const Solid& solid, const RowMatrix& fields, int threads) {
+  if (fields.cols() == 0) return {Eigen::VectorXd(0)};
   const BlasThreads one(1);
   const Eigen::Index shares = (fields.cols() + at_a_time - 1) / at_a_time, most = (fields.cols() + shares - 1) / shares;
-  Estimate<N> estimate(solid, fields, most, threads);
+  Estimate estimate(solid, fields, most, threads);
   MeshError result{Eigen::VectorXd::Zero(fields.cols())};
-  Eigen::ArrayXd density = Eigen::ArrayXd::Zero(solid.cells());
+  Eigen::ArrayXd density = Eigen::ArrayXd::Zero(solid.cells.size());
   for (Eigen::Index first = 0; first < fields.cols(); first += most) {
     const Eigen::Index width = std::min<Eigen::Index>(most, fields.cols() - first);
-    RowArray error = RowArray::Zero(solid.cells(), width), energy = error;
+    RowArray error = RowArray::Zero(solid.cells.size(), width), energy = error;
     estimate.calc(first, error, energy);
     const Eigen::ArrayXd of_error = error.colwise().sum(), all = energy.colwise().sum().transpose() + of_error;
     const Eigen::ArrayXd unit = (all > 0).select(all.max(std::numeric_limits<double>::min()).inverse(), 0);
     result.relative.segment(first, width) = (of_error * unit).sqrt();
     density += (error.matrix() * unit.matrix()).array();
   }
-  Eigen::Index worst = 0;
-  const CellRule<N> rule(cell_quadrature(SolidCell<N>::type, N == 4 ? 0 : 2));
-  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
-    const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-    double volume = 0;
-    for (std::size_t p = 0; p < rule.size(); ++p)
-      volume += rule.weights(static_cast<Eigen::Index>(p)) * Eigen::Matrix3d(x * rule.local_gradients[p]).determinant();
-    density(e) /= std::abs(volume);
+  int worst = 0;
+  for (int e = 0; e < solid.cells.size(); ++e) {
+    density(e) /= cell_volume(solid.cells.type(e), solid.cells.points(e));
     if (density(e) > density(worst)) worst = e;
   }
-  result.worst_place = cell_points<N>(solid.mesh.points, solid.nodes, worst)
-                           .template leftCols<SolidCell<N>::vertices>()
-                           .rowwise()
-                           .mean();
+  result.worst_place = solid.cells.corner_points(worst).rowwise().mean();
   return result;
-}
-
-}  // namespace
-
-MeshError estimate_mesh_error(const Solid& solid, const RowMatrix& fields, int threads) {
-  if (fields.cols() == 0) return {Eigen::VectorXd(0)};
-  return with_nodes_of(solid.type, [&]<int N>() { return mesh_error<N>(solid, fields, threads); });
 }
 
 }  // namespace bielle::reduce

@@ -6,6 +6,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "reduce/mesh/solid_cells.hpp"
+
 namespace bielle::reduce {
 
 namespace {
@@ -16,20 +18,22 @@ struct CellsOfNodes {
   std::vector<int> cells;
 };
 
-CellsOfNodes cells_of_nodes(const Eigen::MatrixXi& nodes, Eigen::Index points) {
+CellsOfNodes cells_of_nodes(const SolidCells& cells, Eigen::Index points) {
   CellsOfNodes result;
   result.starts.assign(points + 1, 0);
-  for (const int a : nodes.reshaped()) {
-    ++result.starts[a + 1];
+  for (int e = 0; e < cells.size(); ++e) {
+    for (const int a : cells.nodes(e)) {
+      ++result.starts[a + 1];
+    }
   }
   for (Eigen::Index a = 0; a < points; ++a) {
     result.starts[a + 1] += result.starts[a];
   }
-  result.cells.resize(nodes.size());
+  result.cells.resize(result.starts.back());
   std::vector<std::int64_t> next(result.starts.begin(), result.starts.end() - 1);
-  for (Eigen::Index e = 0; e < nodes.cols(); ++e) {
-    for (const int a : nodes.col(e)) {
-      result.cells[next[a]++] = static_cast<int>(e);
+  for (int e = 0; e < cells.size(); ++e) {
+    for (const int a : cells.nodes(e)) {
+      result.cells[next[a]++] = e;
     }
   }
   return result;
@@ -54,14 +58,16 @@ std::int64_t NodeGraph::place(int a, int b) const {
   return std::lower_bound(first, last, b) - neighbours.begin();
 }
 
-NodeGraph node_graph(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads) {
-  const CellsOfNodes around = cells_of_nodes(nodes, points);
+NodeGraph node_graph(const Mesh& mesh, int threads) {
+  const SolidCells cells(mesh);
+  const Eigen::Index points = mesh.point_count();
+  const CellsOfNodes around = cells_of_nodes(cells, points);
   std::vector<std::vector<int>> lists(points);
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (Eigen::Index a = 0; a < points; ++a) {
     std::vector<int>& list = lists[a];
     for (std::int64_t p = around.starts[a]; p < around.starts[a + 1]; ++p) {
-      const auto cell = nodes.col(around.cells[p]);
+      const auto cell = cells.nodes(around.cells[p]);
       list.insert(list.end(), cell.begin(), cell.end());
     }
     std::sort(list.begin(), list.end());

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "reduce/mesh/mesh.hpp"
 #include "reduce/sparse/symmetric_matrix.hpp"
 
 namespace bielle::reduce {
@@ -64,11 +65,11 @@ class CellPlaces {
   int nodes_[N], order_[N];  // nodes of the cell, and their local numbers in ascending order of the nodes
 };
 
-/// @param nodes  (nodes of a cell, cells)
-NodeGraph node_graph(const Eigen::MatrixXi& nodes, Eigen::Index points, int threads = 1);
+/// The graph of a mesh's solid cells.
+NodeGraph node_graph(const Mesh& mesh, int threads = 1);
 
 /// Cells sorted into colours so that no two cells of a colour share a node: cells of one colour are assembled at the
-/// same time, and sums do not depend on the number of threads.
+/// same time, and sums do not depend on the number of threads. @param nodes  (nodes of a cell, cells)
 std::vector<std::vector<int>> colour_cells(const Eigen::MatrixXi& nodes, Eigen::Index points);
 
 /// A symmetric matrix with one number per pair of neighbours (both triangles); stands for `m (x) I3` on vectors of

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/fe/cell_geometry.hpp"
+#include "reduce/fe/solid_block.hpp"
 
 namespace bielle::reduce {
 
@@ -54,17 +54,17 @@ struct Moments {
 /// Moments of the solid, with r from `origin`. Cells are summed up in groups, which do not depend on the number of
 /// threads.
 template <int N>
-Moments moments(const Solid& solid, CellDegrees degrees, const Eigen::Vector3d& origin, int threads) {
+Moments moments(const SolidBlock& block, CellDegrees degrees, const Eigen::Vector3d& origin, int threads) {
   constexpr Eigen::Index together = 512;
   const CellRules<N> rules(degrees);
-  std::vector<Moments> parts(static_cast<std::size_t>((solid.cells() + together - 1) / together));
+  std::vector<Moments> parts(static_cast<std::size_t>((block.cells() + together - 1) / together));
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const auto begin = static_cast<Eigen::Index>(k) * together;
-    for (Eigen::Index e = begin; e < std::min(begin + together, solid.cells()); ++e) {
-      const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
+    for (Eigen::Index e = begin; e < std::min(begin + together, block.cells()); ++e) {
+      const CellPoints<N> x = block.points<N>(e);
       const CellRule<N>& rule = rules.of(x);
-      const double density = solid.materials[solid.material_of[e]].density;
+      const double density = block.material(e).density;
       for (std::size_t p = 0; p < rule.size(); ++p) {
         const Eigen::Matrix3d jacobian = x * rule.local_gradients[p];
         parts[k].add(rule.weights(p) * jacobian.determinant(), density, x * rule.values[p] - origin);
@@ -83,8 +83,7 @@ Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materi
   if (mesh.solid_count() == 0) {
     throw InputError("the mesh has no solid cells: a body needs a volume");
   }
-  const CellBlock* block = &mesh.solids();
-  Solid solid{mesh, block->type, block->nodes, {}, std::vector<int>(block->nodes.cols(), -1)};
+  Solid solid{mesh, SolidCells(mesh), {}, std::vector<int>(mesh.solid_count(), -1)};
   const std::vector<std::string> names = keys(materials);
   for (const auto& [name, material] : materials) {
     solid.materials.push_back(material);
@@ -97,7 +96,7 @@ Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materi
     }
     return static_cast<int>(place - names.begin());
   };
-  std::vector<std::string> claimed_by(block->nodes.cols());
+  std::vector<std::string> claimed_by(mesh.solid_count());
   for (const auto& [region, material] : regions) {
     if (region == "all") {
       continue;
@@ -108,18 +107,13 @@ Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materi
       throw InputError(fmt::format("regions.{0}: the mesh has no volume group '{0}'{1}", region,
                                    did_you_mean(region, volume_groups(mesh))));
     }
-    for (const GroupPart& part : group->second.parts) {
-      if (part.type != block->type) {
-        continue;
+    for (const int cell : solid.cells.members(group->second)) {
+      if (!claimed_by[cell].empty()) {
+        throw InputError(fmt::format("regions.{}: its cells belong to region '{}' too; a cell has one material", region,
+                                     claimed_by[cell]));
       }
-      for (const int cell : part.cells) {
-        if (!claimed_by[cell].empty()) {
-          throw InputError(fmt::format("regions.{}: its cells belong to region '{}' too; a cell has one material",
-                                       region, claimed_by[cell]));
-        }
-        claimed_by[cell] = region;
-        solid.material_of[cell] = number;
-      }
+      claimed_by[cell] = region;
+      solid.material_of[cell] = number;
     }
   }
   if (const auto all = regions.find("all"); all != regions.end()) {
@@ -135,13 +129,14 @@ Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materi
 }
 
 MassProperties mass_properties(const Solid& solid, int threads) {
-  const Eigen::Vector3d origin =
-      solid.mesh.points.col(solid.nodes(0, 0));  // near the body: differences keep their digits
+  // A point of the body: differences keep their digits.
+  const Eigen::Vector3d origin = solid.mesh.points.col(solid.cells.nodes(0)(0));
   // x x^T has degree 2 per order of the cell, the Jacobian of a curved tetrahedron degree 3, that of another cell 2 or
   // 5 along each coordinate.
-  const Moments all = with_nodes_of(solid.type, [&]<int N>() {
+  Moments all;
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) {
     constexpr int curved = N == 4 ? 2 : N == 10 ? 7 : SolidCell<N>::is_second_order ? 9 : 4;
-    return moments<N>(solid, {2, curved}, origin, threads);
+    all.add(moments<N>(block, {2, curved}, origin, threads));
   });
   const Eigen::Vector3d r = all.first / all.mass;
   const Eigen::Matrix3d second = all.second - all.mass * r * r.transpose();
@@ -155,8 +150,10 @@ MassProperties mass_properties(const Solid& solid, int threads) {
 
 std::vector<bool> points_of_solid(const Solid& solid) {
   std::vector<bool> result(solid.points(), false);
-  for (const int a : solid.nodes.reshaped()) {
-    result[a] = true;
+  for (int e = 0; e < solid.cells.size(); ++e) {
+    for (const int a : solid.cells.nodes(e)) {
+      result[a] = true;
+    }
   }
   return result;
 }

@@ -9,18 +9,17 @@
 
 #include "reduce/fe/material.hpp"
 #include "reduce/mesh/mesh.hpp"
+#include "reduce/mesh/solid_cells.hpp"
 
 namespace bielle::reduce {
 
-/// Isoparametric cells of one type, of linear elastic material. It refers to its mesh.
+/// Isoparametric cells of linear elastic material. It refers to its mesh.
 struct Solid {
   const Mesh& mesh;
-  CellType type;                 ///< type of all its cells
-  const Eigen::MatrixXi& nodes;  ///< (nodes of a cell, cells)
+  SolidCells cells;
   std::vector<Material> materials;
   std::vector<int> material_of;  ///< number of each cell's material in `materials`
 
-  Eigen::Index cells() const { return nodes.cols(); }
   Eigen::Index points() const { return mesh.points.cols(); }
 };
 

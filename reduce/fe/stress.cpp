@@ -6,10 +6,10 @@
 
 #include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_fields.hpp"
-#include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/internal_modes.hpp"
-#include "reduce/fe/node_graph.hpp"
+#include "reduce/fe/solid_block.hpp"
 #include "reduce/mesh/faces.hpp"
+#include "reduce/mesh/jacobian.hpp"
 
 namespace bielle::reduce {
 
@@ -23,9 +23,9 @@ Eigen::MatrixXd extrapolation(const Quadrature& rule) {
   using Cell = SolidCell<N>;
   Eigen::MatrixXd at_points(Cell::vertices, rule.weights.size()), at_nodes(Cell::vertices, N);
   for (Eigen::Index p = 0; p < rule.weights.size(); ++p)
-    at_points.col(p) = shape_values(Cell::linear_type, rule.points.col(p));
+    at_points.col(p) = shape_values(straight_type(Cell::type), rule.points.col(p));
   const Eigen::MatrixXd nodes = local_nodes(Cell::type);
-  for (int a = 0; a < N; ++a) at_nodes.col(a) = shape_values(Cell::linear_type, nodes.col(a));
+  for (int a = 0; a < N; ++a) at_nodes.col(a) = shape_values(straight_type(Cell::type), nodes.col(a));
   const Eigen::MatrixXd to_vertices = (at_points * at_points.transpose()).inverse() * at_points;
   return at_nodes.transpose() * to_vertices;
 }
@@ -48,8 +48,8 @@ struct NodeShares {
 NodeShares node_shares(const Solid& solid, const std::vector<double>& volumes) {
   const auto materials = static_cast<Eigen::Index>(solid.materials.size());
   Eigen::MatrixXd share = Eigen::MatrixXd::Zero(materials, solid.points());
-  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
-    for (const int a : solid.nodes.col(e)) {
+  for (int e = 0; e < solid.cells.size(); ++e) {
+    for (const int a : solid.cells.nodes(e)) {
       share(solid.material_of[e], a) += volumes[e];
     }
   }
@@ -60,57 +60,60 @@ NodeShares node_shares(const Solid& solid, const std::vector<double>& volumes) {
   return result;
 }
 
-template <int N>
-std::vector<double> cell_volumes(const Solid& solid, const CellRule<N>& rule, int threads) {
-  std::vector<double> volumes(solid.cells());
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
-    volumes[e] = cell_volume<N>(rule, cell_points<N>(solid.mesh.points, solid.nodes, e));
-  }
-  return volumes;
-}
-
 /// The sampling points for stress in a cell.
 template <int N>
 Quadrature sampling() {
   return cell_quadrature(SolidCell<N>::type, N == 4 ? 0 : 2);
 }
 
-template <int N>
-NodeShares node_shares(const Solid& solid) {
-  return node_shares(solid, cell_volumes<N>(solid, CellRule<N>(sampling<N>()), 1));
+/// Volumes of all cells by the sampling points.
+std::vector<double> cell_volumes(const Solid& solid, int threads) {
+  std::vector<double> volumes(solid.cells.size());
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) {
+    const CellRule<N> rule(sampling<N>());
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (Eigen::Index e = 0; e < block.cells(); ++e) {
+      volumes[block.first + e] = cell_volume<N>(rule, block.points<N>(e));
+    }
+  });
+  return volumes;
 }
 
+/// The requested nodes with the numbers that the sum over their cells needs.
+struct StressSum {
+  const RowMatrix& fields;
+  std::vector<double> volumes;  // each cell has one
+  NodeShares shares;
+  std::vector<int> row_of;  // row of the result for each point; -1: not requested
+
+  bool wants(const SolidBlock& block, Eigen::Index cell, int a) const {
+    const int node = block.nodes(a, cell);
+    return row_of[node] >= 0 && shares.material[node] == block.material_number(cell);
+  }
+  /// Cells of the block that contribute to requested nodes.
+  std::vector<int> cells(const SolidBlock& block) const {
+    std::vector<int> result;
+    for (int e = 0; e < block.cells(); ++e)
+      for (int a = 0; a < block.nodes.rows(); ++a)
+        if (wants(block, e, a)) {
+          result.push_back(e);
+          break;
+        }
+    return result;
+  }
+};
+
+/// Adds the cells of a block to the stress at the requested nodes, (6 nodes, fields).
 template <int N>
-RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
+void add_stress(const SolidBlock& block, const StressSum& sum, int threads, RowMatrix& result) {
   const Quadrature quadrature = sampling<N>();
   const CellRule<N> rule(quadrature);
   const Eigen::MatrixXd to_nodes = extrapolation<N>(quadrature);
-  const std::vector<double> volumes = cell_volumes<N>(solid, rule, threads);
-  const NodeShares shares = node_shares(solid, volumes);
-  std::vector<int> row_of(solid.points(), -1);
-  for (std::size_t r = 0; r < nodes.size(); ++r) {
-    row_of[nodes[r]] = static_cast<int>(r);
-  }
-  const auto wanted = [&](Eigen::Index e, int a) {
-    return row_of[solid.nodes(a, e)] >= 0 && shares.material[solid.nodes(a, e)] == solid.material_of[e];
-  };
-  std::vector<int> cells;  // cells that contribute to the requested nodes
-  for (Eigen::Index e = 0; e < solid.cells(); ++e)
-    for (int a = 0; a < N; ++a)
-      if (wanted(e, a)) {
-        cells.push_back(static_cast<int>(e));
-        break;
-      }
-  const Eigen::Index k = fields.cols();
+  const std::vector<int> cells = sum.cells(block);
+  const Eigen::Index k = sum.fields.cols();
   const auto points = static_cast<Eigen::Index>(rule.size());
-  RowMatrix result(6 * static_cast<Eigen::Index>(nodes.size()), k);
-  if (result.size() == 0) return result;
-    // The memory is written, since pages that are read before they are written are allocated twice.
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (Eigen::Index row = 0; row < result.rows(); ++row) result.row(row).setZero();
   const BlasThreads one(1);
-  const std::vector<std::vector<int>> colours = colour_cells(solid.nodes(Eigen::all, cells), solid.points());
+  const std::vector<std::vector<int>> colours = colour_cells(block.nodes(Eigen::all, cells), block.solid.points());
 #pragma omp parallel num_threads(threads)
   {
     CellFields<N> cell(points, k);
@@ -120,33 +123,44 @@ RowMatrix stress_at(const Solid& solid, const RowMatrix& fields, const std::vect
 #pragma omp for schedule(static)
       for (std::size_t c = 0; c < colour.size(); ++c) {
         const int e = cells[static_cast<std::size_t>(colour[c])];
-        const CellPoints<N> x = cell_points<N>(solid.mesh.points, solid.nodes, e);
-        const auto& elasticity = solid.materials[solid.material_of[e]].elasticity;
+        const CellPoints<N> x = block.points<N>(e);
+        const auto& elasticity = block.material(e).elasticity;
         set_strains(
             cell, modes, rule, x, elasticity, [&](double) { return elasticity; },
             [](Eigen::Index, const auto&, double) {});
-        cell.take(fields, solid.nodes, e);
+        cell.take(sum.fields, block.nodes, e);
         cell.evaluate(points, at_points.data());
         for (int a = 0; a < N; ++a) {
-          if (!wanted(e, a)) continue;
-          const int node = solid.nodes(a, e);
-          Eigen::Map<Eigen::VectorXd>(&result(6 * static_cast<Eigen::Index>(row_of[node]), 0), 6 * k).noalias() +=
-              at_points * (volumes[e] / shares.volume[node] * to_nodes.row(a)).transpose();
+          if (!sum.wants(block, e, a)) continue;
+          const int node = block.nodes(a, e);
+          const double share = sum.volumes[block.first + e] / sum.shares.volume[node];
+          Eigen::Map<Eigen::VectorXd>(&result(6 * static_cast<Eigen::Index>(sum.row_of[node]), 0), 6 * k).noalias() +=
+              at_points * (share * to_nodes.row(a)).transpose();
         }
       }
     }
   }
-  return result;
 }
 
 }  // namespace
 
 RowMatrix nodal_stress(const Solid& solid, const RowMatrix& fields, const std::vector<int>& nodes, int threads) {
-  return with_nodes_of(solid.type, [&]<int N>() { return stress_at<N>(solid, fields, nodes, threads); });
+  StressSum sum{fields, cell_volumes(solid, threads), {}, std::vector<int>(solid.points(), -1)};
+  sum.shares = node_shares(solid, sum.volumes);
+  for (std::size_t r = 0; r < nodes.size(); ++r) {
+    sum.row_of[nodes[r]] = static_cast<int>(r);
+  }
+  RowMatrix result(6 * static_cast<Eigen::Index>(nodes.size()), fields.cols());
+  if (result.size() == 0) return result;
+    // The memory is written, since pages that are read before they are written are allocated twice.
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (Eigen::Index row = 0; row < result.rows(); ++row) result.row(row).setZero();
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) { add_stress<N>(block, sum, threads, result); });
+  return result;
 }
 
 std::vector<int> nodal_materials(const Solid& solid, const std::vector<int>& nodes) {
-  const NodeShares shares = with_nodes_of(solid.type, [&]<int N>() { return node_shares<N>(solid); });
+  const NodeShares shares = node_shares(solid, cell_volumes(solid, 1));
   std::vector<int> result;
   for (const int node : nodes) {
     result.push_back(shares.material[node]);

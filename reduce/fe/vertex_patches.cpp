@@ -7,17 +7,16 @@ namespace bielle::reduce {
 Surroundings surroundings(const Solid& solid, int material) {
   Surroundings result;
   result.number.assign(solid.points(), -1);
-  const int vertices = vertex_count(solid.type);
-  for (Eigen::Index e = 0; e < solid.cells(); ++e) {
+  for (int e = 0; e < solid.cells.size(); ++e) {
     if (solid.material_of[e] != material) continue;
-    for (int v = 0; v < vertices; ++v) {
-      int& number = result.number[solid.nodes(v, e)];
+    for (const int vertex : solid.cells.vertices(e)) {
+      int& number = result.number[vertex];
       if (number < 0) {
         number = static_cast<int>(result.vertices.size());
-        result.vertices.push_back(solid.nodes(v, e));
+        result.vertices.push_back(vertex);
         result.cells.emplace_back();
       }
-      result.cells[number].push_back(static_cast<int>(e));
+      result.cells[number].push_back(e);
     }
   }
   return result;
@@ -29,8 +28,8 @@ std::vector<int> patch_of(const Solid& solid, const Surroundings& around, std::s
     before = patch.size();
     std::vector<int> wider;
     for (const int cell : patch)
-      for (int v = 0; v < vertex_count(solid.type); ++v) {
-        const std::vector<int>& more = around.cells[around.number[solid.nodes(v, cell)]];
+      for (const int at : solid.cells.vertices(cell)) {
+        const std::vector<int>& more = around.cells[around.number[at]];
         wider.insert(wider.end(), more.begin(), more.end());
       }
     std::sort(wider.begin(), wider.end());

@@ -7,23 +7,18 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/mesh/disjoint_sets.hpp"
 #include "reduce/mesh/jacobian.hpp"
 #include "reduce/mesh/place.hpp"
+#include "reduce/mesh/solid_cells.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-Eigen::Matrix3Xd vertices_of(const Mesh& mesh, const CellBlock& block, Eigen::Index cell) {
-  const int count = vertex_count(block.type);
-  Eigen::Matrix3Xd vertices(3, count);
-  for (int k = 0; k < count; ++k) vertices.col(k) = mesh.points.col(block.nodes(k, cell));
-  return vertices;
-}
 
 double longest_edge(const CellInfo& cell, const Eigen::Matrix3Xd& x) {
   double longest = 0;
@@ -40,14 +35,13 @@ struct Piece {
 // Sorts the solid cells by the number that `number_of` gives them; the largest piece comes first.
 template <class Number>
 std::vector<Piece> pieces_of(const Mesh& mesh, const Number& number_of) {
-  const CellBlock& block = mesh.solids();
-  const CellType straight = straight_type(block.type);
+  const SolidCells cells(mesh);
   std::map<int, Piece> numbered;
-  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
+  for (int e = 0; e < cells.size(); ++e) {
     Piece& piece = numbered[number_of(e)];
-    const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
+    const Eigen::Matrix3Xd x = cells.corner_points(e);
     ++piece.cells;
-    piece.volume += cell_volume(straight, x);
+    piece.volume += cell_volume(straight_type(cells.type(e)), x);
     for (const auto& vertex : x.colwise()) piece.box.extend(Eigen::Vector3d(vertex));
   }
   std::vector<Piece> pieces;
@@ -88,15 +82,14 @@ std::vector<std::pair<int, int>> near_pairs(const Eigen::Matrix3Xd& points, cons
 }  // namespace
 
 void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags) {
-  const CellBlock& block = mesh.solids();
-  const CellInfo& cell = cell_info(block.type);
-  const CellType straight = straight_type(block.type);
+  const SolidCells cells(mesh);
   int inverted = 0, mirrored = 0, flat = 0;
-  Eigen::Index first_inverted = 0, first_flat = 0;
-  for (Eigen::Index e = block.nodes.cols() - 1; e >= 0; --e) {
-    const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
-    const Eigen::VectorXd determinants = checked_determinants(straight, x);
-    const double least = determinants.minCoeff(), negligible = 1e-12 * std::pow(longest_edge(cell, x), 3);
+  int first_inverted = 0, first_flat = 0;
+  for (int e = cells.size() - 1; e >= 0; --e) {
+    const Eigen::Matrix3Xd x = cells.corner_points(e);
+    const Eigen::VectorXd determinants = checked_determinants(straight_type(cells.type(e)), x);
+    const double least = determinants.minCoeff(),
+                 negligible = 1e-12 * std::pow(longest_edge(cell_info(cells.type(e)), x), 3);
     if (std::abs(least) <= negligible) {
       ++flat;
       first_flat = e;
@@ -106,33 +99,34 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
       first_inverted = e;
     }
   }
-  const auto named = [&](Eigen::Index e) {
+  const auto named = [&](int e) {
     const std::size_t number = cell_tags.empty() ? static_cast<std::size_t>(e) + 1 : cell_tags[e];
-    return fmt::format("element {} at {}", number, place_name(vertices_of(mesh, block, e).rowwise().mean()));
+    return fmt::format("element {} at {}", number, place_name(cells.corner_points(e).rowwise().mean()));
   };
   // The determinant of a tetrahedron is constant; other cells may be folded in a part of them only.
-  const bool constant = cell.vertices == 4;
-  if (mirrored == block.nodes.cols())
+  const bool constant = std::all_of(cells.ranges().begin(), cells.ranges().end(),
+                                    [](const SolidCells::Range& range) { return range.vertices == 4; });
+  if (mirrored == cells.size())
     throw InputError(fmt::format(
         "every element is inverted (negative volume): the mesh is mirrored, or its nodes are ordered otherwise; "
         "the first is {}",
         named(first_inverted)));
   if (inverted > 0)
     throw InputError(fmt::format("{} of {} elements {} inverted (negative volume{}); the first is {}", inverted,
-                                 block.nodes.cols(), inverted == 1 ? "is" : "are",
-                                 constant ? "" : ", or folded at a corner", named(first_inverted)));
+                                 cells.size(), inverted == 1 ? "is" : "are", constant ? "" : ", or folded at a corner",
+                                 named(first_inverted)));
   if (flat > 0)
-    throw InputError(fmt::format("{} of {} elements {} degenerate (no volume{}); the first is {}", flat,
-                                 block.nodes.cols(), flat == 1 ? "is" : "are",
-                                 constant ? "" : ", or a flat or collapsed corner", named(first_flat)));
+    throw InputError(fmt::format("{} of {} elements {} degenerate (no volume{}); the first is {}", flat, cells.size(),
+                                 flat == 1 ? "is" : "are", constant ? "" : ", or a flat or collapsed corner",
+                                 named(first_flat)));
 }
 
 void check_connected(const Mesh& mesh) {
-  const CellBlock& block = mesh.solids();
+  const SolidCells cells(mesh);
   DisjointSets nodes(static_cast<int>(mesh.point_count()));
-  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e)
-    for (Eigen::Index k = 1; k < block.nodes.rows(); ++k) nodes.join(block.nodes(0, e), block.nodes(k, e));
-  const std::vector<Piece> pieces = pieces_of(mesh, [&](Eigen::Index cell) { return nodes.of(block.nodes(0, cell)); });
+  for (int e = 0; e < cells.size(); ++e)
+    for (const int node : cells.nodes(e)) nodes.join(cells.nodes(e)(0), node);
+  const std::vector<Piece> pieces = pieces_of(mesh, [&](int cell) { return nodes.of(cells.nodes(cell)(0)); });
   if (pieces.size() == 1) return;
 
   std::vector<int> all(mesh.point_count());
@@ -151,8 +145,7 @@ std::string loose_joints(const Mesh& mesh, const FaceTable& faces) {
   DisjointSets cells(static_cast<int>(mesh.solid_count()));
   for (int face = 0; face < faces.size(); ++face)
     if (!faces.on_boundary(face)) cells.join(faces.cell(face), faces.other_cell(face));
-  const std::vector<Piece> pieces =
-      pieces_of(mesh, [&](Eigen::Index cell) { return cells.of(static_cast<int>(cell)); });
+  const std::vector<Piece> pieces = pieces_of(mesh, [&](int cell) { return cells.of(cell); });
   if (pieces.size() == 1) return "";
   return fmt::format("{} parts of the body hang together by single nodes or edges only, about which they can turn: {}",
                      pieces.size(), piece_names(pieces));
@@ -182,18 +175,17 @@ std::string implausible_length(double metres) {
 }
 
 MeshQuality mesh_quality(const Mesh& mesh) {
-  const CellBlock& block = mesh.solids();
-  const CellInfo& cell = cell_info(block.type);
+  const SolidCells cells(mesh);
   MeshQuality quality;
   quality.shortest_edge = quality.least_scaled_jacobian = std::numeric_limits<double>::infinity();
-  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
-    const Eigen::Matrix3Xd x = vertices_of(mesh, block, e);
-    for (const auto& edge : cell.edges) {
+  for (int e = 0; e < cells.size(); ++e) {
+    const Eigen::Matrix3Xd x = cells.corner_points(e);
+    for (const auto& edge : cell_info(cells.type(e)).edges) {
       const double length = (x.col(edge[0]) - x.col(edge[1])).norm();
       quality.shortest_edge = std::min(quality.shortest_edge, length);
       quality.longest_edge = std::max(quality.longest_edge, length);
     }
-    const double scaled = scaled_jacobian(block.type, x);
+    const double scaled = scaled_jacobian(cells.type(e), x);
     if (scaled < quality.least_scaled_jacobian) {
       quality.least_scaled_jacobian = scaled;
       quality.worst_place = x.rowwise().mean();
@@ -204,10 +196,13 @@ MeshQuality mesh_quality(const Mesh& mesh) {
 
 std::string summary(const Mesh& mesh) {
   const MeshQuality quality = mesh_quality(mesh);
-  return fmt::format("{}, {} {}, edges from {} to {}, least scaled Jacobian {:.2g} at {}",
-                     counted(mesh.point_count(), "node"), mesh.solid_count(), cell_name(mesh.solids().type),
-                     length_name(quality.shortest_edge), length_name(quality.longest_edge),
-                     quality.least_scaled_jacobian, place_name(quality.worst_place));
+  const SolidCells cells(mesh);
+  std::vector<std::string> counts;
+  for (const SolidCells::Range& range : cells.ranges())
+    counts.push_back(fmt::format("{} {}", range.count, cell_name(range.type)));
+  return fmt::format("{}, {}, edges from {} to {}, least scaled Jacobian {:.2g} at {}",
+                     counted(mesh.point_count(), "node"), fmt::join(counts, ", "), length_name(quality.shortest_edge),
+                     length_name(quality.longest_edge), quality.least_scaled_jacobian, place_name(quality.worst_place));
 }
 
 }  // namespace bielle::reduce

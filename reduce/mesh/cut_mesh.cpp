@@ -21,12 +21,10 @@ namespace {
 using Sides = std::vector<bool>;  // for each plane, whether a cell is on the side of its normal
 
 std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>& planes) {
-  const Eigen::MatrixXi& nodes = mesh.solids().nodes;
-  const int vertices = vertex_count(mesh.solids().type);
+  const SolidCells cells(mesh);
   std::vector<Sides> sides;
-  for (Eigen::Index e = 0; e < nodes.cols(); ++e) {
-    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-    for (int k = 0; k < vertices; ++k) centroid += mesh.points.col(nodes(k, e)) / vertices;
+  for (int e = 0; e < cells.size(); ++e) {
+    const Eigen::Vector3d centroid = cells.corner_points(e).rowwise().mean();
     Sides of_cell;
     for (const CutPlane& plane : planes) of_cell.push_back(plane.normal.dot(centroid - plane.point) > 0);
     sides.push_back(of_cell);
@@ -36,15 +34,14 @@ std::vector<Sides> sides_of_cells(const Mesh& mesh, const std::vector<CutPlane>&
 
 // Number of the piece of each cell, from 0: a piece consists of cells on the same sides that are connected by nodes.
 std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& sides) {
-  const Eigen::MatrixXi& nodes = mesh.solids().nodes;
-  const int count = static_cast<int>(nodes.cols());
-  const int vertices = vertex_count(mesh.solids().type);
+  const SolidCells cells(mesh);
+  const int count = cells.size();
   DisjointSets sets(count);
   std::map<Sides, std::vector<int>> first_cells;  // first cells of each node, by their sides
   for (int e = 0; e < count; ++e) {
     std::vector<int>& first = first_cells.try_emplace(sides[e], mesh.point_count(), -1).first->second;
-    for (int k = 0; k < vertices; ++k) {
-      int& cell = first[nodes(k, e)];
+    for (const int node : cells.vertices(e)) {
+      int& cell = first[node];
       if (cell < 0) cell = e;
       sets.join(e, cell);
     }
@@ -58,11 +55,10 @@ std::vector<int> connected_pieces(const Mesh& mesh, const std::vector<Sides>& si
 // Cells that cross a plane near its rim may be isolated on their side: a set of cells all of whose corners also belong
 // to one neighbour is no piece and is joined to that neighbour.
 void join_islands(const Mesh& mesh, std::vector<int>& pieces) {
-  const Eigen::MatrixXi& nodes = mesh.solids().nodes;
-  const int vertices = vertex_count(mesh.solids().type);
+  const SolidCells cells(mesh);
   std::vector<std::set<int>> at_node(mesh.point_count());
-  for (Eigen::Index e = 0; e < nodes.cols(); ++e)
-    for (int k = 0; k < vertices; ++k) at_node[nodes(k, e)].insert(pieces[e]);
+  for (int e = 0; e < cells.size(); ++e)
+    for (const int node : cells.vertices(e)) at_node[node].insert(pieces[e]);
   std::map<int, std::set<int>> around;  // piece -> those that have all its corners
   for (const std::set<int>& here : at_node)
     for (const int piece : here) {
@@ -96,7 +92,7 @@ std::size_t plane_between(const Mesh& mesh, const std::array<int, 2>& cells, con
       fmt::format("'{}' and '{}' meet in the body, or are less than an element apart, near {}: planes must leave "
                   "elements between them, and must not cross within the body",
                   planes[between[0]].name, planes[between[1]].name,
-                  place_name(mesh.points.col(mesh.solids().nodes(0, cells[0])))));
+                  place_name(mesh.points.col(SolidCells(mesh).nodes(cells[0])(0)))));
 }
 
 // Sides of each piece: the sides of most of its cells, since isolated cells of other sides may have been joined.

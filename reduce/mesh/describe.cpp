@@ -220,7 +220,7 @@ std::string mesh_text(GmshSession& session, const SourceFile& source) {
   try {
     model = extract_model(session, source.name, source.metres);
     mesh.points = std::move(model.points);
-    mesh.blocks.push_back(std::move(model.solids));
+    mesh.blocks = std::move(model.solids);
   } catch (const InputError& error) {
     return text + fmt::format("  not usable as it is: {}\n", error.what());
   }

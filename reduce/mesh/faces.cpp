@@ -10,16 +10,14 @@
 
 namespace bielle::reduce {
 
-FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
-  const std::vector<CellFace>& sides = cell_info(solids_.type).faces;
+FaceTable::FaceTable(const Mesh& mesh) : cells_(mesh) {
   std::vector<Face> all;
-  all.reserve(sides.size() * solids_.nodes.cols());
-  for (int cell = 0; cell < solids_.nodes.cols(); ++cell)
-    for (int side = 0; side < static_cast<int>(sides.size()); ++side) {
-      Face face{{}, cell, -1, side};
-      face.key = corners_in(face).key();
-      all.push_back(face);
-    }
+  std::size_t count = 0;
+  for (const SolidCells::Range& range : cells_.ranges()) count += cell_info(range.type).faces.size() * range.count;
+  all.reserve(count);
+  for (int cell = 0; cell < cells_.size(); ++cell)
+    for (int side = 0; side < static_cast<int>(cell_info(cells_.type(cell)).faces.size()); ++side)
+      all.push_back({corners_in(cell, side).key(), cell, -1, side, -1});
   std::sort(all.begin(), all.end(),
             [](const Face& a, const Face& b) { return std::tie(a.key, a.cell) < std::tie(b.key, b.cell); });
   for (const Face& face : all) {
@@ -27,6 +25,7 @@ FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
       faces_.push_back(face);
     } else if (faces_.back().other < 0) {
       faces_.back().other = face.cell;
+      faces_.back().other_side = face.side;
     } else {
       throw InputError(fmt::format("three or more cells share the face at {}: cells overlap or stand twice",
                                    place_name(mesh.points.col(face.key[0]))));
@@ -35,16 +34,22 @@ FaceTable::FaceTable(const Mesh& mesh) : solids_(mesh.solids()) {
 }
 
 Eigen::VectorXi FaceTable::nodes(int face) const {
-  const std::vector<int>& of_side = side_of(faces_[face]).nodes;
-  return solids_.nodes(of_side, faces_[face].cell);
+  const Face& of = faces_[face];
+  return cells_.nodes(of.cell)(side_of(of.cell, of.side).nodes);
 }
 
-Corners FaceTable::corners(int face) const { return corners_in(faces_[face]); }
+Eigen::VectorXi FaceTable::other_nodes(int face) const {
+  const Face& of = faces_[face];
+  return cells_.nodes(of.other)(side_of(of.other, of.other_side).nodes);
+}
 
-Corners FaceTable::corners_in(const Face& face) const {
-  const CellFace& side = side_of(face);
+Corners FaceTable::corners(int face) const { return corners_in(faces_[face].cell, faces_[face].side); }
+
+Corners FaceTable::corners_in(int cell, int side) const {
+  const CellFace& of_cell = side_of(cell, side);
+  const auto nodes = cells_.nodes(cell);
   Corners corners;
-  for (int k = 0; k < vertex_count(side.type); ++k) corners.push_back(solids_.nodes(side.nodes[k], face.cell));
+  for (int k = 0; k < vertex_count(of_cell.type); ++k) corners.push_back(nodes(of_cell.nodes[k]));
   return corners;
 }
 

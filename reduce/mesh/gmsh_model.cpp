@@ -173,8 +173,6 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
   const std::map<int, std::size_t> counts = counts_of_types(3);
   check_types(counts, 3, name);
   check_all_delivered(counts, 3, name);
-  if (counts.size() > 1)
-    throw InputError(fmt::format("'{}' mixes types of solid cells ({}); use one type", name, counts_text(counts)));
   if (counts.empty()) {
     std::size_t flat = 0;
     for (const auto& [type, count] : counts_of_types(2)) flat += count;
@@ -183,14 +181,27 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
                                             name, counted(flat, "cell"))
                               : fmt::format("'{}' holds no cells", name));
   }
-  const CellType type = static_cast<CellType>(counts.begin()->first);
-  const int width = node_count(type);
-  model.solids = {type, Eigen::MatrixXi(width, counts.begin()->second)};
-  int cell = 0;
-  visit_elements(3, [&](int entity, int, const Tags& elements, const Tags& tags) {
-    for (std::size_t e = 0; e < elements.size(); ++e, ++cell) {
-      for (int k = 0; k < width; ++k) model.solids.nodes(k, cell) = nodes.number.at(tags[e * width + k]);
-      model.cell_tags.push_back(elements[e]);
+  struct Target {
+    std::size_t block;
+    int first, next;  // number of the block's first cell; column of its next one
+  };
+  std::map<int, Target> targets;
+  int cells = 0;
+  for (const auto& [type, count] : counts) {
+    targets[type] = {model.solids.size(), cells, 0};
+    model.solids.push_back(
+        {static_cast<CellType>(type), Eigen::MatrixXi(node_count(static_cast<CellType>(type)), count)});
+    cells += static_cast<int>(count);
+  }
+  model.cell_tags.resize(cells);
+  visit_elements(3, [&](int entity, int type, const Tags& elements, const Tags& tags) {
+    Target& target = targets.at(type);
+    Eigen::MatrixXi& block = model.solids[target.block].nodes;
+    for (std::size_t e = 0; e < elements.size(); ++e, ++target.next) {
+      for (Eigen::Index k = 0; k < block.rows(); ++k)
+        block(k, target.next) = nodes.number.at(tags[e * block.rows() + k]);
+      const int cell = target.first + target.next;
+      model.cell_tags[cell] = elements[e];
       model.volumes[entity].push_back(cell);
     }
   });
@@ -199,7 +210,8 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
 // Renumbers so that exactly the nodes of solid cells remain, in their original order.
 void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
   std::vector<int> number(points.cols(), -1);
-  for (Eigen::Index i = 0; i < model.solids.nodes.size(); ++i) number[model.solids.nodes.data()[i]] = 0;
+  for (const CellBlock& block : model.solids)
+    for (const int node : block.nodes.reshaped()) number[node] = 0;
   int used = 0;
   for (int& n : number)
     if (n == 0) n = used++;
@@ -207,8 +219,8 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
   model.points.resize(3, used);
   for (std::size_t i = 0; i < number.size(); ++i)
     if (number[i] >= 0) model.points.col(number[i]) = points.col(i);
-  for (Eigen::Index i = 0; i < model.solids.nodes.size(); ++i)
-    model.solids.nodes.data()[i] = number[model.solids.nodes.data()[i]];
+  for (CellBlock& block : model.solids)
+    for (int& node : block.nodes.reshaped()) node = number[node];
   for (auto& [entity, cells] : model.surfaces)
     for (Corners& corners : cells)
       for (int& node : corners) node = number[node];

@@ -24,9 +24,9 @@ struct PhysicalGroup {
 
 /// A meshed model. Nodes are numbered from 0 without gaps; nodes that no solid cell uses are left out.
 struct ExtractedModel {
-  Eigen::Matrix3Xd points;  ///< [m]
-  CellBlock solids{CellType::tet4, {}};
-  std::vector<std::size_t> cell_tags;            ///< gmsh's (the file's) numbers of the solid cells
+  Eigen::Matrix3Xd points;                       ///< [m]
+  std::vector<CellBlock> solids;                 ///< cells of each type; numbered block after block
+  std::vector<std::size_t> cell_tags;            ///< gmsh's (the file's) number of each solid cell
   std::map<int, std::vector<int>> volumes;       ///< entity -> its cells
   std::map<int, std::vector<Corners>> surfaces;  ///< entity -> its surface cells; nodes of none of the solids: -1
   std::vector<PhysicalGroup> groups;
@@ -54,8 +54,7 @@ std::vector<PhysicalGroup> physical_groups();
 double model_extent(GmshSession& session);
 
 /// @param metres  metres per unit of the model
-/// @throws InputError for cells of types that are not in the table, for a model without solid cells, for solid cells
-///         of several types
+/// @throws InputError for cells of types that are not in the table, for a model without solid cells
 ExtractedModel extract_model(GmshSession& session, const std::string& name, double metres);
 
 /// Surface cells of the surfaces of a model meshed in dimension 2, and all their nodes.

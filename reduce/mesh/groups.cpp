@@ -63,12 +63,13 @@ void sort_unique(std::vector<int>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-// Adds the cells and nodes of a group of the same dimension.
-void add_part(Group& group, Group other) {
-  group.dimension = other.dimension;
-  group.parts.insert(group.parts.end(), other.parts.begin(), other.parts.end());
-  group.nodes.insert(group.nodes.end(), other.nodes.begin(), other.nodes.end());
+// Adds cells of one block and their nodes to a group.
+void add_part(Group& group, const CellBlock& block, std::vector<int> cells) {
+  sort_unique(cells);
+  for (int cell : cells)
+    group.nodes.insert(group.nodes.end(), block.nodes.col(cell).begin(), block.nodes.col(cell).end());
   sort_unique(group.nodes);
+  group.parts.push_back({block.type, std::move(cells)});
 }
 
 // Faces of every surface group of the requested mesh, by name.
@@ -118,28 +119,20 @@ void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& 
     if (volume.group != "all" && !is(volume.group, 3)) fail_unknown_group(volume.subject, volume.group, 3, groups);
 }
 
-Group group_of(const CellBlock& block, std::vector<int> cells) {
-  sort_unique(cells);
-  std::vector<int> nodes;
-  nodes.reserve(cells.size() * block.nodes.rows());
-  for (int cell : cells) nodes.insert(nodes.end(), block.nodes.col(cell).begin(), block.nodes.col(cell).end());
-  sort_unique(nodes);
-  return {dimension(block.type), {{block.type, std::move(cells)}}, std::move(nodes)};
-}
-
 void add_volume_groups(const ExtractedModel& model, Mesh& mesh) {
+  const SolidCells solids(mesh);
   for (const PhysicalGroup& group : model.groups) {
     if (group.dimension != 3) continue;
     std::vector<int> cells;
     for (int entity : group.entities)
       if (const auto found = model.volumes.find(entity); found != model.volumes.end())
         cells.insert(cells.end(), found->second.begin(), found->second.end());
-    if (!cells.empty()) mesh.groups[group.name] = group_of(mesh.solids(), cells);
+    if (!cells.empty()) mesh.groups[group.name] = solids.group_of(cells);
   }
   if (!group_names(model.groups, 3).empty()) return;
-  std::vector<int> all(mesh.solid_count());
+  std::vector<int> all(solids.size());
   std::iota(all.begin(), all.end(), 0);
-  mesh.groups["all"] = group_of(mesh.solids(), all);
+  mesh.groups["all"] = solids.group_of(all);
 }
 
 void add_surface_groups(const MeshRequest& request, const ExtractedModel& model, bool geometry, const FaceTable& faces,
@@ -165,8 +158,8 @@ void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, co
     if (members.empty()) continue;
     std::map<CellType, std::vector<int>> cells;
     for (int face : members) cells[faces.type(face)].push_back(cells_of.at(faces.type(face)).at(face));
-    Group group;
-    for (auto& [type, of_type] : cells) add_part(group, group_of(blocks.at(type), std::move(of_type)));
+    Group group{2, {}, {}};
+    for (auto& [type, of_type] : cells) add_part(group, blocks.at(type), std::move(of_type));
     mesh.groups[name] = std::move(group);
   }
   for (auto& [type, block] : blocks) mesh.blocks.push_back(std::move(block));

@@ -25,9 +25,6 @@ void check_groups(const MeshRequest& request, const std::vector<PhysicalGroup>& 
 /// Adds the volume groups of the model; `all` if it has none.
 void add_volume_groups(const ExtractedModel& model, Mesh& mesh);
 
-/// A group of cells of one block.
-Group group_of(const CellBlock& block, std::vector<int> cells);
-
 /// Gives the mesh surface groups: each is made of faces, which may belong to several. Empty groups are left out.
 void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, const FaceTable& faces, Mesh& mesh);
 

@@ -10,6 +10,7 @@
 #include "reduce/common/process/child_process.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/checks.hpp"
+#include "reduce/mesh/conforming.hpp"
 #include "reduce/mesh/cut_geometry.hpp"
 #include "reduce/mesh/foreign_mesh.hpp"
 #include "reduce/mesh/gmsh_model.hpp"
@@ -72,9 +73,10 @@ Mesh import_source(const MeshRequest& request, const SourceFile& source, Progres
   ExtractedModel model = about(request.subject, [&] { return extract_model(session, source.name, source.metres); });
   Mesh mesh;
   mesh.points = std::move(model.points);
-  mesh.blocks.push_back(std::move(model.solids));
+  mesh.blocks = std::move(model.solids);
   about(request.subject, [&] { check_elements(mesh, geometry ? std::vector<std::size_t>{} : model.cell_tags); });
   const FaceTable faces = about(request.subject, [&] { return FaceTable(mesh); });
+  about(request.subject, [&] { check_conforming(mesh, faces); });
   about(request.subject, [&] { check_mesh(request, model, faces, mesh, progress); });
   add_volume_groups(model, mesh);
   add_surface_groups(request, model, geometry, faces, mesh);

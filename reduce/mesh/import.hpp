@@ -14,9 +14,9 @@ namespace bielle::reduce {
 ///
 /// Geometries (.geo, .step/.stp, .brep, .iges/.igs) are meshed by gmsh; meshes are read by gmsh (.msh, .unv) or
 /// converted by tools/convert_mesh.py (.inp, .bdf, .nas, .vtu, .vtk, .med and all other formats of meshio). The result
-/// has one type of solid cells (any of cell_type.hpp, all of positive Jacobian); its surface cells are those of its
-/// surface groups, all points are used, and lengths are in metres. Without physical volumes the whole body becomes the
-/// group `all`.
+/// has solid cells of any types of cell_type.hpp, of positive Jacobian, that fit together; its surface cells are those
+/// of its surface groups, all points are used, and lengths are in metres. Without physical volumes the whole body
+/// becomes the group `all`.
 ///
 /// The import runs in a child process: this program survives if gmsh crashes on a damaged file.
 ///

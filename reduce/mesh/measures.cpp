@@ -10,17 +10,15 @@
 #include "reduce/mesh/gmsh_model.hpp"
 #include "reduce/mesh/gmsh_session.hpp"
 #include "reduce/mesh/jacobian.hpp"
+#include "reduce/mesh/solid_cells.hpp"
 #include "reduce/mesh/source_file.hpp"
 
 namespace bielle::reduce {
 
 double mesh_volume(const Mesh& mesh) {
-  const CellBlock& block = mesh.solids();
+  const SolidCells cells(mesh);
   double volume = 0;
-  for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
-    const Eigen::Matrix3Xd x = mesh.points(Eigen::all, block.nodes.col(e));
-    volume += cell_volume(block.type, x);
-  }
+  for (int e = 0; e < cells.size(); ++e) volume += cell_volume(cells.type(e), cells.points(e));
   return volume;
 }
 

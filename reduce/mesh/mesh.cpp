@@ -1,7 +1,5 @@
 #include "reduce/mesh/mesh.hpp"
 
-#include <stdexcept>
-
 namespace bielle::reduce {
 
 const CellBlock* Mesh::block(CellType type) const {
@@ -15,12 +13,6 @@ Eigen::Index Mesh::solid_count() const {
   for (const CellBlock& block : blocks)
     if (dimension(block.type) == 3) count += block.nodes.cols();
   return count;
-}
-
-const CellBlock& Mesh::solids() const {
-  for (const CellBlock& block : blocks)
-    if (dimension(block.type) == 3) return block;
-  throw std::logic_error("a mesh without solid cells");
 }
 
 }  // namespace bielle::reduce

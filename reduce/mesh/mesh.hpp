@@ -30,7 +30,7 @@ struct Group {
   std::vector<int> nodes;  ///< nodes of all its cells, ascending, each once
 };
 
-/// Points and cells in SI. Each CellType occurs in at most one block, and an imported mesh has one type of solid cells.
+/// Points and cells in SI. Each CellType occurs in at most one block.
 ///
 /// Surface cells are the faces of solid cells that belong to a group, each once, with the face's outward orientation
 /// (for a face between two solids: outward of the one with the lower number).
@@ -42,7 +42,6 @@ struct Mesh {
   const CellBlock* block(CellType type) const;  ///< nullptr when there are none
   Eigen::Index point_count() const { return points.cols(); }
   Eigen::Index solid_count() const;  ///< number of solid cells
-  const CellBlock& solids() const;   ///< the block of solid cells. @throws std::logic_error when there is none
 };
 
 }  // namespace bielle::reduce

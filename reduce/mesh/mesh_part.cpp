@@ -19,13 +19,13 @@ SurfaceFaces surface_faces(const Mesh& mesh, const FaceTable& faces) {
 
 MeshExtraction::MeshExtraction(const Mesh& whole, const std::vector<int>& parts, int part)
     : whole_(whole), number_in_part_(whole.point_count(), -1), cell_in_part_(parts.size(), -1) {
-  const CellBlock& block = whole.solids();
+  const SolidCells all(whole);
   std::vector<int> cells;
   for (int e = 0; e < static_cast<int>(parts.size()); ++e) {
     if (parts[e] != part) continue;
     cell_in_part_[e] = static_cast<int>(cells.size());
     cells.push_back(e);
-    for (const int node : block.nodes.col(e)) number_in_part_[node] = 0;
+    for (const int node : all.nodes(e)) number_in_part_[node] = 0;
   }
   for (int node = 0; node < whole.point_count(); ++node)
     if (number_in_part_[node] == 0) {
@@ -33,19 +33,21 @@ MeshExtraction::MeshExtraction(const Mesh& whole, const std::vector<int>& parts,
       part_.nodes.push_back(node);
     }
   part_.mesh.points = whole.points(Eigen::all, part_.nodes);
-  CellBlock own{block.type, block.nodes(Eigen::all, cells)};
-  for (int& node : own.nodes.reshaped()) node = number_in_part_[node];
-  part_.mesh.blocks.push_back(std::move(own));
+  for (const GroupPart& of_type : all.group_of(cells).parts) {
+    CellBlock own{of_type.type, whole.block(of_type.type)->nodes(Eigen::all, of_type.cells)};
+    for (int& node : own.nodes.reshaped()) node = number_in_part_[node];
+    part_.mesh.blocks.push_back(std::move(own));
+  }
 }
 
 void MeshExtraction::add_volumes() {
+  const SolidCells all(whole_), own(part_.mesh);
   for (const auto& [name, group] : whole_.groups) {
     if (group.dimension != 3) continue;
     std::vector<int> cells;
-    for (const GroupPart& part : group.parts)
-      for (const int cell : part.cells)
-        if (has(cell)) cells.push_back(cell_in_part_[cell]);
-    if (!cells.empty()) part_.mesh.groups[name] = group_of(part_.mesh.solids(), cells);
+    for (const int cell : all.members(group))
+      if (has(cell)) cells.push_back(cell_in_part_[cell]);
+    if (!cells.empty()) part_.mesh.groups[name] = own.group_of(cells);
   }
 }
 

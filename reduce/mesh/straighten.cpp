@@ -5,6 +5,7 @@
 
 #include "reduce/mesh/cell_type.hpp"
 #include "reduce/mesh/jacobian.hpp"
+#include "reduce/mesh/solid_cells.hpp"
 
 namespace bielle::reduce {
 
@@ -30,36 +31,38 @@ std::vector<std::pair<int, std::vector<int>>> middle_nodes(const CellInfo& cell)
 
 Straightening straighten_elements(Mesh& mesh) {
   Straightening result;
-  const CellBlock& block = mesh.solids();
-  const CellInfo& cell = cell_info(block.type);
-  if (cell.order == 1) return result;
-  const CellType straight = straight_type(block.type);
-  const auto middles = middle_nodes(cell);
-  std::vector<char> offended(block.nodes.cols(), 0);
+  const SolidCells cells(mesh);
+  std::vector<char> offended(cells.size(), 0);
   std::vector<char> moved(mesh.points.cols(), 0);
   for (bool changed = true; changed;) {
     changed = false;
-    for (Eigen::Index e = 0; e < block.nodes.cols(); ++e) {
-      const auto nodes = block.nodes.col(e);
-      const Eigen::Matrix3Xd x = mesh.points(Eigen::all, nodes);
-      if (checked_determinants(block.type, x).minCoeff() > least_ratio * checked_determinants(straight, x).minCoeff())
-        continue;
-      offended[e] = 1;
-      for (const auto& [node, ends] : middles) {
-        if (moved[nodes[node]]) continue;
-        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-        for (const int end : ends) middle += x.col(end);
-        middle /= static_cast<double>(ends.size());
-        const double way = (x.col(node) - middle).norm();
-        // Nodes that are already in the middle (up to rounding) are neither moved nor counted.
-        if (way <= 1e-12 * (x.col(ends.front()) - x.col(ends.back())).norm()) continue;
-        mesh.points.col(nodes[node]) = middle;
-        moved[nodes[node]] = 1;
-        changed = true;
-        ++result.nodes;
-        if (way > result.farthest) {
-          result.farthest = way;
-          result.place = middle;
+    for (const SolidCells::Range& range : cells.ranges()) {
+      const CellInfo& info = cell_info(range.type);
+      if (info.order == 1) continue;
+      const CellType straight = straight_type(range.type);
+      const auto middles = middle_nodes(info);
+      for (int e = range.first; e < range.first + range.count; ++e) {
+        const auto nodes = cells.nodes(e);
+        const Eigen::Matrix3Xd x = cells.points(e);
+        if (checked_determinants(range.type, x).minCoeff() > least_ratio * checked_determinants(straight, x).minCoeff())
+          continue;
+        offended[e] = 1;
+        for (const auto& [node, ends] : middles) {
+          if (moved[nodes[node]]) continue;
+          Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+          for (const int end : ends) middle += x.col(end);
+          middle /= static_cast<double>(ends.size());
+          const double way = (x.col(node) - middle).norm();
+          // Nodes that are already in the middle (up to rounding) are neither moved nor counted.
+          if (way <= 1e-12 * (x.col(ends.front()) - x.col(ends.back())).norm()) continue;
+          mesh.points.col(nodes[node]) = middle;
+          moved[nodes[node]] = 1;
+          changed = true;
+          ++result.nodes;
+          if (way > result.farthest) {
+            result.farthest = way;
+            result.place = middle;
+          }
         }
       }
     }

@@ -10,8 +10,7 @@ namespace bielle::reduce {
 
 double share_one_element_thick(const Mesh& mesh) {
   const FaceTable faces(mesh);
-  const Eigen::MatrixXi& cells = mesh.solids().nodes;
-  const int vertices = vertex_count(mesh.solids().type);
+  const SolidCells cells(mesh);
   const std::vector<int> boundary = faces.boundary();
   std::vector<Eigen::Vector3d> normals;                                // area vector of each boundary face
   std::vector<std::vector<std::size_t>> faces_at(mesh.point_count());  // faces at each corner, as positions in
@@ -23,10 +22,9 @@ double share_one_element_thick(const Mesh& mesh) {
   }
   const auto reaches_opposite = [&](std::size_t k) {
     const Corners corners = faces.corners(boundary[k]);
-    const auto cell = cells.col(faces.cell(boundary[k]));
-    for (int v = 0; v < vertices; ++v) {
-      if (corners.contains(cell(v))) continue;
-      for (const std::size_t other : faces_at[cell(v)])
+    for (const int vertex : cells.vertices(faces.cell(boundary[k]))) {
+      if (corners.contains(vertex)) continue;
+      for (const std::size_t other : faces_at[vertex])
         if (normals[k].dot(normals[other]) < -0.5 * normals[k].norm() * normals[other].norm()) return true;
     }
     return false;

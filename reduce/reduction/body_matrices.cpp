@@ -44,10 +44,7 @@ void subtract_inertia(SymmetricMatrix& matrix, const std::vector<std::int64_t>& 
 class MatricesHere : public BodyMatrices {
  public:
   MatricesHere(const Solid& solid, const InteriorUnknowns& interior, int threads)
-      : solid_(solid),
-        threads_(threads),
-        graph_(node_graph(solid.nodes, solid.points(), threads)),
-        prepared_for_(interior) {
+      : solid_(solid), threads_(threads), graph_(node_graph(solid.mesh, threads)), prepared_for_(interior) {
     const int others = std::max(1, threads - 1);
     // The stiffness is assembled in another thread, if available, since METIS catches signals of its own.
     std::future<void> assembly =

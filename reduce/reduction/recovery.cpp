@@ -64,15 +64,10 @@ StressOrigin stress_origin(const Solid& solid, const std::map<std::string, Mater
   }
   for (const auto& [name, group] : solid.mesh.groups) {
     std::set<int> rows;
-    for (const GroupPart& part : group.parts) {
-      if (part.type != solid.type) {
-        continue;
-      }
-      for (const int cell : part.cells) {
-        for (const int node : solid.nodes.col(cell)) {
-          if (const int row = row_of[node]; row >= 0 && result.material_of[row] == solid.material_of[cell]) {
-            rows.insert(row);
-          }
+    for (const int cell : solid.cells.members(group)) {
+      for (const int node : solid.cells.nodes(cell)) {
+        if (const int row = row_of[node]; row >= 0 && result.material_of[row] == solid.material_of[cell]) {
+          rows.insert(row);
         }
       }
     }

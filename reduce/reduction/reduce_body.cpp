@@ -252,7 +252,8 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   progress.finish();
   fail_when_a_check_does(checks, "the reduced body");
   if (report) {
-    *report = {mesh.point_count(), solid.cells(), held.statistics(), basis.method, basis.solves, basis.sweeps, checks};
+    *report = {
+        mesh.point_count(), solid.cells.size(), held.statistics(), basis.method, basis.solves, basis.sweeps, checks};
   }
   return body;
 }

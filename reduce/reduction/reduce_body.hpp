@@ -28,7 +28,7 @@ struct ReductionReport {
 /// Without `mode_count` and `modes_below` the body keeps its constraint modes only. Geometric stiffness of interface
 /// loads is left out, with a note, for bodies with more than 60 kept directions. The superelement contains the whole
 /// mesh, or its skin if displacements are to be recovered on the surface only.
-/// @param mesh      one connected piece with one type of solid cells, surface cells oriented outward
+/// @param mesh      one connected piece of solid cells that fit together, surface cells oriented outward
 /// @param progress  shows the phases; gets warnings
 /// @param threads   >= 1
 /// @param report    filled when given

@@ -83,6 +83,7 @@ void run(const std::string& body, const std::string& folder, int threads) {
   Progress progress(true);
   const Mesh mesh = import_mesh(file.mesh, progress);
   const Solid solid = make_solid(mesh, file.options.materials, file.options.regions);
+  const Eigen::MatrixXi& nodes = solid.cells.nodes_of(solid.cells.ranges().front());  // other programs take one type
   const Ties ties = make_ties(solid, file.options.interfaces);
   const std::vector<std::int64_t> kept = HeldFreedoms(solid, ties).interior().kept;
   std::vector<std::int64_t> starts, tied;
@@ -91,13 +92,13 @@ void run(const std::string& body, const std::string& folder, int threads) {
   starts.push_back(static_cast<std::int64_t>(kept.size()));
   for (std::int64_t a = 0; a < solid.points(); ++a)
     if (ties.tied[a]) tied.push_back(a);
-  const NodeGraph graph = node_graph(solid.nodes, solid.points(), threads);
+  const NodeGraph graph = node_graph(solid.mesh, threads);
   const SymmetricMatrix stiffness = principal_submatrix(assemble_stiffness(solid, graph, threads), kept);
   write(folder + "/K", stiffness);
   write(folder + "/K.blocks", starts);
   write(folder + "/M", principal_submatrix(three_fold(assemble_mass(solid, graph, threads)), kept));
   write(folder + "/points", mesh.points);
-  write(folder + "/cells", Eigen::Matrix<std::int64_t, -1, -1>(solid.nodes.cast<std::int64_t>()));
+  write(folder + "/cells", Eigen::Matrix<std::int64_t, -1, -1>(nodes.cast<std::int64_t>()));
   write(folder + "/tied", tied);
 
   SymmetricFactor(stiffness, starts, threads);  // the first one takes fresh memory
@@ -107,10 +108,9 @@ void run(const std::string& body, const std::string& folder, int threads) {
       "{{\"unknowns\": {}, \"nodes_of_a_cell\": {}, \"factor_numbers\": {}, \"gflop\": {}, \"numbers_s\": {}, "
       "\"ordering_s\": {}, \"analysis_s\": {}, \"dgemm\": {}, \"bandwidth\": {}, \"solution_1_s\": {}, "
       "\"solution_12_s\": {}}}\n",
-      statistics.unknowns, solid.nodes.rows(), statistics.nonzeros, 1e-9 * statistics.flops,
-      statistics.factorisation_seconds, statistics.ordering_seconds, statistics.analysis_seconds,
-      measure_dgemm(3000, threads), measure_bandwidth(threads), measure_solution(factor, 1),
-      measure_solution(factor, 12));
+      statistics.unknowns, nodes.rows(), statistics.nonzeros, 1e-9 * statistics.flops, statistics.factorisation_seconds,
+      statistics.ordering_seconds, statistics.analysis_seconds, measure_dgemm(3000, threads),
+      measure_bandwidth(threads), measure_solution(factor, 1), measure_solution(factor, 12));
 }
 
 }  // namespace

@@ -77,76 +77,147 @@ std::vector<int> sorted_nodes(const Eigen::MatrixXi& nodes, const std::vector<in
   return all;
 }
 
-}  // namespace
+/// A cell in a unit cube.
+struct UnitCell {
+  CellType type;
+  Corners corners;
+};
 
-reduce::Mesh cell_box(CellType type, const Eigen::Vector3d& size, std::array<int, 3> bricks, const PointMap& map,
-                      const PointMap& curve) {
-  const CellInfo& cell = reduce::cell_info(type);
-  const CellType linear = reduce::straight_type(type);
+using CellsOfBrick = std::function<std::vector<UnitCell>(int i, int j, int k)>;
+
+/// Places of all nodes of a cell from its corners: (corners, nodes).
+Eigen::MatrixXd shares_of_corners(CellType type) {
   const Eigen::MatrixXd local = reduce::local_nodes(type);
-  Eigen::MatrixXd shares(cell.vertices, cell.nodes);
-  for (int a = 0; a < cell.nodes; ++a) shares.col(a) = reduce::shape_values(linear, local.col(a));
-  const std::vector<Corners> of_cube = cells_of_cube(cell.vertices);
-  const Eigen::Vector3d brick = size.cwiseQuotient(Eigen::Vector3d(bricks[0], bricks[1], bricks[2]));
+  Eigen::MatrixXd shares(reduce::vertex_count(type), local.cols());
+  for (Eigen::Index a = 0; a < local.cols(); ++a)
+    shares.col(a) = reduce::shape_values(reduce::straight_type(type), local.col(a));
+  return shares;
+}
 
+using CellLists = std::map<CellType, std::vector<std::vector<int>>>;
+
+/// Appends the cells of each type to a mesh, and the parts of groups to its groups.
+void add_blocks(const CellLists& lists, reduce::Mesh& mesh) {
+  for (const auto& [type, all] : lists) {
+    reduce::CellBlock block{type, Eigen::MatrixXi(node_count(type), static_cast<Eigen::Index>(all.size()))};
+    for (std::size_t e = 0; e < all.size(); ++e)
+      block.nodes.col(static_cast<Eigen::Index>(e)) =
+          Eigen::Map<const Eigen::VectorXi>(all[e].data(), node_count(type));
+    mesh.blocks.push_back(std::move(block));
+  }
+}
+
+reduce::Group group_of(const reduce::Mesh& mesh, const std::map<CellType, std::vector<int>>& parts) {
+  reduce::Group group;
+  for (const auto& [type, cells] : parts) {
+    group.dimension = reduce::dimension(type);
+    group.parts.push_back({type, cells});
+    const std::vector<int> more = sorted_nodes(mesh.block(type)->nodes, cells);
+    group.nodes.insert(group.nodes.end(), more.begin(), more.end());
+  }
+  std::sort(group.nodes.begin(), group.nodes.end());
+  group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
+  return group;
+}
+
+reduce::Mesh box_of(const CellsOfBrick& cells_of_brick, const Eigen::Vector3d& size, std::array<int, 3> bricks,
+                    const PointMap& map, const PointMap& curve) {
+  const Eigen::Vector3d brick = size.cwiseQuotient(Eigen::Vector3d(bricks[0], bricks[1], bricks[2]));
   Nodes nodes(size);
   std::map<int, Eigen::Vector3d> places;
-  std::vector<std::vector<int>> cells;
-  std::map<CellType, std::vector<std::vector<int>>> faces;
-  std::map<std::string, std::map<CellType, std::vector<int>>> sides;
+  CellLists cells, faces;
+  std::map<std::string, std::map<CellType, std::vector<int>>> groups;
+  const auto add = [&](const UnitCell& unit, const Eigen::Vector3d& corner_of_brick) {
+    const CellInfo& cell = reduce::cell_info(unit.type);
+    const Eigen::MatrixXd shares = shares_of_corners(unit.type);
+    const Corners corners = brick.asDiagonal() * (unit.corners.colwise() + corner_of_brick);
+    Corners moved = corners;
+    for (Eigen::Index v = 0; map && v < moved.cols(); ++v) moved.col(v) = map(corners.col(v));
+    const Corners drawn = corners * shares, real = moved * shares;
+    std::vector<int> numbers;
+    for (int a = 0; a < cell.nodes; ++a) {
+      numbers.push_back(nodes.at(drawn.col(a)));
+      places[numbers.back()] = curve ? curve(real.col(a)) : Eigen::Vector3d(real.col(a));
+    }
+    for (const CellFace& face : cell.faces)
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double end : {0.0, size(axis)})
+          if (std::all_of(face.nodes.begin(), face.nodes.end(),
+                          [&](int a) { return std::abs(drawn(axis, a) - end) < 1e-9 * size(axis); })) {
+            std::vector<int> of_face;
+            for (const int a : face.nodes) of_face.push_back(numbers[static_cast<std::size_t>(a)]);
+            groups[std::string(1, "xyz"[axis]) + (end == 0 ? '0' : '1')][face.type].push_back(
+                static_cast<int>(faces[face.type].size()));
+            faces[face.type].push_back(of_face);
+          }
+    groups["solid"][unit.type].push_back(static_cast<int>(cells[unit.type].size()));
+    cells[unit.type].push_back(std::move(numbers));
+  };
   for (int k = 0; k < bricks[2]; ++k)
     for (int j = 0; j < bricks[1]; ++j)
       for (int i = 0; i < bricks[0]; ++i)
-        for (const Corners& unit : of_cube) {
-          const Corners corners = brick.asDiagonal() * (unit.colwise() + Eigen::Vector3d(i, j, k));
-          Corners moved = corners;
-          for (Eigen::Index v = 0; map && v < moved.cols(); ++v) moved.col(v) = map(corners.col(v));
-          const Corners drawn = corners * shares, real = moved * shares;
-          std::vector<int> numbers;
-          for (int a = 0; a < cell.nodes; ++a) {
-            numbers.push_back(nodes.at(drawn.col(a)));
-            places[numbers.back()] = curve ? curve(real.col(a)) : Eigen::Vector3d(real.col(a));
-          }
-          for (const CellFace& face : cell.faces)
-            for (int axis = 0; axis < 3; ++axis)
-              for (const double end : {0.0, size(axis)})
-                if (std::all_of(face.nodes.begin(), face.nodes.end(),
-                                [&](int a) { return std::abs(drawn(axis, a) - end) < 1e-9 * size(axis); })) {
-                  std::vector<int> of_face;
-                  for (const int a : face.nodes) of_face.push_back(numbers[static_cast<std::size_t>(a)]);
-                  sides[std::string(1, "xyz"[axis]) + (end == 0 ? '0' : '1')][face.type].push_back(
-                      static_cast<int>(faces[face.type].size()));
-                  faces[face.type].push_back(of_face);
-                }
-          cells.push_back(std::move(numbers));
-        }
+        for (const UnitCell& unit : cells_of_brick(i, j, k)) add(unit, Eigen::Vector3d(i, j, k));
 
   reduce::Mesh mesh;
   mesh.points.resize(3, static_cast<Eigen::Index>(nodes.size()));
   for (const auto& [number, place] : places) mesh.points.col(number) = place;
-  const auto add_block = [&](CellType of, const std::vector<std::vector<int>>& all) {
-    reduce::CellBlock block{of, Eigen::MatrixXi(node_count(of), static_cast<Eigen::Index>(all.size()))};
-    for (std::size_t e = 0; e < all.size(); ++e)
-      block.nodes.col(static_cast<Eigen::Index>(e)) = Eigen::Map<const Eigen::VectorXi>(all[e].data(), node_count(of));
-    mesh.blocks.push_back(std::move(block));
-  };
-  add_block(type, cells);
-  std::vector<int> all_cells;
-  for (std::size_t e = 0; e < cells.size(); ++e) all_cells.push_back(static_cast<int>(e));
-  mesh.groups["solid"] = {3, {{type, all_cells}}, sorted_nodes(mesh.blocks[0].nodes, all_cells)};
-  for (const auto& [of, list] : faces) add_block(of, list);
-  for (const auto& [name, parts] : sides) {
-    reduce::Group group{2, {}, {}};
-    for (const auto& [of, list] : parts) {
-      group.parts.push_back({of, list});
-      const std::vector<int> more = sorted_nodes(mesh.block(of)->nodes, list);
-      group.nodes.insert(group.nodes.end(), more.begin(), more.end());
-    }
-    std::sort(group.nodes.begin(), group.nodes.end());
-    group.nodes.erase(std::unique(group.nodes.begin(), group.nodes.end()), group.nodes.end());
-    mesh.groups[name] = group;
-  }
+  add_blocks(cells, mesh);
+  add_blocks(faces, mesh);
+  for (const auto& [name, parts] : groups) mesh.groups[name] = group_of(mesh, parts);
   return mesh;
+}
+
+/// The type of an order with this number of vertices; hex20, not hex27.
+CellType type_of(int vertices, int order) {
+  switch (vertices) {
+    case 4:
+      return order == 1 ? CellType::tet4 : CellType::tet10;
+    case 5:
+      return order == 1 ? CellType::pyramid5 : CellType::pyramid13;
+    case 6:
+      return order == 1 ? CellType::wedge6 : CellType::wedge15;
+    default:
+      return order == 1 ? CellType::hex8 : CellType::hex20;
+  }
+}
+
+std::vector<UnitCell> cells_of_type(CellType type) {
+  std::vector<UnitCell> cells;
+  for (const Corners& corners : cells_of_cube(reduce::vertex_count(type))) cells.push_back({type, corners});
+  return cells;
+}
+
+/// A pyramid as two tetrahedra, between which the diagonal of its base lies.
+std::vector<UnitCell> halves_of_pyramid(const Corners& pyramid, int order) {
+  const auto tetrahedron = [&](int a, int b, int c) {
+    return UnitCell{type_of(4, order), columns({pyramid.col(a), pyramid.col(b), pyramid.col(c), pyramid.col(4)})};
+  };
+  return {tetrahedron(0, 1, 2), tetrahedron(0, 2, 3)};
+}
+
+}  // namespace
+
+reduce::Mesh cell_box(CellType type, const Eigen::Vector3d& size, std::array<int, 3> bricks, const PointMap& map,
+                      const PointMap& curve) {
+  return box_of([&](int, int, int) { return cells_of_type(type); }, size, bricks, map, curve);
+}
+
+reduce::Mesh mixed_box(int order, const Eigen::Vector3d& size, std::array<int, 3> bricks, const PointMap& map,
+                       const PointMap& curve) {
+  const auto cells = [&](int i, int j, int k) {
+    const int vertices = std::array{8, 6, 5}[static_cast<std::size_t>((i + j) % 3)];
+    std::vector<UnitCell> result;
+    for (const UnitCell& cell : cells_of_type(type_of(vertices, order))) {
+      const double low = cell.corners.row(2).head(4).maxCoeff(), high = cell.corners.row(2).head(4).minCoeff();
+      if (vertices == 5 && ((k == 0 && low == 0) || (k == bricks[2] - 1 && high == 1))) {
+        for (const UnitCell& half : halves_of_pyramid(cell.corners, order)) result.push_back(half);
+      } else {
+        result.push_back(cell);
+      }
+    }
+    return result;
+  };
+  return box_of(cells, size, bricks, map, curve);
 }
 
 PointMap distortion(const Eigen::Vector3d& size, double amount) {

@@ -19,6 +19,11 @@ using PointMap = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 reduce::Mesh cell_box(reduce::CellType type, const Eigen::Vector3d& size, std::array<int, 3> bricks,
                       const PointMap& map = {}, const PointMap& curve = {});
 
+/// The same with bricks of all types of order 1 or 2: columns along z of hexahedra, of wedges, and of pyramids, with
+/// tetrahedra in place of their lowest and highest one.
+reduce::Mesh mixed_box(int order, const Eigen::Vector3d& size, std::array<int, 3> bricks, const PointMap& map = {},
+                       const PointMap& curve = {});
+
 /// Moves points inside a box [0,a]x[0,b]x[0,c] smoothly by at most `amount` of its sides, those on its surface not at
 /// all.
 PointMap distortion(const Eigen::Vector3d& size, double amount);

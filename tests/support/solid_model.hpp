@@ -17,7 +17,7 @@ class SolidModel {
              const std::function<bool(const Eigen::Vector3d& x, int component)>& fixed = {})
       : mesh(std::move(body)),
         solid(reduce::make_solid(mesh, {{"material", material}}, {{"all", "material"}})),
-        graph(reduce::node_graph(solid.nodes, solid.points())),
+        graph(reduce::node_graph(mesh)),
         stiffness(reduce::assemble_stiffness(solid, graph)),
         mass(reduce::assemble_mass(solid, graph)) {
     for (Eigen::Index a = 0; a < mesh.point_count(); ++a) {

@@ -3,8 +3,7 @@
 import numpy as np
 
 from .cells import CELLS, FLATS, SOLIDS, boundary_faces, face_keys, solid_faces
-from .face_checks import place
-from .messages import InputError, counted
+from .messages import InputError, counted, place
 
 
 class FaceTable:

@@ -129,6 +129,11 @@ def note(text):
     print(f"note: {text}", file=sys.stderr)
 
 
+def place(point):
+    """Coordinates of a point, as messages show them."""
+    return "(" + ", ".join(f"{x:g}" for x in point) + ")"
+
+
 def counted(count, noun, plural=None):
     """A number with its noun: "1 step", "3 steps"; plural: the plural if it is not the noun with an s."""
     return f"{count} {noun if count == 1 else plural or noun + 's'}"

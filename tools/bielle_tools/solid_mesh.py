@@ -10,9 +10,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .cells import CELLS, FLATS, SOLIDS, has_turned_corner, permutation, six_volumes
-from .face_checks import different_orders, nonconforming, place
 from .face_table import FaceTable
-from .messages import InputError, counted
+from .messages import InputError, counted, place
 from .repeated_nodes import refusal, turn_repeated
 
 FARTHEST = 1e15  # in whatever unit: no body reaches there
@@ -86,7 +85,6 @@ def solid_mesh(raw):
             notes.append(f"node set '{name}' ({counted(len(nodes), 'node')}) covers no boundary face and is left out")
     cells = faces.all_cells()
     _tell_mixture(cells, notes)
-    notes += nonconforming(raw.points, faces.boundary) + different_orders(raw.points, faces.sides)
     points, cells = _drop_unused(raw.points, cells, notes)
     cells = {kind: block[:, permutation(kind, "vtk", "gmsh")] for kind, block in cells.items()}
     return SolidMesh(points, cells, surfaces, volumes, notes)

@@ -13,7 +13,7 @@ namespace {
 Mesh mesh_of(MeshShare& share) {
   Mesh mesh;
   mesh.points = std::move(share.points);
-  mesh.blocks.push_back({share.type, std::move(share.nodes)});
+  mesh.blocks = std::move(share.blocks);
   return mesh;
 }
 
@@ -53,8 +53,8 @@ void Entries::add(int row, int column, double value) {
 Part::Part(MeshShare share, int threads)
     : threads_(threads),
       mesh_(mesh_of(share)),
-      solid_{mesh_, share.type, mesh_.blocks.front().nodes, materials_of(share), std::move(share.material_of)},
-      graph_(node_graph(solid_.nodes, solid_.points(), threads)),
+      solid_{mesh_, SolidCells(mesh_), materials_of(share), std::move(share.material_of)},
+      graph_(node_graph(mesh_, threads)),
       stiffness_(assemble_stiffness(solid_, graph_, threads)),
       mass_(assemble_mass(solid_, graph_, threads)) {}
 

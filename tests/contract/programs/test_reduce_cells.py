@@ -15,6 +15,7 @@ sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
 import cell_decks  # noqa: E402
 
 TOOLS, MECHANISM = os.path.join(REPOSITORY, "tools"), os.path.join(PROGRAMS, "bielle-mechanism")
+KINDS = {kind: (kind,) * 12 for kind in cell_decks.TYPES} | {"mixture": ("hexahedron", "wedge", "pyramid") * 3 + ("wedge", "pyramid", "end")}
 BODY = """\
 body: bar
 geometry: {name}.msh
@@ -64,16 +65,16 @@ class Cells(CommandTest):
 
     def test_every_type_makes_the_same_body(self):
         """The reduction checks itself; types of order 2 agree on the first bending frequency, hex8 nearly so."""
-        within = {"tetra1": 0.5, "wedge1": 0.05, "pyramid1": 0.2, "hexahedron1": 0.02}
+        within = {"tetra1": 0.5, "wedge1": 0.05, "pyramid1": 0.2, "hexahedron1": 0.02, "mixture1": 0.2}
         first = {}
-        for kind in cell_decks.TYPES:
+        for kind, cells in KINDS.items():
             for order in (1, 2):
                 name = f"{kind}{order}"
-                self.mesh(name, (kind,) * 12, order)
+                self.mesh(name, cells, order)
                 with self.reduced(name) as file:
                     self.assertAlmostEqual(float(file["mass_properties/mass"][()]) / (7850 * cell_decks.VOLUME), 1, delta=1e-12)
                     first[name] = float(file["adequacy/free_frequencies"][0])
-                    locks = name in ("tetra1", "wedge1", "pyramid1")
+                    locks = name in ("tetra1", "wedge1", "pyramid1", "mixture1")
                     self.assertEqual(float(file["adequacy/element_order"][()]), 1 if locks else 2)
         for name, frequency in first.items():
             with self.subTest(name):
@@ -81,10 +82,10 @@ class Cells(CommandTest):
                 self.assertGreater(frequency, 0.999 * first["hexahedron2"])
 
     def test_stress_of_a_pulled_bar(self):
-        for kind in cell_decks.TYPES:
+        for kind, cells in KINDS.items():
             name = kind + "2"
             with self.subTest(name):
-                self.mesh(name, (kind,) * 12, 2)
+                self.mesh(name, cells, 2)
                 self.reduced(name).close()
                 self.write("model.yaml", MODEL.replace("NAME", name))
                 done = self.run_other(MECHANISM, "model.yaml", "-o", "run.h5", "--quiet")
@@ -104,19 +105,23 @@ class Cells(CommandTest):
         done = self.run_tool("bielle-paraview", "run.h5", "-o", "figures")
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_pieces_of_hexahedra(self):
-        self.mesh("hexahedron2", ("hexahedron",) * 12, 2)
-        self.write("cut.yaml", BODY.format(name="hexahedron2", kept="all").replace("loads:", "# loads:") +
-                   "pieces: {planes: {point: [0.3, 0, 0], normal: [1, 0, 0]}}\n")
-        done = self.run_program("cut.yaml", "-o", "cut.h5", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with h5py.File(self.path("cut.h5")) as file:
-            self.assertEqual(len(file["pieces"]), 2)
+    def test_pieces(self):
+        for kind in ("hexahedron", "mixture"):
+            name = kind + "2"
+            with self.subTest(name):
+                self.mesh(name, KINDS[kind], 2)
+                self.write("cut.yaml", BODY.format(name=name, kept="all").replace("loads:", "# loads:") +
+                           "pieces: {planes: {point: [0.3, 0, 0], normal: [1, 0, 0]}}\n")
+                done = self.run_program("cut.yaml", "-o", "cut.h5", "--quiet")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with h5py.File(self.path("cut.h5")) as file:
+                    self.assertEqual(len(file["pieces"]), 2)
 
-    def test_mixed_cells_are_refused_with_their_numbers(self):
-        self.mesh("mixed", ("hexahedron", "wedge", "wedge"), 1)
+    def test_cells_that_do_not_fit_are_refused_with_the_place(self):
+        self.mesh("mixed", ("hexahedron", "tetra"), 1)
         self.write("mixed.yaml", BODY.format(name="mixed", kept="all"))
-        self.expect_refusal(1, "mixed.yaml", "-o", "mixed.h5", says=("mixed.yaml:2: geometry", "4 hex8", "16 wedge6"))
+        self.expect_refusal(1, "mixed.yaml", "-o", "mixed.h5",
+                            says=("mixed.yaml:2: geometry", "4 quadrilateral faces of solid cells stand against two triangles", "(0.3, "))
 
     def test_inverted_cells_are_named(self):
         box = cell_decks.Box(("hexahedron",) * 2, 1)

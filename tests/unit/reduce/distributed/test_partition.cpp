@@ -32,7 +32,7 @@ TEST_CASE("each cell is in one part, and parts are of one size but for the first
     least = std::min(least, cells.size());
     most = std::max(most, cells.size());
   }
-  CHECK(seen.size() == static_cast<std::size_t>(box.solid.cells()));
+  CHECK(seen.size() == static_cast<std::size_t>(box.solid.cells.size()));
   CHECK(std::set<int>(seen.begin(), seen.end()).size() == seen.size());
   CHECK(most - least <= 3);  // a cell for each halving
   if (parts > 1) CHECK(std::abs(3 * static_cast<int>(divided.front().size()) - static_cast<int>(most)) <= 9);
@@ -52,22 +52,21 @@ TEST_CASE("more parts than cells leave some without any") {
   const auto parts = divided_cells(solid, 20);
   REQUIRE(parts.size() == 20);
   CHECK(std::any_of(parts.begin(), parts.end(), [](const auto& cells) { return cells.empty(); }));
-  for (const std::vector<int>& cells : parts)
-    CHECK(part_of(solid, cells).share.nodes.cols() == static_cast<Eigen::Index>(cells.size()));
+  for (const std::vector<int>& cells : parts) CHECK(part_of(solid, cells).share.material_of.size() == cells.size());
 }
 
 TEST_CASE("matrices of the parts add up to those of the solid") {
   const Bar box;
-  const NodeGraph graph = node_graph(box.solid.nodes, box.solid.points());
+  const NodeGraph graph = node_graph(box.solid.mesh);
   const RowMatrix u = RowMatrix::Random(3 * box.solid.points(), 2);
   const RowMatrix force = assemble_stiffness(box.solid, graph).multiply(u);
   const RowMatrix momentum = assemble_mass(box.solid, graph).multiply(u, 3);
   RowMatrix sum_of_forces = RowMatrix::Zero(u.rows(), 2), sum_of_momenta = sum_of_forces;
   for (const std::vector<int>& cells : divided_cells(box.solid, 3)) {
     SolidPart part = part_of(box.solid, cells);
-    const Mesh mesh{part.share.points, {{part.share.type, part.share.nodes}}, {}};
-    const Solid solid{mesh, part.share.type, mesh.blocks[0].nodes, box.solid.materials, part.share.material_of};
-    const NodeGraph own = node_graph(solid.nodes, solid.points());
+    const Mesh mesh{part.share.points, part.share.blocks, {}};
+    const Solid solid{mesh, SolidCells(mesh), box.solid.materials, part.share.material_of};
+    const NodeGraph own = node_graph(solid.mesh);
     RowMatrix rows(3 * solid.points(), 2);
     for (std::size_t a = 0; a < part.points.size(); ++a)
       rows.middleRows<3>(3 * static_cast<Eigen::Index>(a)) = u.middleRows<3>(3 * part.points[a]);

@@ -56,7 +56,7 @@ TEST_CASE("Rigid motions are in the kernel of the stiffness, on straight and cur
   const bool bent = GENERATE(true, false);
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 3, 2}, quadratic}, bent ? curved : Map{});
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
-  const SymmetricMatrix k = assemble_stiffness(solid, node_graph(solid.nodes, solid.points()), 2);
+  const SymmetricMatrix k = assemble_stiffness(solid, node_graph(solid.mesh), 2);
   // Each row sums some hundred entries times displacements of order one.
   CHECK(k.multiply(rigid_motions(mesh)).cwiseAbs().maxCoeff() < 1e-12 * largest_entry(k));
 }
@@ -68,7 +68,7 @@ TEST_CASE("Any homogeneous strain is exact on distorted and on curved meshes: no
   const Mesh mesh =
       variant == 0 ? test::distorted_box_mesh(box, 0.25) : test::box_mesh(box, variant == 1 ? curved : Map{});
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
-  const SymmetricMatrix k = assemble_stiffness(solid, node_graph(solid.nodes, solid.points()), 2);
+  const SymmetricMatrix k = assemble_stiffness(solid, node_graph(solid.mesh), 2);
   const Eigen::Matrix3d h = (Eigen::Matrix3d() << 1, 0.4, -0.3, 0.2, -0.7, 0.5, 0.6, 0.1, 0.9).finished();
   const RowMatrix u = field(mesh, [&](const Eigen::Vector3d& x) { return Eigen::Vector3d(h * x); });
   const RowMatrix force = k.multiply(u);
@@ -88,7 +88,7 @@ TEST_CASE("Quadratic cells carry pure bending exactly on a distorted straight-si
   const test::Box box{{1, 1, 1}, {3, 3, 3}};
   const Mesh mesh = test::distorted_box_mesh(box, 0.25);
   const Solid solid = make_solid(mesh, {{"m", Material::isotropic(young, nu, 1)}}, {{"all", "m"}});
-  const SymmetricMatrix k = assemble_stiffness(solid, node_graph(solid.nodes, solid.points()));
+  const SymmetricMatrix k = assemble_stiffness(solid, node_graph(solid.mesh));
   const RowMatrix u = field(mesh, [&](const Eigen::Vector3d& x) {
     return Eigen::Vector3d(-x.x() * x.y(), (x.x() * x.x() + nu * (x.y() * x.y() - x.z() * x.z())) / 2,
                            nu * x.y() * x.z());
@@ -105,7 +105,7 @@ TEST_CASE("The mass matrix reproduces mass and moments of inertia, on curved cel
   const bool quadratic = GENERATE(true, false);
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 3}, quadratic}, bent && quadratic ? curved : Map{});
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeGraph graph = node_graph(solid.mesh);
   const NodeMatrix m = assemble_mass(solid, graph, 2);
   const MassProperties body = mass_properties(solid);
   const RowMatrix u = rigid_motions(mesh);
@@ -124,7 +124,7 @@ TEST_CASE("The mass matrix of straight cells integrates all products of the fiel
   const test::Box box{{1, 1, 1}, {2, 2, 2}, quadratic};
   const Mesh mesh = test::distorted_box_mesh(box, 0.25);
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeGraph graph = node_graph(solid.mesh);
   const NodeMatrix m = assemble_mass(solid, graph, 2);
   std::vector<Eigen::Vector3d> powers;
   const int degree = quadratic ? 2 : 1;
@@ -148,7 +148,7 @@ TEST_CASE("The mass matrix of straight cells integrates all products of the fiel
 TEST_CASE("Matrices do not depend on the number of threads") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {3, 2, 2}}, curved);
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
-  const NodeGraph graph = node_graph(solid.nodes, solid.points(), 2);
+  const NodeGraph graph = node_graph(solid.mesh, 2);
   CHECK(assemble_stiffness(solid, graph, 1).values == assemble_stiffness(solid, graph, 2).values);
   CHECK(assemble_mass(solid, graph, 1).values == assemble_mass(solid, graph, 2).values);
 }
@@ -157,7 +157,7 @@ TEST_CASE("The geometric stiffness of a homogeneous stress does the work of that
   const bool bent = GENERATE(true, false);
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 2, 2}}, bent ? curved : Map{});
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeGraph graph = node_graph(solid.mesh);
   const Eigen::Matrix3d h0 = 1e-3 * Eigen::Matrix3d::Random(), h = Eigen::Matrix3d::Random();
   RowMatrix fields(3 * mesh.point_count(), 2);
   fields << field(mesh, [&](const Eigen::Vector3d& x) { return Eigen::Vector3d(h0 * x); }), rigid_motions(mesh).col(4);
@@ -173,7 +173,7 @@ TEST_CASE("A cell that is turned inside out is named with its place") {
   Mesh mesh = test::box_mesh({{1, 1, 1}, {1, 1, 1}});
   std::swap(mesh.blocks[0].nodes(0, 2), mesh.blocks[0].nodes(1, 2));
   const Solid solid = make_solid(mesh, {{"wood", wood()}}, {{"all", "wood"}});
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeGraph graph = node_graph(solid.mesh);
   CHECK_THROWS_WITH(assemble_stiffness(solid, graph), Catch::Contains("cell 2 of the mesh, near"));
   CHECK_THROWS_AS(assemble_mass(solid, graph), ComputationError);
 }

@@ -1,6 +1,10 @@
 // Solid cells of all types: completeness, patch test, invariance, eigenvalues of a single cell.
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -20,6 +24,7 @@ using namespace bielle;
 using namespace bielle::reduce;
 using test::cell_box;
 using test::distortion;
+using test::mixed_box;
 
 namespace {
 
@@ -31,6 +36,26 @@ std::vector<CellType> solid_types() {
   for (const CellInfo& cell : cell_table())
     if (cell.dimension == 3) types.push_back(cell.type);
   return types;
+}
+
+/// Cells of one type, or of all types of one order.
+struct Cells {
+  std::string name;
+  std::function<Mesh(std::array<int, 3> bricks, double amount)> distorted_box;
+};
+
+std::vector<Cells> all_cells() {
+  std::vector<Cells> result;
+  for (const CellType type : solid_types())
+    result.push_back({cell_name(type), [type](std::array<int, 3> bricks, double amount) {
+                        return cell_box(type, extent, bricks, distortion(extent, amount));
+                      }});
+  for (const int order : {1, 2})
+    result.push_back(
+        {order == 1 ? "mixed, order 1" : "mixed, order 2", [order](std::array<int, 3> bricks, double amount) {
+           return mixed_box(order, extent, bricks, distortion(extent, amount));
+         }});
+  return result;
 }
 
 Eigen::MatrixXd dense(const SymmetricMatrix& k) {
@@ -62,9 +87,9 @@ bool is_inside(const Eigen::Vector3d& x) {
 }  // namespace
 
 TEST_CASE("Cells of all types have the mass, centre, inertia and surface of the box that they fill") {
-  const CellType type = GENERATE(from_range(solid_types()));
-  CAPTURE(cell_name(type));
-  const Mesh mesh = cell_box(type, extent, {2, 3, 2}, distortion(extent, 0.1));
+  const Cells cells = GENERATE(from_range(all_cells()));
+  CAPTURE(cells.name);
+  const Mesh mesh = cells.distorted_box({2, 3, 2}, 0.1);
   const test::SolidModel model(mesh, steel);
   const MassProperties found = mass_properties(model.solid);
   CHECK(found.volume == Approx(extent.prod()).epsilon(1e-13));
@@ -87,9 +112,9 @@ TEST_CASE("Cells of all types have the mass, centre, inertia and surface of the 
 }
 
 TEST_CASE("Cells of all types pass the patch test: constant strain in distorted cells") {
-  const CellType type = GENERATE(from_range(solid_types()));
-  CAPTURE(cell_name(type));
-  const Mesh mesh = cell_box(type, extent, {3, 2, 2}, distortion(extent, 0.12));
+  const Cells cells = GENERATE(from_range(all_cells()));
+  CAPTURE(cells.name);
+  const Mesh mesh = cells.distorted_box({3, 2, 2}, 0.12);
   const test::SolidModel model(mesh, steel);
   Eigen::Matrix3d H;
   H << 2, 1, 0.5, 1.5, -1, 0.3, 0.2, 0.4, 3;
@@ -127,7 +152,7 @@ TEST_CASE("A single distorted cell of any type has six rigid motions and no othe
   mesh.points = x;
   mesh.blocks.push_back({type, Eigen::VectorXi::LinSpaced(cell.nodes, 0, cell.nodes - 1)});
   const Solid solid = make_solid(mesh, {{"m", steel}}, {{"all", "m"}});
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeGraph graph = node_graph(solid.mesh);
   const Eigen::MatrixXd K = dense(assemble_stiffness(solid, graph));
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
   CHECK(values.head<6>().cwiseAbs().maxCoeff() < 1e-10 * values.maxCoeff());
@@ -151,10 +176,10 @@ TEST_CASE("A single distorted cell of any type has six rigid motions and no othe
 }
 
 TEST_CASE("Stiffness, stress and geometric stiffness of all types turn with the body") {
-  const CellType type = GENERATE(from_range(solid_types()));
-  CAPTURE(cell_name(type));
+  const Cells cells = GENERATE(from_range(all_cells()));
+  CAPTURE(cells.name);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
-  const Mesh here = cell_box(type, extent, {1, 1, 2}, distortion(extent, 0.1));
+  const Mesh here = cells.distorted_box({1, 1, 2}, 0.1);
   Mesh there = here;
   there.points = R * here.points;
   const test::SolidModel a(here, steel), b(there, steel);
@@ -179,9 +204,9 @@ TEST_CASE("Stiffness, stress and geometric stiffness of all types turn with the 
 
 TEST_CASE("The geometric stiffness of constant stress is the same for all types") {
   // int tr(H^T s H') dV with the constant gradient of u, and a constant stress.
-  const CellType type = GENERATE(from_range(solid_types()));
-  CAPTURE(cell_name(type));
-  const Mesh mesh = cell_box(type, extent, {2, 1, 2}, distortion(extent, 0.1));
+  const Cells cells = GENERATE(from_range(all_cells()));
+  CAPTURE(cells.name);
+  const Mesh mesh = cells.distorted_box({2, 1, 2}, 0.1);
   const test::SolidModel model(mesh, steel);
   Eigen::Matrix3d H, S;
   H << 0.1, 0.4, -0.2, 0.3, 0.2, 0.1, -0.5, 0.6, 0.3;
@@ -202,7 +227,7 @@ TEST_CASE("An inverted cell of any type is named") {
   Mesh mesh = cell_box(type, extent, {1, 1, 1});
   mesh.points.row(0) *= -1;
   const Solid solid = make_solid(mesh, {{"m", steel}}, {{"all", "m"}});
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeGraph graph = node_graph(solid.mesh);
   CHECK_THROWS_AS(assemble_stiffness(solid, graph), ComputationError);
   CHECK_THROWS_AS(assemble_mass(solid, graph), ComputationError);
 }

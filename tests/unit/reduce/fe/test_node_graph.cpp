@@ -12,7 +12,7 @@ using namespace bielle::reduce;
 TEST_CASE("Neighbours in the graph are the nodes that share a cell") {
   Eigen::MatrixXi cells(4, 2);
   cells << 0, 1, 1, 2, 2, 3, 3, 5;
-  const NodeGraph graph = node_graph(cells, 7, 2);
+  const NodeGraph graph = node_graph(Mesh{Eigen::Matrix3Xd::Zero(3, 7), {{CellType::tet4, cells}}, {}}, 2);
   const auto of = [&](int a) {
     return std::vector<int>(graph.neighbours.begin() + graph.starts[a], graph.neighbours.begin() + graph.starts[a + 1]);
   };
@@ -42,7 +42,7 @@ TEST_CASE("Cells of one colour share no node, and every cell has a colour") {
 TEST_CASE("The places of a cell's pairs are those that are looked up one by one") {
   const Mesh mesh = test::box_mesh({{1, 1, 1}, {2, 3, 2}});
   const Eigen::MatrixXi& cells = mesh.blocks[0].nodes;
-  const NodeGraph graph = node_graph(cells, mesh.point_count());
+  const NodeGraph graph = node_graph(mesh);
   for (Eigen::Index e = 0; e < cells.cols(); ++e) {
     const CellPlaces<10> places(graph, cells, e);
     for (int a = 0; a < 10; ++a) {
@@ -62,7 +62,7 @@ TEST_CASE("The places of a cell's pairs are those that are looked up one by one"
 TEST_CASE("A node matrix acts on each component of the nodes alike") {
   Eigen::MatrixXi cells(4, 1);
   cells << 0, 1, 2, 3;
-  const NodeGraph graph = node_graph(cells, 4);
+  const NodeGraph graph = node_graph(Mesh{Eigen::Matrix3Xd::Zero(3, 4), {{CellType::tet4, cells}}, {}});
   NodeMatrix m{&graph, std::vector<double>(16)};
   Eigen::Matrix4d dense;
   for (int a = 0; a < 4; ++a) {

@@ -49,6 +49,23 @@ std::string msh(const std::vector<std::string>& points, const std::vector<std::s
   return text;
 }
 
+std::string as_msh(const reduce::Mesh& mesh) {
+  std::vector<std::string> points, elements, names;
+  for (const auto& x : mesh.points.colwise())
+    points.push_back(fmt::format("{:.17g} {:.17g} {:.17g}", x[0], x[1], x[2]));
+  int number = 0;
+  for (const auto& [name, group] : mesh.groups) {
+    names.push_back(fmt::format("{} {} \"{}\"", group.dimension, ++number, name));
+    for (const reduce::GroupPart& part : group.parts)
+      for (const int cell : part.cells) {
+        std::string row = fmt::format("{} 2 {} {}", static_cast<int>(part.type), number, number);
+        for (const int node : mesh.block(part.type)->nodes.col(cell)) row += fmt::format(" {}", node + 1);
+        elements.push_back(row);
+      }
+  }
+  return msh(points, elements, names);
+}
+
 void gmsh_convert(const std::string& source, const std::string& target, double size, int order) {
   GmshSession session;
   session.read("test", [&] {

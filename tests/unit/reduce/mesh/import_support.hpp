@@ -27,6 +27,9 @@ reduce::SurfaceSelection selection(const std::string& group, const reduce::Surfa
 std::string msh(const std::vector<std::string>& points, const std::vector<std::string>& elements,
                 const std::vector<std::string>& names = {});
 
+/// The same text of a mesh, each of its groups a physical one.
+std::string as_msh(const reduce::Mesh& mesh);
+
 /// Lets gmsh mesh a geometry and write it in the format of `target`'s ending (a geometry's ending: unmeshed).
 void gmsh_convert(const std::string& source, const std::string& target, double size, int order);
 

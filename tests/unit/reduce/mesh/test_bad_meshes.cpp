@@ -79,7 +79,7 @@ TEST_CASE("a body in pieces is described, and whether the pieces touch") {
 TEST_CASE("coincident nodes within one piece are a crack") {
   // Two bricks that share the lower half of the nodes of their common face only: nodes on it are split.
   Mesh mesh = box_mesh({{2, 1, 1}, {2, 2, 2}, false});
-  const CellBlock solids = mesh.solids();
+  const CellBlock solids = mesh.blocks.front();
   int split = -1;
   for (int node = 0; node < mesh.point_count(); ++node)
     if ((mesh.points.col(node) - Eigen::Vector3d(1, 0.5, 1)).norm() < 1e-12) split = node;

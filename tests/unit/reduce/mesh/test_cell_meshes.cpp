@@ -39,24 +39,6 @@ Mesh mesh_of(CellType type, const Eigen::Vector3d& size, const std::array<int, 3
   return cell_box(type, size, bricks, {}, map);
 }
 
-// A mesh as gmsh's text, each group of the mesh a physical one.
-std::string as_msh(const Mesh& mesh) {
-  std::vector<std::string> points, elements, names;
-  for (const auto& x : mesh.points.colwise())
-    points.push_back(fmt::format("{:.17g} {:.17g} {:.17g}", x[0], x[1], x[2]));
-  int number = 0;
-  for (const auto& [name, group] : mesh.groups) {
-    names.push_back(fmt::format("{} {} \"{}\"", group.dimension, ++number, name));
-    for (const GroupPart& part : group.parts)
-      for (const int cell : part.cells) {
-        std::string row = fmt::format("{} 2 {} {}", static_cast<int>(part.type), number, number);
-        for (const int node : mesh.block(part.type)->nodes.col(cell)) row += fmt::format(" {}", node + 1);
-        elements.push_back(row);
-      }
-  }
-  return msh(points, elements, names);
-}
-
 double volume_of_divergence(const Mesh& mesh, const FaceTable& faces) {
   // Gauss: 3 V = sum of x . n dA over plane faces.
   double sum = 0;
@@ -124,7 +106,7 @@ TEST_CASE("a file with cells of any type is imported with its groups") {
     const Mesh mesh = import(wish);
     // gmsh sorts the points by the groups in which they are met first.
     CHECK(mesh.point_count() == whole.point_count());
-    CHECK(mesh.solids().type == type);
+    CHECK(mesh.blocks.front().type == type);
     CHECK(mesh_volume(mesh) == Approx(0.006).epsilon(1e-13));
     for (const auto& [name, group] : whole.groups) {
       CHECK(places(mesh, name) == places(whole, name));
@@ -153,7 +135,7 @@ TEST_CASE("hexahedra and wedges of a universal file are read by gmsh") {
       });
     }
     const Mesh mesh = import(request(folder / "body.unv"));
-    CHECK(mesh.solids().type == type);
+    CHECK(mesh.blocks.front().type == type);
     CHECK(mesh_volume(mesh) == Approx(mesh_volume(whole)).epsilon(1e-12));
   }
 }
@@ -217,15 +199,6 @@ TEST_CASE("a flat cell of any type, and a mirrored mesh, are refused") {
     CHECK_THAT(message_of<bielle::InputError>([&] { check_elements(mirrored, {}); }),
                StartsWith("every element is inverted (negative volume): the mesh is mirrored"));
   }
-}
-
-TEST_CASE("types of solid cells do not mix, and the message has the number of each") {
-  const std::vector<std::string> points = {"0 0 0", "1 0 0", "1 1 0", "0 1 0",  "0 0 1",
-                                           "1 0 1", "1 1 1", "0 1 1", ".5 .5 2"};
-  const TemporaryFolder folder;
-  const std::string path = folder.file("two.msh", msh(points, {"5 2 1 1 1 2 3 4 5 6 7 8", "7 2 1 1 5 6 7 8 9"}));
-  CHECK_THAT(import_message(request(path)),
-             Contains("mixes types of solid cells (1 hex8 and 1 pyramid5); use one type"));
 }
 
 TEST_CASE("hexahedra with 8 and 20 nodes in one volume are noticed") {
@@ -300,10 +273,10 @@ TEST_CASE("straightening mends an inverted second-order cell and leaves sound on
 
     Mesh mesh = mesh_of(type, {1, 1, 1}, {2, 2, 2});
     const Eigen::Matrix3Xd straight = mesh.points;
-    const int node = mesh.solids().nodes(vertex_count(type), 0);
+    const int node = mesh.blocks.front().nodes(vertex_count(type), 0);
     const Eigen::Vector3d away(0.02, 0.3, 0.4);
     mesh.points.col(node) += away;
-    const Eigen::Matrix3Xd x = mesh.points(Eigen::all, mesh.solids().nodes.col(0));
+    const Eigen::Matrix3Xd x = mesh.points(Eigen::all, mesh.blocks.front().nodes.col(0));
     REQUIRE(checked_determinants(type, x).minCoeff() < 0);
     const Straightening result = straighten_elements(mesh);
     CHECK(result.nodes == 1);
@@ -321,7 +294,7 @@ TEST_CASE("a distorted cell whose nodes are in the middle is the straight one, a
     };
     Mesh mesh = mesh_of(type, {1, 1, 1}, {1, 1, 1}, warp);
     const CellType straight = straight_type(type);
-    for (const auto& cell : mesh.solids().nodes.colwise()) {
+    for (const auto& cell : mesh.blocks.front().nodes.colwise()) {
       Eigen::Matrix3Xd x = mesh.points(Eigen::all, cell);
       const CellInfo& info = cell_info(type);
       int node = info.vertices;
@@ -388,24 +361,6 @@ TEST_CASE("A plate of hexahedra, wedges or pyramids one element thick is known f
     // A brick of six pyramids has two of them across its thickness.
     if (vertex_count(type) != 5) CHECK(share_one_element_thick(mesh_of(type, {6, 6, 1}, {6, 6, 1})) > 0.5);
   }
-}
-
-TEST_CASE("a hanging node leaves the cells loose: the faces that do not match are boundary faces") {
-  // Two hexahedra on one: its upper face matches neither of theirs.
-  Mesh mesh;
-  mesh.points.resize(3, 16);
-  mesh.points << 0, 2, 2, 0, 0, 2, 2, 0, 1, 1, 0, 1, 2, 2, 1, 0,  //
-      0, 0, 1, 1, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1, 1, 1,             //
-      0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2;
-  Eigen::MatrixXi cells(8, 3);
-  cells.transpose() << 0, 1, 2, 3, 4, 5, 6, 7,  //
-      4, 8, 9, 7, 10, 11, 14, 15,               //
-      8, 5, 6, 9, 11, 12, 13, 14;
-  mesh.blocks.push_back({CellType::hex8, cells});
-  CHECK_NOTHROW(check_elements(mesh, {}));
-  const FaceTable faces(mesh);
-  CHECK(faces.boundary().size() == 16);
-  CHECK_THAT(loose_joints(mesh, faces), StartsWith("2 parts of the body hang together by single nodes or edges only"));
 }
 
 }  // namespace test_cell_meshes

@@ -72,7 +72,7 @@ TEST_CASE("every node of a second-order box lies in the middle of its edge, in g
   const TemporaryFolder folder;
   const Mesh mesh = import(box_request(folder.file("box.geo", box_geo(1)), 2));
   constexpr int ends[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}};
-  const CellBlock& solids = mesh.solids();
+  const CellBlock& solids = mesh.blocks.front();
   double worst = 0;
   for (Eigen::Index e = 0; e < solids.nodes.cols(); ++e)
     for (int k = 0; k < 6; ++k) {
@@ -164,7 +164,7 @@ TEST_CASE("the same request gives the same mesh") {
   wish.size = 6e-3;
   const Mesh one = import(wish), other = import(wish);
   CHECK(one.points == other.points);
-  CHECK(one.solids().nodes == other.solids().nodes);
+  CHECK(one.blocks.front().nodes == other.blocks.front().nodes);
 }
 
 TEST_CASE("mesh.sizes refines a physical group, a volume, and a surface selected by its shape") {
@@ -174,10 +174,10 @@ TEST_CASE("mesh.sizes refines a physical group, a volume, and a surface selected
     double sum = 0;
     int count = 0;
     constexpr int ends[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}};
-    for (Eigen::Index e = 0; e < mesh.solids().nodes.cols(); ++e)
+    for (Eigen::Index e = 0; e < mesh.blocks.front().nodes.cols(); ++e)
       for (const auto& edge : ends) {
-        const Eigen::Vector3d a = mesh.points.col(mesh.solids().nodes(edge[0], e)),
-                              b = mesh.points.col(mesh.solids().nodes(edge[1], e));
+        const Eigen::Vector3d a = mesh.points.col(mesh.blocks.front().nodes(edge[0], e)),
+                              b = mesh.points.col(mesh.blocks.front().nodes(edge[1], e));
         if (std::abs(a.x() - x) > 1e-9 || std::abs(b.x() - x) > 1e-9) continue;
         sum += (a - b).norm();
         ++count;

@@ -13,7 +13,7 @@ namespace {
 
 double least_ratio(const Mesh& mesh) {
   double least = 1;
-  const CellBlock& solids = mesh.solids();
+  const CellBlock& solids = mesh.blocks.front();
   for (Eigen::Index e = 0; e < solids.nodes.cols(); ++e) {
     const Eigen::Matrix3Xd x = mesh.points(Eigen::all, solids.nodes.col(e));
     least = std::min(least, determinant_coefficients(x).minCoeff() / straight_determinant(x));
@@ -37,7 +37,7 @@ TEST_CASE("sound curved elements are left alone") {
 TEST_CASE("a mid-side node that turns elements inside out goes to the middle of its edge, and only that one") {
   Mesh mesh = box_mesh({{1, 1, 1}, {2, 2, 2}, true});
   const Eigen::Matrix3Xd straight = mesh.points;
-  const int node = mesh.solids().nodes(4, 0);
+  const int node = mesh.blocks.front().nodes(4, 0);
   const Eigen::Vector3d away(0.01, 0.3, 0.2);
   mesh.points.col(node) += away;
   REQUIRE(least_ratio(mesh) < 0);

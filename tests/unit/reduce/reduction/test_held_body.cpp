@@ -22,7 +22,7 @@ struct Model {
   Model(Mesh m, const std::vector<InterfaceRequest>& requests)
       : mesh(std::move(m)),
         solid(make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}})),
-        stiffness(assemble_stiffness(solid, node_graph(solid.nodes, solid.points()))),
+        stiffness(assemble_stiffness(solid, node_graph(solid.mesh))),
         ties(make_ties(solid, requests)) {}
   FixedInterfaceBody held() const { return test::held_body(solid, ties); }
 };

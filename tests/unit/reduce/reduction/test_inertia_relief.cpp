@@ -20,7 +20,7 @@ constexpr double young = 210e9, density = 7800;  // constants of test::steel()
 
 /// Forces of the twelve accelerations that are linear in space, on a mesh.
 RowMatrix inertia_loads(const Solid& solid) {
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeGraph graph = node_graph(solid.mesh);
   const Eigen::Vector3d centre = mass_properties(solid).centre;
   RowMatrix fields = RowMatrix::Zero(3 * solid.points(), 12);
   for (Eigen::Index a = 0; a < solid.points(); ++a)

@@ -35,7 +35,7 @@ struct Held {
 
 TEST_CASE("The graph of points is that of the stiffness", "[reduction]") {
   const Held model(0);
-  const NodeGraph nodes = node_graph(model.solid.nodes, model.solid.points());
+  const NodeGraph nodes = node_graph(model.solid.mesh);
   std::vector<std::int64_t> first;
   for (std::int64_t unknown = 0; unknown <= 3 * model.solid.points(); unknown += 3) first.push_back(unknown);
   const BlockGraph from_mesh = point_graph(nodes),
@@ -48,7 +48,7 @@ TEST_CASE("The graph of points is that of the stiffness", "[reduction]") {
 TEST_CASE("The graph of the interior, from the mesh alone, holds every number that is factorised", "[reduction]") {
   const int variant = GENERATE(0, 1, 2, 3);
   const Held model(variant);
-  const NodeGraph nodes = node_graph(model.solid.nodes, model.solid.points());
+  const NodeGraph nodes = node_graph(model.solid.mesh);
   const SymmetricMatrix stiffness = assemble_stiffness(model.solid, nodes);
   const InteriorUnknowns interior = model.freedoms.interior();
   const BlockGraph graph = interior_graph(point_graph(nodes), interior);
@@ -93,9 +93,7 @@ TEST_CASE("A structure that was prepared while matrices were assembled gives the
 
 TEST_CASE("A cell that is inside out is told, whichever thread meets it", "[reduction]") {
   Held model(1);
-  CellBlock& cells = *std::find_if(model.mesh.blocks.begin(), model.mesh.blocks.end(),
-                                   [&](const CellBlock& block) { return &block == &model.mesh.solids(); });
-  Eigen::MatrixXi& nodes = cells.nodes;
+  Eigen::MatrixXi& nodes = model.mesh.blocks.front().nodes;
   std::swap(nodes(0, 3), nodes(1, 3));
   std::vector<std::string> said;
   for (const int threads : {1, 2, 2, 5}) {

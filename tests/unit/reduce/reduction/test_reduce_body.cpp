@@ -172,7 +172,7 @@ TEST_CASE("Effective masses add up to what the constraint modes leave") {
   const Superelement body = test::reduced(mesh, options);
   // With every mode, Phi Phi^T = M_ii^-1: the sums are (M U)_i^T M_ii^-1 (M U)_i, U rigid motions about the centre.
   const Solid solid = make_solid(mesh, options.materials, options.regions);
-  const NodeGraph graph = node_graph(solid.nodes, solid.points());
+  const NodeGraph graph = node_graph(solid.mesh);
   const NodeMatrix mass = assemble_mass(solid, graph);
   const Eigen::MatrixXd m = mass.multiply(RowMatrix::Identity(mesh.point_count(), mesh.point_count()), 1);
   const RowMatrix momenta = mass.multiply(rigid_motions(mesh.points, body.centre), 3);

@@ -25,7 +25,7 @@ const std::array<bool, 6> all_six{true, true, true, true, true, true};
 struct FullMesh {
   Mesh mesh = test::twisted_block();
   Solid solid = make_solid(mesh, {{"steel", test::steel()}}, {{"all", "steel"}});
-  NodeGraph graph = node_graph(solid.nodes, solid.points());
+  NodeGraph graph = node_graph(solid.mesh);
   SymmetricMatrix stiffness = assemble_stiffness(solid, graph);
 
   Eigen::Vector3d centre() const { return mass_properties(solid).centre; }
