@@ -26,6 +26,7 @@
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/describe.hpp"
 #include "reduce/mesh/import.hpp"
+#include "reduce/reduction/integration_checks.hpp"
 #include "reduce/reduction/reduce_pieces.hpp"
 #include "reduce/report/summary.hpp"
 #include "reduce/report/summary_of_pieces.hpp"
@@ -118,6 +119,7 @@ void reduce(const BodyFile& file, const std::string& output, const CommonOptions
     progress.warn(warning);
   }
   const Mesh mesh = import_mesh(file.mesh, progress);
+  check_integration(mesh, file.options.integration);
   file.pieces ? reduce_in_pieces(mesh, file, output, progress, common, matrices)
               : reduce_whole(mesh, file, output, progress, common, matrices);
 }

@@ -1,21 +1,31 @@
 #!/usr/bin/python3
 """convert_mesh.py INPUT OUTPUT.msh: a mesh of solid cells of another program becomes gmsh's MSH 4.1.
+convert_mesh.py --materials INPUT OUTPUT.json: its materials, in its own units, and the groups that have them.
 
 Reads .inp (Abaqus, CalculiX), .bdf .nas (Nastran), .med (Salome), .vtu .vtk .mesh and all other formats of meshio;
 keeps coordinates unchanged, and named sets as physical groups (node sets: the boundary faces whose nodes are all in the
 set). bielle-reduce calls it by itself for such files; call it to see the result of the conversion.
 """
 
+import json
+
 from bielle_tools import messages
 
 messages.require("numpy", "meshio")
 
-from bielle_tools import foreign_mesh, msh_file, solid_mesh  # noqa: E402
+from bielle_tools import deck_materials, foreign_mesh, msh_file, solid_mesh  # noqa: E402
 
 
 def main(arguments):
     if arguments in (["-h"], ["--help"]):
         print(__doc__.strip())
+        return
+    if len(arguments) == 3 and arguments[0] == "--materials":
+        found = deck_materials.read_materials(arguments[1])
+        with open(arguments[2], "w", encoding="utf-8") as file:
+            json.dump({"materials": found.materials, "regions": found.regions}, file, indent=1)
+        for text in found.notes:
+            messages.note(f"{arguments[1]}: {text}")
         return
     if len(arguments) != 2 or not arguments[1].endswith(".msh"):
         raise messages.InputError("two arguments are needed: INPUT OUTPUT.msh")

@@ -10,6 +10,7 @@
 #include "reduce/body_file/body_materials.hpp"
 #include "reduce/body_file/body_pieces.hpp"
 #include "reduce/body_file/body_points.hpp"
+#include "reduce/body_file/deck_materials.hpp"
 #include "reduce/common/input/plausible.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
@@ -110,14 +111,28 @@ void resolve_sizes(const YamlValue& root, const ReductionOptions& options, MeshR
 void read_regions(const YamlValue& root, BodyFile& body) {
   ReductionOptions& options = body.options;
   const YamlValue materials = root.at("materials");
-  std::vector<std::string> names;
-  for (const auto& [name, value] : materials.entries()) {
-    options.materials.emplace(name, read_material(value));
-    warn_of_material(value);
-    names.push_back(name);
+  std::map<std::string, std::string> of_deck;
+  if (!materials.is_map()) {
+    of_deck = read_deck_materials(root, body);
+  } else {
+    for (const auto& [name, value] : materials.entries()) {
+      options.materials.emplace(name, read_material(value));
+      warn_of_material(value);
+    }
+    if (root.has("mass_unit"))
+      root.at("mass_unit").fail("it belongs to 'materials: from_file': other values are in SI units");
   }
+  std::vector<std::string> names;
+  for (const auto& [name, material] : options.materials) names.push_back(name);
   if (names.empty()) materials.fail("expected at least one material");
 
+  if (!root.has("regions")) {
+    if (of_deck.empty())
+      root.fail("'regions' is missing: it tells which volumes have which material, e.g. all: " + names.front());
+    options.regions = of_deck;
+    for (const auto& [group, material] : of_deck) body.mesh.volumes.push_back({group, materials.path()});
+    return;
+  }
   const YamlValue regions = root.at("regions");
   for (const auto& [group, value] : regions.entries()) {
     const std::string material = value.text();
@@ -194,6 +209,10 @@ BodyFile read(const YamlValue& file) {
   body.lines = KeyLines(file);
   read_mesh(root, body.mesh);
   read_regions(root, body);
+  const std::string integration = root.at("integration").word();
+  body.options.integration = integration == "plain"     ? Integration::plain
+                             : integration == "reduced" ? Integration::reduced
+                                                        : Integration::standard;
   const YamlValue interfaces = root.at("interfaces");
   for (const auto& [name, value] : interfaces.entries())
     body.options.interfaces.push_back(read_interface(name, value, body.mesh));
@@ -229,8 +248,21 @@ const KeyTable& body_file_keys() {
         computed("the unit that the geometry declares, otherwise m"),
         "Unit of a geometry that declares none. It scales the geometry alone, no other value of this file."},
        {"mesh", nested(mesh_keys), optional, "The mesh of a geometry."},
-       {"materials", entries("material", material_forms()), required, "Materials by their names."},
-       {"regions", entries("physical volume", {name_of("material")}), required,
+       {"materials",
+        {entries("material", material_forms()), word({"from_file"}, "a source of materials")},
+        required,
+        "Materials by their names; `from_file` takes those of the Nastran, Abaqus or CalculiX file that is the "
+        "geometry."},
+       {"mass_unit", word(mass_units(), "a unit of mass"), otherwise("kg"),
+        "Unit of mass of the materials that are taken from the file; their length has the `length_unit`, their time is "
+        "in "
+        "seconds. A file in N, mm and MPa has `t`."},
+       {"integration", word({"standard", "plain", "reduced"}, "an integration"), otherwise("standard"),
+        "Integration of the stiffness. `plain` leaves out the internal modes of hexahedra with 8 nodes and of wedges "
+        "with "
+        "6, which then lock in bending, as C3D8 and C3D6 of other programs; `reduced` takes 2 x 2 x 2 points in "
+        "hexahedra with 20 nodes, as C3D20R, and warns of hourglass modes."},
+       {"regions", entries("physical volume", {name_of("material")}), computed("those of the file, with `from_file`"),
         "Materials of the physical volumes; `all` is the whole body."},
        {"interfaces", entries("interface", {nested(interface_keys)}), required,
         "Interfaces by their names, at least one."},

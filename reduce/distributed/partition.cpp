@@ -59,6 +59,7 @@ SolidPart part_of(const Solid& solid, const std::vector<int>& cells) {
     part.points.push_back(static_cast<int>(a));
   }
   MeshShare& share = part.share;
+  share.integration = solid.integration;
   share.points = solid.mesh.points(Eigen::all, part.points);
   for (const GroupPart& of_type : solid.cells.group_of(cells).parts) {
     CellBlock own{of_type.type, solid.mesh.block(of_type.type)->nodes(Eigen::all, of_type.cells)};

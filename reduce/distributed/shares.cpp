@@ -10,6 +10,7 @@ void exchange(Packing& packing, MeshShare& share) {
   packing(share.material_of);
   packing(share.elasticities);
   packing(share.densities);
+  packing(share.integration);
 }
 
 void exchange(Packing& packing, InteriorShare& share) {

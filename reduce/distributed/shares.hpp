@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "reduce/common/files/packing.hpp"
+#include "reduce/fe/integration.hpp"
 #include "reduce/mesh/mesh.hpp"
 
 namespace bielle::reduce {
@@ -18,6 +19,7 @@ struct MeshShare {
   std::vector<int> material_of;                           ///< of each cell, block after block
   std::vector<Eigen::Matrix<double, 6, 6>> elasticities;  ///< [Pa]
   std::vector<double> densities;                          ///< [kg/m^3]
+  Integration integration = Integration::standard;
 };
 
 void exchange(Packing& packing, MeshShare& share);

@@ -80,26 +80,23 @@ void add_block(const BlockPlace& to, const double* block, SymmetricMatrix& k) {
   }
 }
 
-/// Returns the part that the internal modes of a cell take from its stiffness, (3 nodes, 3 nodes); 0 if it has none.
+/// Returns the part that the internal modes of a cell take from its stiffness, (3 nodes, 3 nodes).
 template <int N>
-auto condensed_stiffness(const CellPoints<N>& x, const Eigen::Matrix<double, 6, 6>& elasticity) {
-  if constexpr (InternalModes<N>::any) {
-    thread_local InternalModes<N> modes;
-    modes.set(x, elasticity);  // the cell is not inverted
-    return modes.condensed();
-  } else {
-    return 0;
-  }
+Eigen::Matrix<double, 3 * N, 3 * N> condensed_stiffness(const CellPoints<N>& x, const Material& material) {
+  thread_local InternalModes<N> modes(Integration::standard);
+  modes.set(x, material.elasticity);
+  return modes.condensed();
 }
 
 /// The cell's stiffness by blocks: K_ab(i,k) in row i + 3 k of column a + N b, for all a >= b in the order of the mesh.
 template <int N>
 void add_stiffness(const SolidBlock& block, const NodeGraph& graph, SymmetricMatrix& k, int threads) {
-  const CellRules<N> rules(stiffness_degrees<N>());
+  const CellRules<N> rules(stiffness_degrees<N>(block.solid.integration));
   std::vector<Eigen::Matrix<double, 9, 9>> tensors;
   for (const Material& material : block.solid.materials) {
     tensors.push_back(elasticity_tensor(material.elasticity));
   }
+  const bool condense = InternalModes<N>::any && block.solid.integration != Integration::plain;
   InvertedCells inverted;
   constexpr int most_points = N == 4 ? 1 : SolidCell<N>::is_second_order ? 27 : 8, pairs = N * (N + 1) / 2;
   const BlasThreads one(1);
@@ -125,7 +122,9 @@ void add_stiffness(const SolidBlock& block, const NodeGraph& graph, SymmetricMat
     const CellPlaces<N> places(graph, block.nodes, e);
     std::array<BlockPlace, pairs> to;
     Eigen::Matrix<double, 9, pairs> w_of_pairs, k_of_pairs = Eigen::Matrix<double, 9, pairs>::Zero();
-    const auto condensed = condensed_stiffness<N>(x, block.material(e).elasticity);
+    Eigen::Matrix<double, 3 * N, 3 * N> condensed;
+    if constexpr (InternalModes<N>::any)
+      if (condense) condensed = condensed_stiffness<N>(x, block.material(e));
     int pair = 0;
     for (int cell_b = 0; cell_b < N; ++cell_b) {
       const int b = block.nodes(cell_b, e);
@@ -133,7 +132,7 @@ void add_stiffness(const SolidBlock& block, const NodeGraph& graph, SymmetricMat
       places.from(cell_b, own, [&](int cell_a, std::int64_t place) {
         w_of_pairs.col(pair) = w.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
         if constexpr (InternalModes<N>::any)
-          k_of_pairs.col(pair) = condensed.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
+          if (condense) k_of_pairs.col(pair) = condensed.template block<3, 3>(3 * cell_a, 3 * cell_b).reshaped();
         to[static_cast<std::size_t>(pair++)] = {b, place - own};
       });
     }

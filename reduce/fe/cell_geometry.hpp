@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "reduce/fe/integration.hpp"
 #include "reduce/fe/node_graph.hpp"
 #include "reduce/mesh/quadrature.hpp"
 #include "reduce/mesh/shape_functions.hpp"
@@ -126,11 +127,14 @@ struct CellRules {
   const CellRule<N>& of(const CellPoints<N>& x) const { return is_straight<N>(x) ? straight : curved; }
 };
 
-/// Degrees for the stiffness: exact for straight cells; the usual two or three points in each direction of others.
+/// Degrees for the stiffness: exact for straight cells; the usual two or three points in each direction of others, by
+/// their order.
 template <int N>
-constexpr CellDegrees stiffness_degrees() {
+constexpr CellDegrees stiffness_degrees(Integration integration = Integration::standard) {
   if constexpr (N == 4) return {0, 0};
   if constexpr (N == 10) return {2, 5};
+  if constexpr (N == 20)
+    if (integration == Integration::reduced) return {2, 2};
   return SolidCell<N>::is_second_order ? CellDegrees{4, 4} : CellDegrees{2, 2};
 }
 

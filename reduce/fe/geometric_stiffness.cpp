@@ -77,15 +77,15 @@ template <int N>
 void add_cells(const SolidBlock& block, const NodeGraph& graph, const RowMatrix& fields, FieldMatrices& g,
                int threads) {
   constexpr int pairs = N * (N + 1) / 2;
-  const CellRule<N> straight(N == 10 ? five_points()
-                                     : cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().straight));
-  const CellRule<N> curved(cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().curved));
+  const CellDegrees degrees = stiffness_degrees<N>(block.solid.integration);
+  const CellRule<N> straight(N == 10 ? five_points() : cell_quadrature(SolidCell<N>::type, degrees.straight));
+  const CellRule<N> curved(cell_quadrature(SolidCell<N>::type, degrees.curved));
   const Index count = fields.cols(), most = static_cast<Index>(std::max(straight.size(), curved.size()));
   const std::vector<std::vector<int>> colours = colour_cells(block.nodes, block.solid.points());
 #pragma omp parallel num_threads(threads)
   {
     CellFields<N> cell(most, count);
-    InternalModes<N> modes;
+    InternalModes<N> modes(block.solid.integration);
     MatrixXd stresses(count, 6 * most), products(6 * most, pairs), sums(count, pairs);
     for (const std::vector<int>& colour : colours) {
 #pragma omp for schedule(static)

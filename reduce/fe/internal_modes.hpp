@@ -40,10 +40,13 @@ class InternalModes {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Strain = Eigen::Matrix<double, 6, 3 * N>;
 
-  InternalModes()
-      : rule_(cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().curved)),
+  explicit InternalModes(Integration integration)
+      : active_(any && integration != Integration::plain),
+        rule_(cell_quadrature(SolidCell<N>::type, stiffness_degrees<N>().curved)),
         middle_(shape_gradients(SolidCell<N>::type,
                                 N == 6 ? Eigen::Vector3d(1.0 / 3, 1.0 / 3, 0) : Eigen::Vector3d(0, 0, 0))) {}
+
+  bool active() const { return active_; }
 
   /// Condenses the modes of a cell that is nowhere inverted.
   void set(const CellPoints<N>& x, const Matrix6& elasticity) {
@@ -102,6 +105,7 @@ class InternalModes {
     return G;
   }
 
+  bool active_;
   CellRule<N> rule_;
   Eigen::Matrix<double, N, 3> middle_;
   Eigen::Matrix3d inverse_;
@@ -110,22 +114,26 @@ class InternalModes {
   Eigen::Matrix<double, 3 * N, 3 * N> condensed_;
 };
 
-/// Sets A eps at all points of a rule in a cell, with its internal modes. @param A_of  (volume of the point) -> (6, 6)
+/// Sets A eps at all points of a rule in a cell, with its internal modes if they are active. @param A_of  (volume of
+/// the point) -> (6, 6)
 /// @param visit  (point, gradients, volume), called before
 template <int N, class Matrices, class Visit>
 void set_strains(CellFields<N>& cell, InternalModes<N>& modes, const CellRule<N>& rule, const CellPoints<N>& x,
                  const Eigen::Matrix<double, 6, 6>& elasticity, const Matrices& A_of, const Visit& visit) {
   Eigen::Matrix<double, N, 3> gradients;
-  if constexpr (InternalModes<N>::any) modes.set(x, elasticity);
+  if constexpr (InternalModes<N>::any)
+    if (modes.active()) modes.set(x, elasticity);
   for (std::size_t p = 0; p < rule.size(); ++p) {
     const auto point = static_cast<Eigen::Index>(p);
     const double volume = map_point<N>(rule, p, x, gradients);
     visit(point, gradients, volume);
     if constexpr (InternalModes<N>::any)
-      cell.set_strain(point, A_of(volume),
-                      modes.strain(gradients, rule.points.col(point), volume / rule.weights(point)));
-    else
-      cell.set_point(point, A_of(volume), gradients);
+      if (modes.active()) {
+        cell.set_strain(point, A_of(volume),
+                        modes.strain(gradients, rule.points.col(point), volume / rule.weights(point)));
+        continue;
+      }
+    cell.set_point(point, A_of(volume), gradients);
   }
 }
 

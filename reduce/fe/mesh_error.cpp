@@ -161,7 +161,7 @@ class BlockError {
 #pragma omp parallel num_threads(threads_)
     {
       CellFields<N> cell(points, samples.fields);
-      InternalModes<N> modes;
+      InternalModes<N> modes(block_.solid.integration);
       Eigen::VectorXd volumes(points);
 #pragma omp for schedule(static)
       for (Eigen::Index e = 0; e < block_.cells(); ++e) {
@@ -187,7 +187,7 @@ class BlockError {
 #pragma omp parallel num_threads(threads_)
     {
       CellFields<N> curved(points, samples.fields);
-      InternalModes<N> modes;
+      InternalModes<N> modes(block_.solid.integration);
       Eigen::MatrixXd stress(size, points), own(size, points);
       Eigen::VectorXd volumes(points);
 #pragma omp for schedule(static)

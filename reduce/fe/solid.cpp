@@ -79,11 +79,11 @@ Moments moments(const SolidBlock& block, CellDegrees degrees, const Eigen::Vecto
 }  // namespace
 
 Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
-                 const std::map<std::string, std::string>& regions) {
+                 const std::map<std::string, std::string>& regions, Integration integration) {
   if (mesh.solid_count() == 0) {
     throw InputError("the mesh has no solid cells: a body needs a volume");
   }
-  Solid solid{mesh, SolidCells(mesh), {}, std::vector<int>(mesh.solid_count(), -1)};
+  Solid solid{mesh, SolidCells(mesh), {}, std::vector<int>(mesh.solid_count(), -1), integration};
   const std::vector<std::string> names = keys(materials);
   for (const auto& [name, material] : materials) {
     solid.materials.push_back(material);

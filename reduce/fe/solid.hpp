@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "reduce/fe/integration.hpp"
 #include "reduce/fe/material.hpp"
 #include "reduce/mesh/mesh.hpp"
 #include "reduce/mesh/solid_cells.hpp"
@@ -19,6 +20,7 @@ struct Solid {
   SolidCells cells;
   std::vector<Material> materials;
   std::vector<int> material_of;  ///< number of each cell's material in `materials`
+  Integration integration = Integration::standard;
 
   Eigen::Index points() const { return mesh.points.cols(); }
 };
@@ -29,7 +31,7 @@ struct Solid {
 /// @throws InputError for a group that the mesh does not have or that is no volume, a material that is not defined,
 ///         cells in two listed groups or in none
 Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
-                 const std::map<std::string, std::string>& regions);
+                 const std::map<std::string, std::string>& regions, Integration integration = Integration::standard);
 
 /// Mass, its centre and the inertia about it, integrated over the cells.
 struct MassProperties {

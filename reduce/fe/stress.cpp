@@ -117,7 +117,7 @@ void add_stress(const SolidBlock& block, const StressSum& sum, int threads, RowM
 #pragma omp parallel num_threads(threads)
   {
     CellFields<N> cell(points, k);
-    InternalModes<N> modes;
+    InternalModes<N> modes(block.solid.integration);
     Eigen::MatrixXd at_points(6 * k, points);
     for (const std::vector<int>& colour : colours) {
 #pragma omp for schedule(static)

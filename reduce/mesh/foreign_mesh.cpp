@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <vector>
 
@@ -78,6 +79,22 @@ std::string without_label(const std::string& line) {
   return line;
 }
 
+// Runs the converter; the last argument is the file that it writes. Returns its notes.
+std::vector<std::string> converted(const std::vector<std::string>& arguments, const std::string& source) {
+  std::vector<std::string> command = {python, find_converter().string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const std::string said_file = arguments.back() + ".stderr";
+  const int status = run(command, said_file);
+  const std::vector<std::string> said = lines_of(said_file);
+  if (status == 1 && !said.empty()) throw InputError(without_label(said.back()));
+  if (status != 0)
+    throw ComputationError(fmt::format("the conversion of '{}' failed with status {}{}", source, status,
+                                       said.empty() ? "" : ": " + said.back()));
+  std::vector<std::string> notes;
+  for (const std::string& line : said) notes.push_back(without_label(line));
+  return notes;
+}
+
 }  // namespace
 
 ScratchFolder::ScratchFolder() {
@@ -103,14 +120,15 @@ bool gmsh_reads(const std::string& path) {
 }
 
 void convert_mesh(const std::string& source, const std::string& target, Progress& progress) {
-  const std::string said_file = target + ".stderr";
-  const int status = run({python, find_converter().string(), source, target}, said_file);
-  const std::vector<std::string> said = lines_of(said_file);
-  if (status == 1 && !said.empty()) throw InputError(without_label(said.back()));
-  if (status != 0)
-    throw ComputationError(fmt::format("the conversion of '{}' failed with status {}{}", source, status,
-                                       said.empty() ? "" : ": " + said.back()));
-  for (const std::string& line : said) progress.note(without_label(line));
+  for (const std::string& note : converted({source, target}, source)) progress.note(note);
+}
+
+std::string materials_of_mesh(const std::string& source, std::vector<std::string>& notes) {
+  const ScratchFolder folder;
+  const std::string target = (folder.path() / "materials.json").string();
+  for (const std::string& note : converted({"--materials", source, target}, source)) notes.push_back(note);
+  std::ifstream file(target);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace bielle::reduce

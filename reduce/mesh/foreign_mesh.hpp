@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace bielle {
 class Progress;
@@ -30,5 +31,9 @@ bool gmsh_reads(const std::string& path);
 /// BIELLE_TOOLS names, then where Bielle is installed, then in its sources. Its notes are shown.
 /// @throws InputError with the converter's own sentence; ComputationError when there is no converter
 void convert_mesh(const std::string& source, const std::string& target, Progress& progress);
+
+/// Materials of a foreign file in its own units: JSON with `materials` in the keys of a body file, and `regions`.
+/// @param notes  gets the converter's notes @throws as convert_mesh
+std::string materials_of_mesh(const std::string& source, std::vector<std::string>& notes);
 
 }  // namespace bielle::reduce

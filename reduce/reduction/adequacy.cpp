@@ -66,9 +66,11 @@ void measure_frequencies(const FullModel& model, const Superelement& body, RowMa
 Adequacy measure_adequacy(const FullModel& model, const Superelement& body, const RowMatrix& load_fields, int threads) {
   Adequacy result;
   result.next_mode = model.basis.next ? std::sqrt(*model.basis.next) / hertz : 0;
+  const bool plain = model.solid.integration == Integration::plain;
   const auto& ranges = model.solid.cells.ranges();
-  const bool locks = std::any_of(ranges.begin(), ranges.end(),
-                                 [](const SolidCells::Range& range) { return cell_info(range.type).locks; });
+  const bool locks = std::any_of(ranges.begin(), ranges.end(), [&](const SolidCells::Range& range) {
+    return cell_info(range.type).locks || (plain && range.type == CellType::hex8);
+  });
   result.order = locks ? 1 : 2;
   result.one_element_thick = share_one_element_thick(model.solid.mesh);
   result.least_jacobian = mesh_quality(model.solid.mesh).least_scaled_jacobian;

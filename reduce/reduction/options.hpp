@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "reduce/fe/integration.hpp"
 #include "reduce/fe/material.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
 
@@ -58,9 +59,10 @@ struct ReductionOptions {
   std::string input_text;
   std::map<std::string, Material> materials;
   std::map<std::string, std::string> regions;  ///< volume group -> material name; key "all" for the whole body
-  std::vector<InterfaceRequest> interfaces;    ///< at least one: a mechanism moves a body by its interfaces
-  std::optional<int> mode_count;               ///< number of fixed-boundary modes, the lowest; with neither: none
-  std::optional<double> modes_below;           ///< those below [Hz]; with both: the lowest `mode_count` of them
+  Integration integration = Integration::standard;
+  std::vector<InterfaceRequest> interfaces;  ///< at least one: a mechanism moves a body by its interfaces
+  std::optional<int> mode_count;             ///< number of fixed-boundary modes, the lowest; with neither: none
+  std::optional<double> modes_below;         ///< those below [Hz]; with both: the lowest `mode_count` of them
   EigenMethod mode_method = EigenMethod::automatic;
   bool inertia_relief = false;  ///< residual vectors for its own accelerations (inertia_answer.hpp)
   bool modes_proven = false;    ///< whether to count the modes, to prove that none was missed

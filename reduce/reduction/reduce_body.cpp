@@ -15,6 +15,7 @@
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/free_body.hpp"
 #include "reduce/reduction/inertia_answer.hpp"
+#include "reduce/reduction/integration_checks.hpp"
 #include "reduce/reduction/load_patterns.hpp"
 #include "reduce/reduction/missed_modes.hpp"
 #include "reduce/reduction/mode_turns.hpp"
@@ -162,6 +163,17 @@ Check missed_modes(const ModeCount& count) {
           fmt::format("of the {} below {:.6g} Hz, all were found", counted(count.counted, "mode"), count.below)};
 }
 
+void warn_of_hourglass_modes(const Solid& solid, const Basis& basis, Progress& progress, int threads) {
+  constexpr double most = 2;  // times the energy of the mode; modes that the mesh resolves have at most 1.2
+  const std::optional<HourglassMode> worst = worst_hourglass_mode(solid, basis, threads);
+  if (!worst || worst->ratio <= most) return;
+  progress.warn(
+      "integration",
+      fmt::format("fixed-boundary mode {} at {:.6g} Hz is an hourglass mode: with full integration it would "
+                  "have {:.3g} times its strain energy; leave 'integration: reduced' out",
+                  worst->mode + 1, std::sqrt(basis.eigenvalues(worst->mode)) / (2 * std::numbers::pi), worst->ratio));
+}
+
 /// Adds the vectors that loads and points request, and those for the body's own inertia.
 void add_all_residual_vectors(const ReductionOptions& options, std::vector<ResidualRequest> requests,
                               const BodyMatrices& matrices, const FixedInterfaceBody& held, Basis& basis,
@@ -182,7 +194,8 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   progress.start("stiffness and mass");
   check_connected(mesh);
   const Solid solid = about(
-      "regions", [&] { return make_solid(mesh, options.materials, options.regions); }, Subject::hidden);
+      "regions", [&] { return make_solid(mesh, options.materials, options.regions, options.integration); },
+      Subject::hidden);
   const MassProperties properties = mass_properties(solid, threads);
   const Ties ties = make_ties(solid, options.interfaces);
   const std::vector<TiedPoint> points = tie_points(solid, options.points, options.name);
@@ -202,6 +215,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   Basis basis = about(
       "modes", [&] { return make_basis(solid, matrices, ties, held, properties, modes, progress, threads); },
       Subject::hidden);
+  if (options.integration == Integration::reduced) warn_of_hourglass_modes(solid, basis, progress, threads);
   const std::optional<ModeCount> count =
       options.modes_proven ? prove_modes(matrices, held, basis, progress) : std::nullopt;
   add_all_residual_vectors(options, std::move(residual), matrices, held, basis, progress);

@@ -5,6 +5,8 @@ materials are reported as lines of a body file, ties and couplings as interfaces
 left out.
 """
 
+from dataclasses import dataclass
+
 from .messages import InputError, counted
 
 # Keywords of constraints and of stiffness or mass, with their names in messages.
@@ -23,11 +25,18 @@ TOLD = {
 MATERIAL = ("ELASTIC", "DENSITY", "PLASTIC", "HYPERELASTIC", "EXPANSION", "DAMPING", "USER MATERIAL")
 
 
+@dataclass
+class Section:
+    set: str
+    material: str
+    oriented: bool
+
+
 class Extras:
     def __init__(self):
         self.told = {}       # keyword -> count
         self.materials = {}  # name -> lines of properties
-        self.sections = []   # (set, material, oriented)
+        self.sections = []   # Section
         self.instances = {}  # part -> names
         self.material = None
 
@@ -38,7 +47,7 @@ class Extras:
         elif keyword in MATERIAL and self.material is not None:
             self.materials[self.material][keyword] = (options, rows)
         elif keyword == "SOLID SECTION":
-            self.sections.append((options.get("ELSET", "?"), options.get("MATERIAL", "?"), "ORIENTATION" in options))
+            self.sections.append(Section(options.get("ELSET", "?"), options.get("MATERIAL", "?"), "ORIENTATION" in options))
         elif keyword in TOLD:
             self.told[keyword] = self.told.get(keyword, 0) + 1
 
@@ -51,14 +60,14 @@ class Extras:
             if len(names) > 1:
                 notes.append(f"the part '{part}' stands in {len(names)} instances ({', '.join(names)}): it is read once, as one body")
         users = {}
-        for region, material, oriented in self.sections:
-            users.setdefault(material.upper(), []).append(region + (" (with an orientation, which is left out)" if oriented else ""))
+        for section in self.sections:
+            users.setdefault(section.material.upper(), []).append(section.set + (" (with an orientation, which is left out)" if section.oriented else ""))
         for name, properties in self.materials.items():
             regions = ", ".join(users.get(name.upper(), [])) or "no section"
             notes.append(f"material '{name}' of {regions} is, in the file's units (the body file wants SI), {name.lower()}: {_properties(properties)}")
         if len(users) > 1:
             notes.append("several materials: name them for their regions in the body file: "
-                         + ", ".join(f"{region}: {material.lower()}" for region, material, _ in self.sections))
+                         + ", ".join(f"{section.set}: {section.material.lower()}" for section in self.sections))
         return notes
 
 

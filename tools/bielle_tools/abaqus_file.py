@@ -50,6 +50,17 @@ def read_abaqus(path):
     return reader.raw_mesh(path)
 
 
+def read_sections(path):
+    """The materials and *SOLID SECTIONs of a file, as Extras; sets have the names that they get as groups."""
+    reader = _Reader()
+    reader.read(path)
+    for section in reader.extras.sections:
+        if section.set.upper() not in reader.sets["ELSET"]:
+            raise InputError(f"'{path}': *SOLID SECTION: there is no element set '{section.set}'")
+        section.set = reader.sets["ELSET"][section.set.upper()][0]
+    return reader.extras
+
+
 class _Reader:
     def __init__(self):
         self.numbers = {}  # node label -> row of points

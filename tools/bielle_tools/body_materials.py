@@ -24,6 +24,9 @@ def densities(file, body, path):
     """@raises InputError if they are not isotropic, or do not give the mass of the superelement"""
     text = file["input"][()] if "input" in file else file.parent.parent["input"][()]
     data = yaml.safe_load(text.decode() if isinstance(text, bytes) else text)
+    if not isinstance(data["materials"], dict):
+        raise InputError(f"'{path}': its body file takes its materials from the mesh file: loads are exported for materials that stand in the "
+                         "body file")
     names = list(data["materials"])
     young, poisson, density = ([_number(data["materials"][name], key, path, name) for name in names]
                                for key in ("young", "poisson", "density"))

@@ -37,7 +37,7 @@ def read_foreign(path):
     if extension == ".inp":
         return read_abaqus(path)
     if extension in MANY_PROGRAMS:
-        return _nastran_mesh(path) if _is_nastran(path) else read_abaqus(path)
+        return _nastran_mesh(path) if is_nastran(path) else read_abaqus(path)
     if extension in NASTRAN:
         return _nastran_mesh(path)
     mesh = _read(path)
@@ -76,7 +76,7 @@ def _nastran_mesh(path):
     return raw
 
 
-def _is_nastran(path):
+def is_nastran(path):
     """Tells whether a file with a name that several programs use is Nastran's."""
     with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
