@@ -1,5 +1,7 @@
 #include "mechanism/language/written_model.hpp"
 
+#include <set>
+
 #include <fmt/format.h>
 
 #include "mechanism/language/language_keys.hpp"
@@ -18,6 +20,9 @@ std::string name_of_point(const std::string& path) {
     if (name.compare(last, key.size(), key) == 0) return name.replace(last, key.size(), "point");
   return name + ".point";
 }
+
+/// Returns the node in whose axes a node is placed; null for the inertial ones.
+Tree base_of_node(const YamlNode& node) { return node.kind == YamlNode::Kind::map ? find_value(node, "at") : nullptr; }
 
 }  // namespace
 
@@ -68,28 +73,51 @@ std::vector<std::string> WrittenModel::names_in(const std::string& section) cons
   return names;
 }
 
+Tree WrittenModel::node(const std::string& name, const YamlNode& place, const std::string& path) const {
+  if (const auto nodes = sections_.find("nodes"); nodes != sections_.end())
+    if (const auto found = nodes->second.places.find(name); found != nodes->second.places.end())
+      return nodes->second.pairs[found->second].value;
+  fail_at(
+      place, main_file_, path,
+      fmt::format("there is no node '{}' whose place is known here{}", name, did_you_mean(name, names_in("nodes"))));
+}
+
 Frame WrittenModel::frame_of_node(const std::string& name, const YamlNode& place, const std::string& path) const {
-  if (name == "ground") return {};
-  const auto nodes = sections_.find("nodes");
-  const auto found =
-      nodes == sections_.end() ? decltype(nodes->second.places.find(name)){} : nodes->second.places.find(name);
-  if (nodes == sections_.end() || found == nodes->second.places.end())
-    fail_at(
-        place, main_file_, path,
-        fmt::format("there is no node '{}' whose place is known here{}", name, did_you_mean(name, names_in("nodes"))));
-  return frame_of_entry(nodes->second.pairs[found->second].value, path);
+  // A loop, not a recursion: any number of nodes may be placed relative to each other.
+  std::vector<std::pair<std::string, Tree>> open;  // nodes whose place is sought, each relative to the next one
+  std::set<std::string> names;
+  Frame frame;
+  Tree at = make_scalar(name, place);
+  for (; at && at->scalar != "ground"; at = base_of_node(*open.back().second)) {
+    if (const auto known = frames_.find(at->scalar); known != frames_.end()) {
+      frame = known->second;
+      break;
+    }
+    if (!names.insert(at->scalar).second)
+      fail_at(*at, main_file_, path,
+              fmt::format("nodes are placed relative to each other in a circle, by way of '{}'", at->scalar));
+    open.emplace_back(at->scalar, node(at->scalar, *at, path));
+  }
+  for (auto each = open.rbegin(); each != open.rend(); ++each) {
+    frame = frame * own_frame(*each->second);
+    frames_.emplace(each->first, frame);
+  }
+  return frame;
 }
 
 Frame WrittenModel::frame_of_entry(const Tree& entry, const std::string& path) const {
-  if (entry->kind != YamlNode::Kind::map) return {};
+  const Tree at = base_of_node(*entry);
+  return at ? frame_of_node(at->scalar, *at, path) * own_frame(*entry) : own_frame(*entry);
+}
+
+Frame WrittenModel::own_frame(const YamlNode& entry) const {
+  if (entry.kind != YamlNode::Kind::map) return {};
   YamlValue value =
-      YamlValue::of_tree(without(*entry, {"velocity", "angular_velocity", "fixed", "motion", "at", "carried_by"}), "",
-                         entry->file ? *entry->file : main_file_);
+      YamlValue::of_tree(without(entry, {"velocity", "angular_velocity", "fixed", "motion", "at", "carried_by"}), "",
+                         entry.file ? *entry.file : main_file_);
   value.set_parameters(parameters_);
   static const KeyTable table{"a node", "", frame_keys(), {}};
-  const Frame own = read_frame(value.keyed(table));
-  const Tree at = find_value(*entry, "at");
-  return at ? frame_of_node(at->scalar, *at, path) * own : own;
+  return read_frame(value.keyed(table));
 }
 
 void WrittenModel::check_carrier(const Carried& carried, const YamlNode& body) const {

@@ -48,6 +48,9 @@ class WrittenModel {
     bool is_new = false;  ///< whether the node has to be made, at the point
     std::string path;
   };
+  Tree node(const std::string& name, const YamlNode& place, const std::string& path) const;
+  /// Reads the place of a node in the axes of the node that it names.
+  Frame own_frame(const YamlNode& entry) const;
   void carry_nodes();
   void check_carrier(const Carried& carried, const YamlNode& body) const;
   std::vector<std::string> names_in(const std::string& section) const;
@@ -57,6 +60,7 @@ class WrittenModel {
   std::map<std::string, Section> sections_;
   std::map<std::string, Section> hydraulic_lists_;
   std::vector<Carried> carried_;
+  mutable std::map<std::string, Frame> frames_;  ///< of nodes whose place has been asked for
 };
 
 }  // namespace bielle::mechanism

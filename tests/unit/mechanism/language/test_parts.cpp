@@ -149,3 +149,17 @@ parts: {a: {part: blade}, b: {part: blade, rotation_vector: [0, 0, "pi/2"]}}
              Contains("nodes.a.carried_by") && Contains("no rigid_body"));
   CHECK_THAT(refusal("nodes:\n  a: {carried_by: [m]}\n"), Contains("nodes.a.carried_by") && Contains("name"));
 }
+
+TEST_CASE("a part is placed in the axes of a node that is placed in those of many others") {
+  const std::string link = "definitions: {link: {nodes: {tip: {position: [1, 0, 0]}}}}\n";
+  const std::string chain = expanded(link + R"yaml(
+nodes:
+  "n_{k}": {repeat: {count: 50000, as: k}, at: "n_{k+1}", position: [1, 0, 0]}
+  n_50001: {}
+parts: {first: {part: link, at: n_1}, middle: {part: link, at: n_40001}}
+)yaml");
+  CHECK_THAT(chain,
+             Contains("first.tip: {position: [50001, 0, 0]}") && Contains("middle.tip: {position: [10001, 0, 0]}"));
+  CHECK_THAT(refusal(link + "nodes:\n  a: {at: b}\n  b: {at: a}\nparts: {p: {part: link, at: a}}\n"),
+             Contains("model.yaml:4: parts.p.at: nodes are placed relative to each other in a circle, by way of 'a'"));
+}
