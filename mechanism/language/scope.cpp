@@ -8,6 +8,7 @@
 
 #include "mechanism/language/parameters.hpp"
 #include "mechanism/reading/functions_of_names.hpp"
+#include "reduce/common/formula/formula_parser.hpp"
 #include "reduce/common/formula/formula_references.hpp"
 #include "reduce/common/input/unit.hpp"
 
@@ -24,6 +25,14 @@ std::optional<double> plain_number(const std::string& text) {
   const auto [stopped, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || stopped != end || !std::isfinite(value)) return {};
   return value;
+}
+
+void check_word(const std::string& name, const YamlNode& place, const std::string& main_file, const std::string& path) {
+  if (!is_dotted_word(name) || name.find('.') != std::string::npos)
+    fail_at(place, main_file, path,
+            fmt::format("'{}' is no name in formulas: letters, digits and '_', no digit first", name));
+  if (name == "t" || is_among(name, built_in_names()))
+    fail_at(place, main_file, path, fmt::format("'{}' has a meaning in formulas already; choose another name", name));
 }
 
 Scope Scope::inner() const {
@@ -45,7 +54,8 @@ std::optional<std::string> Scope::name_of(const std::string& name) const {
   for (std::size_t end = name.size();; end = name.rfind('.', end - 1)) {
     if (end == std::string::npos || end == 0) break;
     const std::string beginning = name.substr(0, end);
-    if (const auto found = merged.find(beginning); found != merged.end()) return found->second + name.substr(end);
+    if (const auto found = merged.find(beginning); found != merged.end())
+      return found->second->scalar + name.substr(end);
     if (own.count(beginning)) return prefix + name;
   }
   return outer ? outer->name_of(name) : std::nullopt;

@@ -30,18 +30,22 @@ WrittenModel::WrittenModel(std::string main_file, const Parameters& parameters)
     : main_file_(std::move(main_file)), parameters_(parameters) {}
 
 void WrittenModel::add(const std::string& section_name, const std::string& name, Tree value) {
-  Section& section = sections_[section_name];
-  if (!section.places.emplace(name, section.pairs.size()).second)
-    fail_at(*value, main_file_, section_name + "." + name, "there are two entries with this name");
-  section.pairs.push_back({make_scalar(name, *value), std::move(value)});
+  append(sections_[section_name], name, std::move(value), section_name + "." + name);
 }
 
 void WrittenModel::add_hydraulic(const std::string& list_name, const std::string& name, Tree value) {
-  Section& list = hydraulic_lists_[list_name];
-  if (!list.places.emplace(name, list.pairs.size()).second)
-    fail_at(*value, main_file_, fmt::format("hydraulics.{}.{}", list_name, name),
-            "there are two entries with this name");
-  list.pairs.push_back({make_scalar(name, *value), std::move(value)});
+  append(hydraulic_lists_[list_name], name, std::move(value), fmt::format("hydraulics.{}.{}", list_name, name));
+}
+
+void WrittenModel::append(Section& section, const std::string& name, Tree value, const std::string& path) const {
+  const auto [known, is_new] = section.places.emplace(name, section.pairs.size());
+  if (!is_new) {
+    const YamlNode& first = *section.pairs[known->second].value;
+    fail_at(*value, main_file_, path,
+            fmt::format("there are two entries with this name; the first is in {}, line {}",
+                        first.file ? *first.file : main_file_, first.line));
+  }
+  section.pairs.push_back({make_scalar(name, *value), std::move(value)});
 }
 
 void WrittenModel::set_hydraulic(const YamlNode::Pair& pair, Tree value) {

@@ -48,6 +48,7 @@ class WrittenModel {
     bool is_new = false;  ///< whether the node has to be made, at the point
     std::string path;
   };
+  void append(Section& section, const std::string& name, Tree value, const std::string& path) const;
   Tree node(const std::string& name, const YamlNode& place, const std::string& path) const;
   /// Reads the place of a node in the axes of the node that it names.
   Frame own_frame(const YamlNode& entry) const;
