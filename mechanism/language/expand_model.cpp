@@ -313,7 +313,7 @@ ExpandedModel expand_model(const Tree& root, const std::string& file, const KeyT
   if (root->kind != YamlNode::Kind::map) return {root, {}, false};
   ExpandedModel model;
   model.root = with_case(with_includes(root, file), file, keys, options.chosen_case);
-  model.parameters = read_parameters(YamlValue::of_tree(model.root, "", file), options.overrides);
+  model.parameters = read_parameters(YamlValue::of_tree(model.root, "", file).keyed(keys), options.overrides);
   if (uses_language(*model.root)) model.root = Expander(keys, file, model.parameters).expand(*model.root);
   model.is_changed = model.root != root;
   return model;

@@ -1,7 +1,6 @@
 #include "mechanism/language/scope.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,14 +17,6 @@ namespace {
 std::string literal(double value) { return value < 0 ? fmt::format("({})", value) : fmt::format("{}", value); }
 
 }  // namespace
-
-std::optional<double> plain_number(const std::string& text) {
-  double value = 0;
-  const char *begin = text.data(), *end = begin + text.size();
-  const auto [stopped, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stopped != end || !std::isfinite(value)) return {};
-  return value;
-}
 
 void check_word(const std::string& name, const YamlNode& place, const std::string& main_file, const std::string& path) {
   if (!is_dotted_word(name) || name.find('.') != std::string::npos)
@@ -111,6 +102,20 @@ double Scope::number(const YamlNode& node, const std::string& path) const {
   } catch (const std::runtime_error& error) {
     fail_at(node, *main_file, path, fmt::format("'{}': {}", node.scalar, error.what()));
   }
+}
+
+std::optional<double> Scope::constant(const YamlNode& node, const std::string& path) const {
+  if (node.kind != YamlNode::Kind::scalar) return {};
+  if (const auto plain = plain_number(node.scalar)) return plain;
+  bool is_constant = node.scalar.find_first_of("'\"") == std::string::npos;  // neither a file nor a name
+  rename_in_formula(
+      quantity_of(node.scalar) ? "" : node.scalar, functions_of_names(),
+      [&](const std::string&) -> std::optional<std::string> { return is_constant = false, std::nullopt; },
+      [&](const std::string& word) -> std::optional<std::string> {
+        is_constant = is_constant && (parameters->count(word) || is_among(word, built_in_names()));
+        return {};
+      });
+  return is_constant ? std::optional(number(node, path)) : std::nullopt;
 }
 
 }  // namespace bielle::mechanism

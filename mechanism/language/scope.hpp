@@ -12,9 +12,6 @@
 
 namespace bielle::mechanism {
 
-/// Returns the number that a text is; nothing for a formula, a word or a number with a unit.
-std::optional<double> plain_number(const std::string& text);
-
 /// Checks that a number of a part, or of a repeated entry, has a name that formulas can contain.
 void check_word(const std::string& name, const YamlNode& place, const std::string& main_file, const std::string& path);
 
@@ -45,6 +42,8 @@ struct Scope {
   std::string text(const YamlNode& node, const std::string& path) const;
   /// Evaluates a number or formula of parameters; a number may have a unit.
   double number(const YamlNode& node, const std::string& path) const;
+  /// Evaluates a number of an entry in the model; nothing for a formula of time or of the state.
+  std::optional<double> constant(const YamlNode& node, const std::string& path) const;
 
  private:
   const std::string* word_of(const std::string& name) const;

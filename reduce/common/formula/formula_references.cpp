@@ -72,7 +72,7 @@ class Scanner {
     std::string all = name();
     while (!all.empty() && here() == '.' && is_letter(next(1))) {
       ++at_;
-      all += "." + name();
+      all.append(1, '.').append(name());
     }
     return all;
   }
