@@ -42,7 +42,7 @@ void check_name_of_number(const std::string& name, const Scope& scope, const Yam
 /// The repetitions of one entry.
 struct Repetition {
   std::vector<Tree> directions;
-  std::string path;  ///< of the entry, for messages
+  std::string path;  ///< path of the entry, for messages
   const UseScope& use;
   int entries = 0;  ///< number of those so far
 };

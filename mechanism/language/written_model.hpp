@@ -61,7 +61,7 @@ class WrittenModel {
   std::map<std::string, Section> sections_;
   std::map<std::string, Section> hydraulic_lists_;
   std::vector<Carried> carried_;
-  mutable std::map<std::string, Frame> frames_;  ///< of nodes whose place has been asked for
+  mutable std::map<std::string, Frame> frames_;  ///< frames of nodes whose place has been asked for
 };
 
 }  // namespace bielle::mechanism
