@@ -132,6 +132,7 @@ Tree EntryWriter::write(const Tree& value, const KeyForms& forms, const std::str
   if (table && (!entries || has_all_keys(*table, *value))) return write_map(*value, *table, path);
   if (entries) return write_entries(*value, *entries, path);
   if (const KeyForm* name = form_of(forms, Kind::name); name && name->of == "node") {
+    value_at(value, path, *scope_.main_file).keyed(body_point_keys());  // refuses unknown keys
     const Tree point = write_map(*value, body_point_keys(), path);
     return make_scalar(make_point_(*point, path), *value);
   }
@@ -182,8 +183,15 @@ Tree EntryWriter::write_scalar(const Tree& node, const KeyForms& forms, const st
   if (form_of(forms, Kind::name))
     if (const auto other = scope_.name_of(text)) return result(*other);
   const KeyForm* number = numeric_form(forms);
-  if (!number || quantity_of(text)) return result(text);
-  const std::string formula = scope_.formula(text, number->words);
+  if (!number || (quantity_of(text) && scope_.placement.is_identity())) return result(text);
+  const std::string formula = [&] {
+    try {
+      if (const auto quantity = quantity_of(text)) return fmt::format("{}", to_si(*quantity, number->unit));
+      return scope_.formula(text, number->words);
+    } catch (const InputError& error) {
+      fail_at(*node, *scope_.main_file, path, fmt::format("'{}': {}", text, error.what()));
+    }
+  }();
   if (number->geometry == KeyForm::Geometry::pseudoscalar && scope_.placement.mirrored >= 0)
     return make_scalar(fmt::format("-({})", formula), *node);
   return result(formula);

@@ -61,6 +61,7 @@ std::string WrittenModel::add_point(const YamlNode& point, const std::string& pa
   if (!body || body->kind != YamlNode::Kind::scalar)
     fail_at(point, main_file_, path, "expected the name of a node, or a point of a body: {body: name, at: [x, y, z]}");
   const std::string name = name_of_point(path);
+  points_.emplace(name, carried_.size());
   carried_.push_back({body->scalar, name, make_map(point.pairs, point), true, path});
   return name;
 }
@@ -81,6 +82,13 @@ Tree WrittenModel::node(const std::string& name, const YamlNode& place, const st
   if (const auto nodes = sections_.find("nodes"); nodes != sections_.end())
     if (const auto found = nodes->second.places.find(name); found != nodes->second.places.end())
       return nodes->second.pairs[found->second].value;
+  const auto point = points_.find(name);
+  const auto elements = sections_.find("elements");
+  if (point != points_.end() && elements != sections_.end()) {
+    const Carried& carried = carried_[point->second];
+    if (const auto body = elements->second.places.find(carried.body); body != elements->second.places.end())
+      return node_of_point(carried, *elements->second.pairs[body->second].value);
+  }
   fail_at(
       place, main_file_, path,
       fmt::format("there is no node '{}' whose place is known here{}", name, did_you_mean(name, names_in("nodes"))));
@@ -131,6 +139,13 @@ void WrittenModel::check_carrier(const Carried& carried, const YamlNode& body) c
             fmt::format("'{}' is no rigid_body; points of superelements stand in the section `points`", carried.body));
 }
 
+Tree WrittenModel::node_of_point(const Carried& point, const YamlNode& body) const {
+  check_carrier(point, body);
+  const Tree entry = with(*without(*point.place, {"body", "at"}), "at", find_value(body, "node"));
+  const Tree at = find_value(*point.place, "at");
+  return at ? with(*entry, "position", at) : entry;
+}
+
 void WrittenModel::carry_nodes() {
   Section& elements = sections_["elements"];
   std::map<std::size_t, std::vector<Tree>> also;  // nodes of each body: lists grow once, however many a body carries
@@ -142,11 +157,7 @@ void WrittenModel::carry_nodes() {
           fmt::format("there is no element '{}'{}", carried.body, did_you_mean(carried.body, names_in("elements"))));
     const Tree& body = elements.pairs[found->second].value;
     check_carrier(carried, *body);
-    if (carried.is_new) {
-      Tree entry = with(*without(*carried.place, {"body", "at"}), "at", find_value(*body, "node"));
-      if (const Tree at = find_value(*carried.place, "at")) entry = with(*entry, "position", at);
-      add("nodes", carried.node, entry);
-    }
+    if (carried.is_new) add("nodes", carried.node, node_of_point(carried, *body));
     also[found->second].push_back(make_scalar(carried.node, *carried.place));
   }
   for (auto& [place, nodes] : also) {

@@ -217,3 +217,23 @@ TEST_CASE("a name with dots within a part is one name in its formulas") {
                       "parts: {p: {part: a}}\n"),
              Contains("p.z: p.x.y.position.x + p.x.y.velocity.x"));
 }
+
+TEST_CASE("values with units, and points of bodies, stand in parts that are turned or mirrored") {
+  const auto placed = [](const std::string& sections, const std::string& keys = "rotation_vector: [0, 0, 1]") {
+    return "definitions:\n  a:\n    nodes: {n: {}, m: {position: [\"1 m\", 0, 0]}}\n" + sections +
+           "parts: {p: {part: a, " + keys + "}}\n";
+  };
+  const std::string load = "    loads: {f: {node: n, force: [";
+  CHECK_THAT(expanded(placed(load + "\"1 kN\", t, 0]}}\n", "mirror: x")), Contains("force: [(-1)*(1000), (1)*(t)"));
+  CHECK_THAT(refusal(placed(load + "\"1 kg\", 0, 0]}}\n")),
+             Contains("model.yaml:4: loads.p.f.force[1]: '1 kg'") && Contains("expected a value in N"));
+  CHECK_THAT(refusal(placed(load + "\"'a\", 0, 0]}}\n")), Contains("model.yaml:4: loads.p.f.force[1]: ''a'"));
+  const std::string body =
+      "    elements: {b: {type: rigid_body, node: n, mass: 1, inertia: [1, 1, 1, \"1 kg m^2\", 0, 0]}}\n";
+  CHECK_THAT(expanded(placed(body, "mirror: x")), Contains("inertia: [1, 1, 1, -(1), -(0), 0]"));
+  CHECK_THAT(expanded(placed(body + "    joints: {h: {type: hinge, nodes: [{body: b, at: [0.5, 0, 0]}, m], "
+                                    "axis: [[0, 0, 1], [0, 0, 1]]}}\n")),
+             Contains("nodes: [p.h.point_1, p.m]") && Contains("second_axis"));
+  CHECK_THAT(refusal(placed(body + "    loads: {f: {node: {body: b, att: [1, 0, 0]}, force: [0, 0, 1]}}\n")),
+             Contains("loads.p.f.node: 'att' is not a key of a point of a body"));
+}
