@@ -69,10 +69,6 @@ const KeyTable& part_definition_keys();
 std::vector<Key> section_keys() {
   using namespace keys;
   return {
-      {"include",
-       {file("mechanism"), list_of(file("mechanism"))},
-       optional,
-       "Files whose entries belong to this one. Parameters of this file replace those of included ones."},
       {"parameters", entries("parameter", {number("any")}), optional,
        "Named numbers for formulas; each may use those before it."},
       {"nodes", entries("entry", {nested(node_keys)}), optional, "Points with axes, which move."},
@@ -90,8 +86,6 @@ std::vector<Key> section_keys() {
        "Numbers that a program sets while the mechanism moves."},
       {"events", entries("entry", {nested(event_keys)}), optional, "Quantities that cross a value."},
       {"hydraulics", nested(hydraulics_keys), optional, "Circuits of fluid."},
-      {"definitions", entries("part", {nested(part_definition_keys)}), optional,
-       "Sub-assemblies that are written once and placed by `parts`."},
       {"parts", entries("entry", {nested(part_keys)}), optional, "Sub-assemblies that are placed in the mechanism."}};
 }
 
@@ -121,9 +115,15 @@ const KeyTable& mechanism_file_keys() {
       "A mechanism, the analyses to run on it, and the results that are kept. Units are SI, angles are in radians.",
       joined({{{"mechanism", text(), optional, "Title."},
                {"gravity", vector3("m/s^2").as_vector(), otherwise("[0, 0, 0]"),
-                "Acceleration of gravity, in inertial components."}},
+                "Acceleration of gravity, in inertial components."},
+               {"include",
+                {file("mechanism"), list_of(file("mechanism"))},
+                optional,
+                "Files whose entries belong to this one. Parameters of this file replace those of included ones."}},
               section_keys(),
-              {{"analysis", list_of(nested(analysis_keys)), optional, "Analyses, one after the other."},
+              {{"definitions", entries("part", {nested(part_definition_keys)}), optional,
+                "Sub-assemblies that are written once and placed by `parts`."},
+               {"analysis", list_of(nested(analysis_keys)), optional, "Analyses, one after the other."},
                {"output", nested(output_keys), optional, "Results that are kept."},
                {"cases", entries("case", {nested(case_keys)}), optional,
                 "Named sets of parameters and analyses, which `--case` runs."}}})};

@@ -144,39 +144,41 @@ class NodeReader {
   }
 
   Frame frame(const std::string& name) {
-    if (const auto known = frames_.find(name); known != frames_.end()) return known->second;
-    const YamlValue& entry = entries_.at(name);
-    Frame frame = read_frame(entry);
-    if (const auto at = entry.find("at")) {
-      const Frame base = frame_of(*at, name);
-      frame = {base.x + base.R * frame.x, base.R * frame.R};
+    // A loop, not a recursion: any number of nodes may be placed relative to each other.
+    std::vector<std::string> open = {name};  // nodes whose place is sought, each relative to the next one
+    std::set<std::string> names = {name};
+    Frame frame;
+    while (!frames_.count(open.back())) {
+      const auto at = entries_.at(open.back()).find("at");
+      if (!at || at->text() == "ground") break;
+      const std::string base = base_name(*at);
+      open.push_back(base);
+      if (!names.insert(base).second)
+        at->fail(fmt::format("nodes are placed relative to each other in a circle: {}", fmt::join(open, ", ")));
     }
-    frames_.emplace(name, frame);
+    for (auto each = open.rbegin(); each != open.rend(); ++each) {
+      const auto known = frames_.find(*each);
+      frame = known != frames_.end() ? known->second : frame * read_frame(entries_.at(*each));
+      frames_.emplace(*each, frame);
+    }
     return frame;
   }
 
   const YamlValue& entry(const std::string& name) const { return entries_.at(name); }
 
  private:
-  Frame frame_of(const YamlValue& at, const std::string& name) {
+  std::string base_name(const YamlValue& at) const {
     const std::string base = at.text();
-    if (base == "ground") return {};
     if (!entries_.count(base)) {
       std::vector<std::string> names;
       for (const auto& [known, entry] : entries_) names.push_back(known);
       at.fail(fmt::format("there is no node '{}'{}", base, did_you_mean(base, names)));
     }
-    open_.push_back(name);
-    if (std::find(open_.begin(), open_.end(), base) != open_.end())
-      at.fail(fmt::format("nodes are placed relative to each other in a circle: {}, {}", fmt::join(open_, ", "), base));
-    const Frame result = frame(base);
-    open_.pop_back();
-    return result;
+    return base;
   }
 
   std::map<std::string, YamlValue> entries_;
   std::map<std::string, Frame> frames_;
-  std::vector<std::string> open_;  ///< nodes whose place is being read, each relative to the next one
 };
 
 void read_node(const std::string& name, const YamlValue& entry, const Frame& frame, Model& model) {

@@ -48,29 +48,68 @@ bool has_inertial_orientation(const KeyTable& table) {
   return matrix && matrix->forms.front().inertial;
 }
 
+/// Whether a value names the ground, whose axes are the inertial ones: those in which the part is written.
+bool is_ground(const Tree& node) { return node && node->scalar == "ground"; }
+
 /// Whether the position and orientation in a map are relative to a node, which is placed itself.
 bool is_relative_frame(const KeyTable& table, const YamlNode& map) {
-  return has_inertial_orientation(table) && find_pair(map, "at");
+  const Tree at = find_value(map, "at");
+  return has_inertial_orientation(table) && at && !is_ground(at);
 }
 
-/// Whether the components of a force or moment in a map are along axes of a node after all.
-bool is_along_own_axes(const YamlNode& map) {
-  const Tree follower = find_value(map, "follower"), axes = find_value(map, "axes"), type = find_value(map, "type");
+/// Returns the nodes to which items of a list in a map belong, such as `at: [[..], [..]]`.
+std::vector<Tree> nodes_of_lists(const KeyTable& table, const YamlNode& map) {
+  if (const Tree nodes = find_value(map, "nodes")) return nodes->items;
+  if (!table.find("relative_to")) return {};
+  const Tree seen_from = find_value(map, "relative_to");
+  return {seen_from ? seen_from : make_scalar("ground", map), find_value(map, "node")};
+}
+
+/// Returns the node in whose axes the vectors of a map are: null if there is none.
+Tree node_of_vectors(const YamlNode& map) {
+  const Tree nodes = find_value(map, "nodes"), type = find_value(map, "type");
+  if (!nodes) return find_value(map, "node");
+  return type && type->scalar == "node_force" && nodes->items.size() == 2 ? nodes->items[1] : nullptr;
+}
+
+/// Whether the components of a vector in a map are along axes of a node after all.
+bool is_along_own_axes(const std::string& key, const YamlNode& map) {
+  const Tree seen_from = find_value(map, "relative_to");
+  if (key == "direction") return seen_from && !is_ground(seen_from);
+  if (key != "force" && key != "moment") return false;
+  const Tree follower = find_value(map, "follower"), type = find_value(map, "type");
   if (follower && follower->scalar == "true") return true;
-  return type && type->scalar == "node_force" && !(axes && axes->scalar == "inertial");
+  const Tree axes = find_value(map, "axes"), nodes = find_value(map, "nodes");
+  if (!type || type->scalar != "node_force" || !nodes || nodes->items.size() != 2) return false;
+  const std::string along = axes ? axes->scalar : "first";
+  return along != "inertial" && !is_ground(nodes->items[along == "second"]);
+}
+
+/// Sets the items of a list that belong to the ground along inertial axes.
+void along_ground(KeyForm& list, const std::vector<Tree>& nodes) {
+  if (list.kind != KeyForm::Kind::list || list.geometry != KeyForm::Geometry::none || list.items.empty()) return;
+  const KeyForms last = list.items.back();
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (list.items.size() <= k) list.items.push_back(last);
+    if (is_ground(nodes[k]))
+      for (KeyForm& form : list.items[k]) form.inertial = true;
+  }
 }
 
 /// Returns the forms of a key in a map in which other keys change their geometry.
 KeyForms forms_in(const Key& key, const KeyTable& table, const YamlNode& map) {
   KeyForms forms = key.forms;
-  const bool own = (key.name == "position" && is_relative_frame(table, map)) ||
-                   ((key.name == "force" || key.name == "moment") && is_along_own_axes(map));
+  const bool own = (key.name == "position" && is_relative_frame(table, map)) || is_along_own_axes(key.name, map);
+  const bool on_ground = key.name == "at" && is_ground(node_of_vectors(map));
   const Tree quantity = key.name == "direction" ? find_value(map, "quantity") : nullptr;
   const bool turning = quantity && (quantity->scalar == "rotation" || quantity->scalar == "angular_velocity" ||
                                     quantity->scalar == "moment");
+  const std::vector<Tree> nodes = nodes_of_lists(table, map);
   for (KeyForm& form : forms) {
     if (own) form.inertial = false;
+    if (on_ground && form.geometry != KeyForm::Geometry::none) form.inertial = true;
     if (turning && form.geometry == KeyForm::Geometry::vector) form.geometry = KeyForm::Geometry::axial;
+    along_ground(form, nodes);
   }
   return forms;
 }
@@ -93,6 +132,7 @@ Tree EntryWriter::write(const Tree& value, const KeyForms& forms, const std::str
   if (table && (!entries || has_all_keys(*table, *value))) return write_map(*value, *table, path);
   if (entries) return write_entries(*value, *entries, path);
   if (const KeyForm* name = form_of(forms, Kind::name); name && name->of == "node") {
+    value_at(value, path, *scope_.main_file).keyed(body_point_keys());  // refuses unknown keys
     const Tree point = write_map(*value, body_point_keys(), path);
     return make_scalar(make_point_(*point, path), *value);
   }
@@ -108,7 +148,9 @@ Tree EntryWriter::write_map(const YamlNode& map, const KeyTable& table, const st
       pairs.push_back(pair);
       continue;
     }
-    Tree value = write(pair.value, forms_in(*key, table, map), path + "." + key->name);
+    const std::string place = path + "." + key->name;
+    Tree value = scope_.placement.is_identity() ? write(pair.value, key->forms, place)
+                                                : write(pair.value, forms_in(*key, table, map), place);
     if (key->name == "inertia" && scope_.placement.mirrored >= 0) value = mirrored_inertia(value);
     pairs.push_back({pair.key, std::move(value)});
   }
@@ -141,8 +183,15 @@ Tree EntryWriter::write_scalar(const Tree& node, const KeyForms& forms, const st
   if (form_of(forms, Kind::name))
     if (const auto other = scope_.name_of(text)) return result(*other);
   const KeyForm* number = numeric_form(forms);
-  if (!number || quantity_of(text)) return result(text);
-  const std::string formula = scope_.formula(text, number->words);
+  if (!number || (quantity_of(text) && scope_.placement.is_identity())) return result(text);
+  const std::string formula = [&] {
+    try {
+      if (const auto quantity = quantity_of(text)) return fmt::format("{}", to_si(*quantity, number->unit));
+      return scope_.formula(text, number->words);
+    } catch (const InputError& error) {
+      fail_at(*node, *scope_.main_file, path, fmt::format("'{}': {}", text, error.what()));
+    }
+  }();
   if (number->geometry == KeyForm::Geometry::pseudoscalar && scope_.placement.mirrored >= 0)
     return make_scalar(fmt::format("-({})", formula), *node);
   return result(formula);
@@ -152,8 +201,8 @@ Tree EntryWriter::write_scalar(const Tree& node, const KeyForms& forms, const st
 Tree EntryWriter::place_word(const YamlNode& node, const std::string& text, const KeyForms& forms) const {
   if (text != "x" && text != "y" && text != "z") return nullptr;
   for (const KeyForm& form : forms) {
-    if (form.kind != Kind::list || form.geometry == KeyForm::Geometry::none || !form.inertial) continue;
-    const Matrix3 A = scope_.placement.matrix(form.geometry, true);
+    if (form.kind != Kind::list || form.geometry == KeyForm::Geometry::none) continue;
+    const Matrix3 A = scope_.placement.matrix(form.geometry, form.inertial);
     if (A.isIdentity(0)) return nullptr;
     const Vector3 direction = A.col(text[0] - 'x');
     return make_numbers({direction[0], direction[1], direction[2]}, node);
@@ -200,37 +249,32 @@ Tree EntryWriter::place_vector(const Tree& list, const KeyForm& form, const std:
   if (A.isIdentity(0) && !(moved && placement.moves())) return list;
   const Vector3 offset = moved ? placement.frame.x : Vector3(Vector3::Zero());
   const std::vector<Tree>& items = list->items;
-  const bool constant = std::all_of(items.begin(), items.end(), [&](const Tree& item) {
-    if (item->kind != YamlNode::Kind::scalar) return false;
-    try {
-      scope_.number(*item, path);
-      return true;
-    } catch (const InputError&) {
-      return false;  // a formula of t or of the state
-    }
-  });
+  std::vector<std::optional<double>> numbers;
+  for (const Tree& item : items) numbers.push_back(scope_.constant(*item, path));
+  const bool constant = std::all_of(numbers.begin(), numbers.end(), [](const auto& number) { return number; });
   std::vector<Tree> placed;
   for (int row = 0; row < 3; ++row) {
-    if (constant) {
-      double sum = offset[row];
-      for (int k = 0; k < 3; ++k)
-        if (A(row, k) != 0) sum += A(row, k) * scope_.number(*items[static_cast<std::size_t>(k)], path);
-      placed.push_back(make_scalar(fmt::format("{}", sum), *list));
-      continue;
+    double number = offset[row];
+    std::string formula = offset[row] == 0 ? "" : fmt::format("{}", offset[row]);
+    for (int k = 0; k < 3; ++k) {
+      const auto item = static_cast<std::size_t>(k);
+      if (A(row, k) == 0) continue;
+      if (constant)
+        number += A(row, k) * *numbers[item];
+      else
+        formula += fmt::format("{}({})*({})", formula.empty() ? "" : " + ", A(row, k), items[item]->scalar);
     }
-    std::string sum = offset[row] == 0 ? "" : fmt::format("{}", offset[row]);
-    for (int k = 0; k < 3; ++k)
-      if (A(row, k) != 0)
-        sum +=
-            fmt::format("{}({})*({})", sum.empty() ? "" : " + ", A(row, k), items[static_cast<std::size_t>(k)]->scalar);
-    placed.push_back(make_scalar(sum.empty() ? "0" : sum, *list));
+    if (constant) formula = fmt::format("{}", number);
+    placed.push_back(make_scalar(formula.empty() ? "0" : formula, *list));
   }
   return make_list(std::move(placed), *list);
 }
 
 /// Gives an entry with an orientation that of its place.
 Tree EntryWriter::place_frame(const YamlNode& map, const KeyTable& table) const {
-  const bool inertial = has_inertial_orientation(table) && !is_relative_frame(table, map);
+  const bool on_ground = !has_inertial_orientation(table) && is_ground(find_value(map, "node"));
+  const bool inertial = on_ground || (has_inertial_orientation(table) && !is_relative_frame(table, map));
+  const std::string place = on_ground ? "at" : "position";
   Pairs orientation, others;
   for (const YamlNode::Pair& pair : map.pairs)
     (is_orientation(pair.key->scalar) ? orientation : others).push_back(pair);
@@ -238,9 +282,9 @@ Tree EntryWriter::place_frame(const YamlNode& map, const KeyTable& table) const 
   YamlValue given = YamlValue::of_tree(make_map(orientation, map), "", map.file ? *map.file : *scope_.main_file);
   given.set_parameters(*scope_.parameters);
   const Matrix3 R = scope_.placement.orientation(read_orientation(given.keyed(orientation_table)), inertial);
-  if (inertial && !find_pair(map, "position")) {
+  if (inertial && !find_pair(map, place)) {
     const Vector3& x = scope_.placement.frame.x;
-    others.push_back({make_scalar("position", map), make_numbers({x[0], x[1], x[2]}, map)});
+    others.push_back({make_scalar(place, map), make_numbers({x[0], x[1], x[2]}, map)});
   }
   if (!R.isIdentity(0)) {
     std::vector<Tree> rows;

@@ -36,6 +36,9 @@ const KeyTable* table_of_entry(const KeyForms& forms, const YamlNode& map) {
   return form ? &form->table().of_map(map) : nullptr;
 }
 
+/// Returns the table of a definition of a part.
+const KeyTable& definition_keys(const KeyTable& keys) { return entry_forms(keys, "definitions")->front().table(); }
+
 /// Returns the name of the body that carries a node; null if there is none.
 Tree carrier_of(const YamlNode& node) {
   return node.kind == YamlNode::Kind::map ? find_value(node, "carried_by") : nullptr;
@@ -44,13 +47,17 @@ Tree carrier_of(const YamlNode& node) {
 class Expander {
  public:
   Expander(const KeyTable& keys, const std::string& file, const Parameters& parameters)
-      : keys_(keys), file_(file), parameters_(parameters), model_(file, parameters), library_(file) {}
+      : keys_(keys),
+        file_(file),
+        parameters_(parameters),
+        model_(file, parameters),
+        library_(file, definition_keys(keys)) {}
 
   Tree expand(const YamlNode& root) {
     Scope scope;
     scope.main_file = &file_;
     scope.parameters = &parameters_;
-    write_body(root, scope, {find_value(root, "definitions"), file_}, "");
+    write_body(root, scope, library_.definitions_of(root, file_), "");
     return model_.finish(root);
   }
 
@@ -80,20 +87,57 @@ class Expander {
 
   void write_section(const std::string& section, const YamlNode& entries, const Scope& scope) {
     const KeyForms& forms = *entry_forms(keys_, section);
+    std::vector<std::pair<std::string, Tree>> merged;  // nodes that are nodes of the surroundings
     for_each_entry(entries, scope, section, [&](const std::string& name, const Tree& value, const Scope& local) {
-      if (section == "nodes" && scope.merged.count(name)) return;
-      const std::string full = scope.prefix + name;
-      const std::string path = section + "." + full;
+      const std::string path = section + "." + scope.prefix + name;
+      const auto outside = section == "nodes" ? scope.merged.find(name) : scope.merged.end();
+      const bool is_merged = outside != scope.merged.end();
+      if (is_merged) check_merged(name, *value, *outside->second, local, path);
+      const std::string full = is_merged ? outside->second->scalar : scope.prefix + name;
       Tree entry = write_entry(section, value, forms, local, path);
       if (const Tree body = section == "nodes" ? carrier_of(*entry) : nullptr) {
         model_.carry(full, *body, path + ".carried_by");
         entry = without(*entry, {"carried_by"});
       }
-      model_.add(section, full, std::move(entry));
+      if (is_merged)
+        merged.emplace_back(name, std::move(entry));
+      else
+        model_.add(section, full, std::move(entry));
     });
+    for (const auto& [name, entry] : merged) check_place(name, entry, scope);
+  }
+
+  /// Refuses what a node of a part would lose if it is a node of the surroundings.
+  void check_merged(const std::string& name, const YamlNode& node, const YamlNode& outside, const Scope& scope,
+                    const std::string& path) const {
+    for (const char* key : {"fixed", "motion", "velocity", "angular_velocity"}) {
+      const Tree value = node.kind == YamlNode::Kind::map ? find_value(node, key) : nullptr;
+      const bool is_scalar = value && value->kind == YamlNode::Kind::scalar;
+      if (value && !(is_scalar && !holds(*value, scope, path + "." + key)))
+        fail_at(*value, file_, path + "." + key,
+                fmt::format("node '{}' of the part is the node '{}' here: `{}` belongs to that one", name,
+                            outside.scalar, key));
+    }
+  }
+
+  /// Checks that a node that is merged is at the place of the other one.
+  void check_place(const std::string& name, const Tree& entry, const Scope& scope) const {
+    const YamlNode& outside = *scope.merged.at(name);
+    const std::string path = "parts." + scope.prefix + "merge." + name;
+    const Frame there = model_.frame_of_node(outside.scalar, outside, path);
+    const Frame here = model_.frame_of_entry(entry, path);
+    const bool turned = (here.R - there.R).norm() > 1e-6;
+    if (turned || (here.x - there.x).norm() > 1e-6 * (1 + here.x.norm() + there.x.norm()))
+      fail_at(outside, file_, path,
+              fmt::format("node '{}' of the part is placed at ({:.6g}, {:.6g}, {:.6g}) and '{}' at ({:.6g}, {:.6g}, "
+                          "{:.6g}){}: nodes that are merged have the same place and axes",
+                          name, here.x[0], here.x[1], here.x[2], outside.scalar, there.x[0], there.x[1], there.x[2],
+                          turned ? ", with other axes" : ""));
   }
 
   void write_hydraulics(const YamlNode& body, const Scope& scope) {
+    if (body.kind != YamlNode::Kind::map && body.kind != YamlNode::Kind::null)
+      fail_at(body, file_, "hydraulics", "expected keys with values (`key: value`)");
     const KeyTable* table = table_of_entry(keys_.find("hydraulics")->forms, body);
     for (const YamlNode::Pair& pair : body.pairs) {
       const std::string list = pair.key->scalar, path = "hydraulics." + list;
@@ -132,10 +176,14 @@ class Expander {
     if (++depth_ > 20) fail_at(*entry, file_, path, "parts contain each other more than 20 times over");
     Scope unplaced = outer;  // names and numbers are those of the surroundings; the place is computed below
     unplaced.placement = {};
-    const Tree written = writer(unplaced).write_map(*entry, part_keys(), path);
-    const YamlValue keyed = value_of(written, outer.prefix + name).keyed(part_keys());
-    for (const char* key : {"parameters", "merge"})
-      if (const auto map = keyed.find(key)) map->entries();  // refuses what is no map
+    const Tree written = EntryWriter(unplaced, refuse_point_).write_map(*entry, part_keys(), path);
+    YamlValue value = value_at(written, path, file_);
+    value.set_parameters(parameters_);
+    const YamlValue keyed = value.keyed(part_keys());
+    if (const auto part = keyed.find("part")) part->text();  // refuses what is no text, or no map
+    if (const auto map = keyed.find("parameters")) map->entries();
+    if (const auto map = keyed.find("merge"))
+      for (const auto& [inside, outside] : map->entries()) outside.text();
     const Part part = library_.find(*written, definitions, path);
 
     Scope scope;
@@ -144,22 +192,20 @@ class Expander {
     scope.parameters = &parameters_;
     scope.prefix = outer.prefix + name + ".";
     scope.placement = outer.placement.inner(placement_of(keyed, *written, path));
-    if (find_pair(*written, "at")) scope.placement = placement_of(keyed, *written, path);
+    if (const Tree at = find_value(*written, "at"); at && at->scalar != "ground")
+      scope.placement = placement_of(keyed, *written, path);
     read_part_parameters(*part.body, *written, scope, path);
-    collect_names(*part.body, scope);
+    const std::vector<std::string> nodes = collect_names(*part.body, scope);
     if (const Tree merge = find_value(*written, "merge"))
-      for (const YamlNode::Pair& pair : merge->pairs) merge_node(pair, scope, path, *part.body);
+      for (const YamlNode::Pair& pair : merge->pairs) {
+        const std::string& inside = pair.key->scalar;
+        if (!is_among(inside, nodes))
+          fail_at(*pair.key, file_, path + ".merge",
+                  fmt::format("the part has no node '{}'{}", inside, did_you_mean(inside, nodes)));
+        scope.merged.emplace(inside, pair.value);
+      }
     write_body(*part.body, scope, part.definitions, path);
     --depth_;
-  }
-
-  /// Returns the entry of a placed part, with its path.
-  YamlValue value_of(const Tree& entry, const std::string& name) const {
-    const Tree section = make_map({{make_scalar(name, *entry), entry}}, *entry);
-    YamlValue root = YamlValue::of_tree(make_map({{make_scalar("parts", *entry), section}}, *entry), "",
-                                        entry->file ? *entry->file : file_);
-    root.set_parameters(parameters_);
-    return root.at("parts").at(name);
   }
 
   /// @returns the placement in the surroundings; of a part `at` a node the one in the model
@@ -175,9 +221,12 @@ class Expander {
   void read_part_parameters(const YamlNode& body, const YamlNode& entry, Scope& scope, const std::string& path) const {
     const Tree own = find_value(body, "parameters"), given = find_value(entry, "parameters");
     std::vector<std::string> names;
+    if (own && own->kind != YamlNode::Kind::map && own->kind != YamlNode::Kind::null)
+      fail_at(*own, file_, path + ".parameters", "expected keys with values (`key: value`)");
     if (own)
       for (const YamlNode::Pair& pair : own->pairs) {
         const std::string& name = pair.key->scalar;
+        check_word(name, *pair.key, file_, path + ".parameters");
         const Tree other = given ? find_value(*given, name) : nullptr;
         const std::string place = path + ".parameters." + name;
         scope.values[name] = other ? scope.outer->number(*other, place) : scope.number(*pair.value, place);
@@ -191,13 +240,15 @@ class Expander {
                             names.empty() ? "; it has none" : did_you_mean(pair.key->scalar, names)));
   }
 
-  /// Collects the names of the entries of a part, to which its entries refer.
-  static void collect_names(const YamlNode& body, Scope& scope) {
+  /// Collects the names of the entries of a part, to which its entries refer. @returns those of its nodes
+  static std::vector<std::string> collect_names(const YamlNode& body, Scope& scope) {
     std::vector<std::pair<std::string, bool>> names;  // and whether each is a word in formulas
+    std::vector<std::string> nodes;
     for (const YamlNode::Pair& pair : body.pairs) {
       const std::string& section = pair.key->scalar;
       const UseEntry collect = [&](const std::string& name, const Tree&, const Scope&) {
         names.emplace_back(name, is_among(section, measure_sections));
+        if (section == "nodes") nodes.push_back(name);
       };
       if (is_among(section, sections_of_entries()) || section == "parts")
         for_each_entry(*pair.value, scope, section, collect);
@@ -209,28 +260,7 @@ class Expander {
       scope.own.insert(name);
       if (is_measure) scope.measures.insert(name);
     }
-  }
-
-  void merge_node(const YamlNode::Pair& pair, Scope& scope, const std::string& path, const YamlNode& body) const {
-    const std::string &inside = pair.key->scalar, &outside = pair.value->scalar;
-    const std::string place = path + ".merge";
-    const Tree nodes = find_value(body, "nodes"), node = nodes ? find_value(*nodes, inside) : nullptr;
-    if (!node) {
-      std::vector<std::string> names;
-      if (nodes)
-        for (const YamlNode::Pair& each : nodes->pairs) names.push_back(each.key->scalar);
-      fail_at(*pair.key, file_, place, fmt::format("the part has no node '{}'{}", inside, did_you_mean(inside, names)));
-    }
-    const Frame there = model_.frame_of_node(outside, *pair.value, place + "." + inside);
-    const Frame here = model_.frame_of_entry(writer(scope).write(node, *entry_forms(keys_, "nodes"), place), place);
-    const bool turned = (here.R - there.R).norm() > 1e-6;
-    if (turned || (here.x - there.x).norm() > 1e-6 * (1 + here.x.norm() + there.x.norm()))
-      fail_at(*pair.key, file_, place,
-              fmt::format("node '{}' of the part is placed at ({:.6g}, {:.6g}, {:.6g}) and '{}' at ({:.6g}, {:.6g}, "
-                          "{:.6g}){}: nodes that are merged have the same place and axes",
-                          inside, here.x[0], here.x[1], here.x[2], outside, there.x[0], there.x[1], there.x[2],
-                          turned ? ", with other axes" : ""));
-    scope.merged[inside] = outside;
+    return nodes;
   }
 
   const KeyTable& keys_;
@@ -240,6 +270,9 @@ class Expander {
   PartLibrary library_;
   const EntryWriter::MakePoint make_point_ = [this](const YamlNode& point, const std::string& path) {
     return model_.add_point(point, path);
+  };
+  const EntryWriter::MakePoint refuse_point_ = [this](const YamlNode& point, const std::string& path) -> std::string {
+    fail_at(point, file_, path, "expected the name of a node; a part is not placed at, or merged with, a point");
   };
   int depth_ = 0;
 };
@@ -280,7 +313,7 @@ ExpandedModel expand_model(const Tree& root, const std::string& file, const KeyT
   if (root->kind != YamlNode::Kind::map) return {root, {}, false};
   ExpandedModel model;
   model.root = with_case(with_includes(root, file), file, keys, options.chosen_case);
-  model.parameters = read_parameters(YamlValue::of_tree(model.root, "", file), options.overrides);
+  model.parameters = read_parameters(YamlValue::of_tree(model.root, "", file).keyed(keys), options.overrides);
   if (uses_language(*model.root)) model.root = Expander(keys, file, model.parameters).expand(*model.root);
   model.is_changed = model.root != root;
   return model;

@@ -5,20 +5,6 @@
 #include "reduce/common/input/unit.hpp"
 
 namespace bielle::mechanism {
-namespace {
-
-double read_parameter(const YamlValue& value) {
-  const auto quantity = value.is_scalar() ? quantity_of(value.text()) : std::nullopt;
-  if (!quantity) return value.number();
-  try {
-    return to_si(*quantity, "any");
-  } catch (const InputError& error) {
-    value.fail(error.what());
-  }
-}
-
-}  // namespace
-
 double evaluate(const std::string& number, const Parameters& parameters) {
   if (const auto quantity = quantity_of(number)) return to_si(*quantity, "any");
   return Expression(number, {}, parameters)(std::span<const double>());
@@ -30,8 +16,8 @@ Parameters read_parameters(YamlValue root, const std::map<std::string, std::stri
     for (const auto& [name, value] : section->entries()) {
       const auto given = overrides.find(name);
       try {
-        root.set_parameter(
-            name, given == overrides.end() ? read_parameter(value) : evaluate(given->second, root.parameters()));
+        root.set_parameter(name,
+                           given == overrides.end() ? value.number() : evaluate(given->second, root.parameters()));
       } catch (const std::runtime_error& error) {
         if (given == overrides.end()) throw;
         throw InputError(fmt::format("--set {}={}: {}", name, given->second, error.what()));

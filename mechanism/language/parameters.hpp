@@ -12,6 +12,7 @@ namespace bielle::mechanism {
 double evaluate(const std::string& number, const Parameters& parameters);
 
 /// Evaluates the parameters; each may use those written before it, and have a unit.
+/// @param root       bound to its table
 /// @param overrides  formulas in place of those of the file, by names (`--set`)
 /// @throws InputError for a wrong formula, and for an override without a parameter
 Parameters read_parameters(YamlValue root, const std::map<std::string, std::string>& overrides);

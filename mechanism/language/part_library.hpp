@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mechanism/language/tree.hpp"
+#include "reduce/common/input/key_table.hpp"
 
 namespace bielle::mechanism {
 
@@ -23,7 +24,12 @@ struct Part {
 /// Finds the definitions of parts; reads each file once.
 class PartLibrary {
  public:
-  explicit PartLibrary(std::string main_file) : main_file_(std::move(main_file)) {}
+  /// @param definition_keys  table of a definition
+  PartLibrary(std::string main_file, const KeyTable& definition_keys)
+      : main_file_(std::move(main_file)), definition_keys_(definition_keys) {}
+
+  /// Returns the definitions of a file, used or not. @throws InputError at a key that a definition does not have
+  Definitions definitions_of(const YamlNode& root, const std::string& file) const;
 
   /// @param entry  a placed part
   /// @param here   definitions of the file in which it stands
@@ -32,7 +38,8 @@ class PartLibrary {
 
  private:
   std::string main_file_;
-  std::map<std::string, Tree> files_;  ///< by the file that names them and the name
+  const KeyTable& definition_keys_;
+  std::map<std::string, Part> files_;  ///< by the file that names them and the name
 };
 
 }  // namespace bielle::mechanism

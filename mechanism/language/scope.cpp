@@ -1,13 +1,13 @@
 #include "mechanism/language/scope.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "mechanism/language/parameters.hpp"
 #include "mechanism/reading/functions_of_names.hpp"
+#include "reduce/common/formula/formula_parser.hpp"
 #include "reduce/common/formula/formula_references.hpp"
 #include "reduce/common/input/unit.hpp"
 
@@ -18,12 +18,12 @@ std::string literal(double value) { return value < 0 ? fmt::format("({})", value
 
 }  // namespace
 
-std::optional<double> plain_number(const std::string& text) {
-  double value = 0;
-  const char *begin = text.data(), *end = begin + text.size();
-  const auto [stopped, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stopped != end || !std::isfinite(value)) return {};
-  return value;
+void check_word(const std::string& name, const YamlNode& place, const std::string& main_file, const std::string& path) {
+  if (!is_dotted_word(name) || name.find('.') != std::string::npos)
+    fail_at(place, main_file, path,
+            fmt::format("'{}' is no name in formulas: letters, digits and '_', no digit first", name));
+  if (name == "t" || is_among(name, built_in_names()))
+    fail_at(place, main_file, path, fmt::format("'{}' has a meaning in formulas already; choose another name", name));
 }
 
 Scope Scope::inner() const {
@@ -45,7 +45,8 @@ std::optional<std::string> Scope::name_of(const std::string& name) const {
   for (std::size_t end = name.size();; end = name.rfind('.', end - 1)) {
     if (end == std::string::npos || end == 0) break;
     const std::string beginning = name.substr(0, end);
-    if (const auto found = merged.find(beginning); found != merged.end()) return found->second + name.substr(end);
+    if (const auto found = merged.find(beginning); found != merged.end())
+      return found->second->scalar + name.substr(end);
     if (own.count(beginning)) return prefix + name;
   }
   return outer ? outer->name_of(name) : std::nullopt;
@@ -101,6 +102,20 @@ double Scope::number(const YamlNode& node, const std::string& path) const {
   } catch (const std::runtime_error& error) {
     fail_at(node, *main_file, path, fmt::format("'{}': {}", node.scalar, error.what()));
   }
+}
+
+std::optional<double> Scope::constant(const YamlNode& node, const std::string& path) const {
+  if (node.kind != YamlNode::Kind::scalar) return {};
+  if (const auto plain = plain_number(node.scalar)) return plain;
+  bool is_constant = node.scalar.find_first_of("'\"") == std::string::npos;  // neither a file nor a name
+  rename_in_formula(
+      quantity_of(node.scalar) ? "" : node.scalar, functions_of_names(),
+      [&](const std::string&) -> std::optional<std::string> { return is_constant = false, std::nullopt; },
+      [&](const std::string& word) -> std::optional<std::string> {
+        is_constant = is_constant && (parameters->count(word) || is_among(word, built_in_names()));
+        return {};
+      });
+  return is_constant ? std::optional(number(node, path)) : std::nullopt;
 }
 
 }  // namespace bielle::mechanism

@@ -12,21 +12,21 @@
 
 namespace bielle::mechanism {
 
-/// Returns the number that a text is; nothing for a formula, a word or a number with a unit.
-std::optional<double> plain_number(const std::string& text);
+/// Checks that a number of a part, or of a repeated entry, has a name that formulas can contain.
+void check_word(const std::string& name, const YamlNode& place, const std::string& main_file, const std::string& path);
 
 /// A part that is being placed, or one turn of a repeated entry.
 struct Scope {
   const Scope* outer = nullptr;
-  const std::string* main_file = nullptr;     ///< file of nodes without a file of their own
-  const Parameters* parameters = nullptr;     ///< of the whole model
-  std::map<std::string, double> values;       ///< parameters of the part, numbers of repeated entries
-  std::map<std::string, std::string> words;   ///< words of repeated entries
-  std::string prefix;                         ///< of the part's names: "blade_2."; empty in the model itself
-  std::set<std::string> own;                  ///< names of the part's entries, as the part writes them
-  std::set<std::string> measures;             ///< those that are plain words in formulas
-  std::map<std::string, std::string> merged;  ///< nodes of the part that are nodes of the model
-  Placement placement;                        ///< of the part's axes in the inertial ones
+  const std::string* main_file = nullptr;    ///< file of nodes without a file of their own
+  const Parameters* parameters = nullptr;    ///< of the whole model
+  std::map<std::string, double> values;      ///< parameters of the part, numbers of repeated entries
+  std::map<std::string, std::string> words;  ///< words of repeated entries
+  std::string prefix;                        ///< of the part's names: "blade_2."; empty in the model itself
+  std::set<std::string> own;                 ///< names of the part's entries, as the part writes them
+  std::set<std::string> measures;            ///< those that are plain words in formulas
+  std::map<std::string, Tree> merged;        ///< nodes of the part that are nodes of the model, whose names these are
+  Placement placement;                       ///< of the part's axes in the inertial ones
 
   /// Returns a scope for something within this one. @pre this one lives longer
   Scope inner() const;
@@ -42,6 +42,8 @@ struct Scope {
   std::string text(const YamlNode& node, const std::string& path) const;
   /// Evaluates a number or formula of parameters; a number may have a unit.
   double number(const YamlNode& node, const std::string& path) const;
+  /// Evaluates a number of an entry in the model; nothing for a formula of time or of the state.
+  std::optional<double> constant(const YamlNode& node, const std::string& path) const;
 
  private:
   const std::string* word_of(const std::string& name) const;

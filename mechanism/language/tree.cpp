@@ -70,7 +70,7 @@ Tree with(const YamlNode& map, const std::string& key, Tree value) {
   const auto found =
       std::find_if(pairs.begin(), pairs.end(), [&](const YamlNode::Pair& pair) { return pair.key->scalar == key; });
   if (found != pairs.end())
-    found->value = std::move(value);
+    *found = {make_scalar(key, *value), value};
   else
     pairs.push_back({make_scalar(key, map), std::move(value)});
   return make_map(std::move(pairs), map);
@@ -82,6 +82,11 @@ Tree in_file(const Tree& tree, const std::shared_ptr<const std::string>& file) {
   for (YamlNode::Pair& pair : copy->pairs) pair = {in_file(pair.key, file), in_file(pair.value, file)};
   for (Tree& item : copy->items) item = in_file(item, file);
   return copy;
+}
+
+YamlValue value_at(const Tree& tree, const std::string& path, const std::string& main_file) {
+  const Tree map = make_map({{make_scalar(path, *tree), tree}}, *tree);
+  return YamlValue::of_tree(map, "", tree->file ? *tree->file : main_file).at(path);
 }
 
 void fail_at(const YamlNode& node, const std::string& main_file, const std::string& path, const std::string& message) {

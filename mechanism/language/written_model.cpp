@@ -1,5 +1,7 @@
 #include "mechanism/language/written_model.hpp"
 
+#include <set>
+
 #include <fmt/format.h>
 
 #include "mechanism/language/language_keys.hpp"
@@ -19,24 +21,31 @@ std::string name_of_point(const std::string& path) {
   return name + ".point";
 }
 
+/// Returns the node in whose axes a node is placed; null for the inertial ones.
+Tree base_of_node(const YamlNode& node) { return node.kind == YamlNode::Kind::map ? find_value(node, "at") : nullptr; }
+
 }  // namespace
 
 WrittenModel::WrittenModel(std::string main_file, const Parameters& parameters)
     : main_file_(std::move(main_file)), parameters_(parameters) {}
 
 void WrittenModel::add(const std::string& section_name, const std::string& name, Tree value) {
-  Section& section = sections_[section_name];
-  if (!section.places.emplace(name, section.pairs.size()).second)
-    fail_at(*value, main_file_, section_name + "." + name, "there are two entries with this name");
-  section.pairs.push_back({make_scalar(name, *value), std::move(value)});
+  append(sections_[section_name], name, std::move(value), section_name + "." + name);
 }
 
 void WrittenModel::add_hydraulic(const std::string& list_name, const std::string& name, Tree value) {
-  Section& list = hydraulic_lists_[list_name];
-  if (!list.places.emplace(name, list.pairs.size()).second)
-    fail_at(*value, main_file_, fmt::format("hydraulics.{}.{}", list_name, name),
-            "there are two entries with this name");
-  list.pairs.push_back({make_scalar(name, *value), std::move(value)});
+  append(hydraulic_lists_[list_name], name, std::move(value), fmt::format("hydraulics.{}.{}", list_name, name));
+}
+
+void WrittenModel::append(Section& section, const std::string& name, Tree value, const std::string& path) const {
+  const auto [known, is_new] = section.places.emplace(name, section.pairs.size());
+  if (!is_new) {
+    const YamlNode& first = *section.pairs[known->second].value;
+    fail_at(*value, main_file_, path,
+            fmt::format("there are two entries with this name; the first is in {}, line {}",
+                        first.file ? *first.file : main_file_, first.line));
+  }
+  section.pairs.push_back({make_scalar(name, *value), std::move(value)});
 }
 
 void WrittenModel::set_hydraulic(const YamlNode::Pair& pair, Tree value) {
@@ -52,6 +61,7 @@ std::string WrittenModel::add_point(const YamlNode& point, const std::string& pa
   if (!body || body->kind != YamlNode::Kind::scalar)
     fail_at(point, main_file_, path, "expected the name of a node, or a point of a body: {body: name, at: [x, y, z]}");
   const std::string name = name_of_point(path);
+  points_.emplace(name, carried_.size());
   carried_.push_back({body->scalar, name, make_map(point.pairs, point), true, path});
   return name;
 }
@@ -68,28 +78,58 @@ std::vector<std::string> WrittenModel::names_in(const std::string& section) cons
   return names;
 }
 
+Tree WrittenModel::node(const std::string& name, const YamlNode& place, const std::string& path) const {
+  if (const auto nodes = sections_.find("nodes"); nodes != sections_.end())
+    if (const auto found = nodes->second.places.find(name); found != nodes->second.places.end())
+      return nodes->second.pairs[found->second].value;
+  const auto point = points_.find(name);
+  const auto elements = sections_.find("elements");
+  if (point != points_.end() && elements != sections_.end()) {
+    const Carried& carried = carried_[point->second];
+    if (const auto body = elements->second.places.find(carried.body); body != elements->second.places.end())
+      return node_of_point(carried, *elements->second.pairs[body->second].value);
+  }
+  fail_at(
+      place, main_file_, path,
+      fmt::format("there is no node '{}' whose place is known here{}", name, did_you_mean(name, names_in("nodes"))));
+}
+
 Frame WrittenModel::frame_of_node(const std::string& name, const YamlNode& place, const std::string& path) const {
-  if (name == "ground") return {};
-  const auto nodes = sections_.find("nodes");
-  const auto found =
-      nodes == sections_.end() ? decltype(nodes->second.places.find(name)){} : nodes->second.places.find(name);
-  if (nodes == sections_.end() || found == nodes->second.places.end())
-    fail_at(
-        place, main_file_, path,
-        fmt::format("there is no node '{}' whose place is known here{}", name, did_you_mean(name, names_in("nodes"))));
-  return frame_of_entry(nodes->second.pairs[found->second].value, path);
+  // A loop, not a recursion: any number of nodes may be placed relative to each other.
+  std::vector<std::pair<std::string, Tree>> open;  // nodes whose place is sought, each relative to the next one
+  std::set<std::string> names;
+  Frame frame;
+  Tree at = make_scalar(name, place);
+  for (; at && at->scalar != "ground"; at = base_of_node(*open.back().second)) {
+    if (const auto known = frames_.find(at->scalar); known != frames_.end()) {
+      frame = known->second;
+      break;
+    }
+    if (!names.insert(at->scalar).second)
+      fail_at(*at, main_file_, path,
+              fmt::format("nodes are placed relative to each other in a circle, by way of '{}'", at->scalar));
+    open.emplace_back(at->scalar, node(at->scalar, *at, path));
+  }
+  for (auto each = open.rbegin(); each != open.rend(); ++each) {
+    frame = frame * own_frame(*each->second);
+    frames_.emplace(each->first, frame);
+  }
+  return frame;
 }
 
 Frame WrittenModel::frame_of_entry(const Tree& entry, const std::string& path) const {
-  if (entry->kind != YamlNode::Kind::map) return {};
+  const Tree at = base_of_node(*entry);
+  return at ? frame_of_node(at->scalar, *at, path) * own_frame(*entry) : own_frame(*entry);
+}
+
+Frame WrittenModel::own_frame(const YamlNode& entry) const {
+  if (entry.kind != YamlNode::Kind::map) return {};
   YamlValue value =
-      YamlValue::of_tree(without(*entry, {"velocity", "angular_velocity", "fixed", "motion", "at", "carried_by"}), "",
-                         entry->file ? *entry->file : main_file_);
+      YamlValue::of_tree(without(entry, {"velocity", "angular_velocity", "fixed", "motion", "at", "carried_by"}), "",
+                         entry.file ? *entry.file : main_file_);
   value.set_parameters(parameters_);
   static const KeyTable table{"a node", "", frame_keys(), {}};
-  const Frame own = read_frame(value.keyed(table));
-  const Tree at = find_value(*entry, "at");
-  return at ? frame_of_node(at->scalar, *at, path) * own : own;
+  return read_frame(value.keyed(table));
 }
 
 void WrittenModel::check_carrier(const Carried& carried, const YamlNode& body) const {
@@ -97,6 +137,13 @@ void WrittenModel::check_carrier(const Carried& carried, const YamlNode& body) c
   if (!type || type->scalar != "rigid_body" || !find_value(body, "node"))
     fail_at(*carried.place, main_file_, carried.path,
             fmt::format("'{}' is no rigid_body; points of superelements stand in the section `points`", carried.body));
+}
+
+Tree WrittenModel::node_of_point(const Carried& point, const YamlNode& body) const {
+  check_carrier(point, body);
+  const Tree entry = with(*without(*point.place, {"body", "at"}), "at", find_value(body, "node"));
+  const Tree at = find_value(*point.place, "at");
+  return at ? with(*entry, "position", at) : entry;
 }
 
 void WrittenModel::carry_nodes() {
@@ -110,11 +157,7 @@ void WrittenModel::carry_nodes() {
           fmt::format("there is no element '{}'{}", carried.body, did_you_mean(carried.body, names_in("elements"))));
     const Tree& body = elements.pairs[found->second].value;
     check_carrier(carried, *body);
-    if (carried.is_new) {
-      Tree entry = with(*without(*carried.place, {"body", "at"}), "at", find_value(*body, "node"));
-      if (const Tree at = find_value(*carried.place, "at")) entry = with(*entry, "position", at);
-      add("nodes", carried.node, entry);
-    }
+    if (carried.is_new) add("nodes", carried.node, node_of_point(carried, *body));
     also[found->second].push_back(make_scalar(carried.node, *carried.place));
   }
   for (auto& [place, nodes] : also) {

@@ -48,6 +48,12 @@ class WrittenModel {
     bool is_new = false;  ///< whether the node has to be made, at the point
     std::string path;
   };
+  void append(Section& section, const std::string& name, Tree value, const std::string& path) const;
+  Tree node(const std::string& name, const YamlNode& place, const std::string& path) const;
+  /// Reads the place of a node in the axes of the node that it names.
+  Frame own_frame(const YamlNode& entry) const;
+  /// Returns the entry of the node at a point of a body, which is known.
+  Tree node_of_point(const Carried& point, const YamlNode& body) const;
   void carry_nodes();
   void check_carrier(const Carried& carried, const YamlNode& body) const;
   std::vector<std::string> names_in(const std::string& section) const;
@@ -57,6 +63,8 @@ class WrittenModel {
   std::map<std::string, Section> sections_;
   std::map<std::string, Section> hydraulic_lists_;
   std::vector<Carried> carried_;
+  std::map<std::string, std::size_t> points_;    ///< places of the new nodes among them
+  mutable std::map<std::string, Frame> frames_;  ///< frames of nodes whose place has been asked for
 };
 
 }  // namespace bielle::mechanism

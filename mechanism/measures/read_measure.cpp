@@ -237,21 +237,6 @@ std::string units_of_formula(const YamlValue& value, Model& model) {
   return units_of(read.expression, argument_units(read.measures));
 }
 
-namespace {
-
-/// Whether a name consists of words with dots between them, as a measure of a part has ("blade_2.droop").
-bool is_dotted_word(const std::string& name) {
-  for (std::size_t begin = 0; begin <= name.size();) {
-    const std::size_t end = std::min(name.find('.', begin), name.size());
-    const std::string word = name.substr(begin, end - begin);
-    if (words_in(word) != std::vector{word}) return false;
-    begin = end + 1;
-  }
-  return true;
-}
-
-}  // namespace
-
 void check_measure_name(const std::string& name, const YamlValue& entry, const Model& model) {
   if (model.announces_measure(name)) entry.fail(fmt::format("there is a measure, input or state '{}' already", name));
   if (entry.parameters().count(name)) entry.fail(fmt::format("'{}' is a parameter already; choose another name", name));

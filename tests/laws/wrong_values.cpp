@@ -1,10 +1,8 @@
 #include "tests/laws/wrong_values.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,20 +14,10 @@ namespace {
 
 using Kind = KeyForm::Kind;
 
-/// Returns the number that a text is; nothing for a formula, or a number with a unit.
-std::optional<double> number_in(const std::string& text) {
-  double value = 0;
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(begin, end, value);
-  return error == std::errc() && stopped == end ? std::optional(value) : std::nullopt;
-}
-
 bool is_number_of(const KeyForm& form, const std::string& text) {
   if (text == ".nan") return false;
-  if (const auto value = number_in(text))
-    return std::isfinite(*value) && form.in_range(*value) &&
-           (form.kind != Kind::integer || *value == std::floor(*value));
+  if (const auto value = plain_number(text))
+    return form.in_range(*value) && (form.kind != Kind::integer || *value == std::floor(*value));
   if (const auto quantity = quantity_of(text)) {
     try {
       return form.in_range(to_si(*quantity, form.unit));

@@ -26,13 +26,15 @@
 
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
+#include "mechanism/io/mechanism_keys.hpp"
+#include "mechanism/language/expand_model.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/dynamics/time_integration.hpp"
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/statics/statics.hpp"
-#include "reduce/common/input/yaml_file.hpp"
-#include "reduce/common/progress.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/input/yaml_node.hpp"
 #include "tests/performance/processor_time.hpp"
 #include "tests/support/large_models.hpp"
 
@@ -48,6 +50,16 @@ struct Phase {
   double seconds = 0;  ///< processor time [s]
   double memory = 0;   ///< peak of the process so far [MB]
 };
+
+/// Reads the model with an element more, which names a node that does not exist: the nearest name is sought among all.
+void message_about_unknown_node(const std::string& text) {
+  try {
+    read_mechanism_text(text + "loads: {wrong: {node: noed, force: [0, 0, 1]}}\n", "model.yaml");
+  } catch (const InputError&) {
+    return;
+  }
+  throw std::runtime_error("the unknown node was not noticed");
+}
 
 /// Runs all phases in a row. @param report  takes each when it is done
 void run_phases(const std::string& text, bool stands, const std::function<void(const Phase&)>& report) {
@@ -65,7 +77,9 @@ void run_phases(const std::string& text, bool stands, const std::function<void(c
     done.memory = peak_memory_MB();
     report(done);
   };
-  phase("text to YAML", [&] { YamlValue::parse(text, "model.yaml"); });
+  Tree tree;
+  phase("text to YAML", [&] { tree = parse_yaml(text, "model.yaml"); });
+  phase("parts written out", [&] { expand_model(tree, "model.yaml", mechanism_file_keys(), {}); });
   MechanismFile file;
   phase("text to model", [&] { file = read_mechanism_text(text, "model.yaml"); });
   const Environment& environment = file.model.environment;
@@ -87,6 +101,7 @@ void run_phases(const std::string& text, bool stands, const std::function<void(c
   statics.statics = true;
   if (stands) phase("static step", [&] { solve_statics(*system, statics, LoadSteps(1), NewtonOptions{}, loaded); });
   phase("--check", [&] { describe_model(file); });
+  phase("message", [&] { message_about_unknown_node(text); });
 }
 
 /// Runs the phases in a process of its own.

@@ -111,6 +111,33 @@ std::string ladder_of_loops(int n) {
   return sections.text();
 }
 
+std::string links_of_parts(int n) {
+  return fmt::format(R"yaml(gravity: [9.81, 0, 0]
+definitions:
+  link:
+    parameters: {{length: 1, mass: length}}
+    nodes:
+      root: {{}}
+      middle: {{position: [length/2, 0, 0]}}
+      end: {{position: [length, 0, 0], carried_by: body}}
+      anchor: {{position: [length, 0, -1], fixed: true}}
+    elements:
+      body: {{type: rigid_body, node: middle, mass: mass, inertia: [1e-3, 0.08*mass, 0.08*mass]}}
+      spring: {{type: spring_damper, nodes: [anchor, end], stiffness: 1000}}
+    joints:
+      pivot: {{type: hinge, nodes: [root, middle], position: [0, 0, 0], axis: [0, 1, 0]}}
+    measures: {{angle: pivot.angle}}
+nodes: {{link_0.end: {{fixed: true}}}}
+parts:
+  "link_{{k}}":
+    repeat: {{count: {}, as: k}}
+    part: link
+    position: [k-1, 0, 0]
+    merge: {{root: "link_{{k-1}}.end"}}
+)yaml",
+                     n);
+}
+
 const std::vector<LargeModel>& large_models() {
   static const std::vector<LargeModel> models = {
       {"hinges", "rigid links on hinges with springs", hinged_links},
@@ -119,6 +146,7 @@ const std::vector<LargeModel>& large_models() {
       {"springs", "point masses on springs", masses_on_springs},
       {"beam", "a beam of n elements", beam_of_elements},
       {"loops", "a ladder of planar four-bars", ladder_of_loops},
+      {"parts", "links that are placed parts, with merged nodes", links_of_parts},
   };
   return models;
 }

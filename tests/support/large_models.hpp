@@ -27,6 +27,9 @@ std::string beam_of_elements(int n);
 /// A ladder of planar four-bars with springs, in whose file all upper joints precede the lower ones: each loop has
 /// three redundant constraints.
 std::string ladder_of_loops(int n);
+/// Links like those of `hinged_links`, each a placed part: a body, a hinge, a spring and a measure. A node of each is
+/// merged with the end of the link before it, `link_7.end`.
+std::string links_of_parts(int n);
 
 /// All of them.
 const std::vector<LargeModel>& large_models();

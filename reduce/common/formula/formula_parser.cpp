@@ -311,6 +311,16 @@ class Vocabulary {
 
 }  // namespace
 
+bool is_dotted_word(const std::string& name) {
+  bool begins_word = true;
+  for (const char c : name) {
+    const bool is_inside = is_name_character(c) || c == '.';
+    if (begins_word ? !is_name_character(c) || std::isdigit(static_cast<unsigned char>(c)) : !is_inside) return false;
+    begins_word = c == '.';
+  }
+  return !begins_word;
+}
+
 const std::vector<std::string>& built_in_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all = function_names();

@@ -72,7 +72,7 @@ class Scanner {
     std::string all = name();
     while (!all.empty() && here() == '.' && is_letter(next(1))) {
       ++at_;
-      all += "." + name();
+      all.append(1, '.').append(name());
     }
     return all;
   }
@@ -218,14 +218,7 @@ FormulaText find_references(const std::string& text, const std::vector<std::stri
 namespace {
 
 /// Returns a name as it is written in a formula: in quotes unless it consists of words with dots between them.
-std::string spelled(const std::string& name) {
-  bool begins_word = true;
-  for (const char c : name) {
-    if (begins_word ? !is_letter(c) : !(is_letter(c) || is_digit(c) || c == '.')) return "'" + name + "'";
-    begins_word = c == '.';
-  }
-  return begins_word ? "'" + name + "'" : name;
-}
+std::string spelled(const std::string& name) { return is_dotted_word(name) ? name : fmt::format("'{}'", name); }
 
 }  // namespace
 
@@ -246,8 +239,11 @@ std::string rename_in_formula(const std::string& text, const std::vector<std::st
     const FormulaReference& reference = scanner.references[place.reference];
     std::vector<std::string> subjects;
     bool changed = false;
-    for (const std::string& name : reference.subjects) {
-      const auto other = subject(name);
+    auto step = reference.path.begin();  // the words before it belong to the name, which may have dots
+    for (std::string name : reference.subjects) {
+      auto other = subject(name);
+      while (!other && reference.function.empty() && step != reference.path.end())
+        other = subject(name += "." + *step++);
       changed = changed || other;
       subjects.push_back(spelled(other.value_or(name)));
     }
@@ -255,7 +251,7 @@ std::string rename_in_formula(const std::string& text, const std::vector<std::st
     std::string written = reference.function.empty()
                               ? subjects.front()
                               : fmt::format("{}({})", reference.function, fmt::join(subjects, ", "));
-    for (const std::string& step : reference.path) written += "." + step;
+    for (; step != reference.path.end(); ++step) written += "." + *step;
     changes.push_back({place.begin, place.end, written});
   }
   std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.begin > b.begin; });

@@ -91,14 +91,28 @@ std::string base_of(const Unit& unit) {
   return without_origin[factor] == ' ' ? without_origin.substr(factor + 1) : without_origin;
 }
 
+/// Takes the finite number at the beginning of a text from it; nothing if there is none.
+std::optional<double> leading_number(std::string_view& text) {
+  const char *begin = text.data() + (text.starts_with('+') ? 1 : 0), *end = text.data() + text.size();
+  double number = 0;
+  const auto [stopped, error] = std::from_chars(begin, end, number);
+  if (error != std::errc() || !std::isfinite(number)) return {};
+  text.remove_prefix(static_cast<std::size_t>(stopped - text.data()));
+  return number;
+}
+
 }  // namespace
 
+std::optional<double> plain_number(std::string_view text) {
+  const auto number = leading_number(text);
+  return number && text.empty() ? number : std::nullopt;
+}
+
 std::optional<Quantity> quantity_of(std::string_view text) {
-  const std::size_t begin = text.starts_with('+') ? 1 : 0;
-  Quantity quantity;
-  const auto [stopped, error] = std::from_chars(text.data() + begin, text.data() + text.size(), quantity.value);
-  if (error != std::errc() || !std::isfinite(quantity.value)) return {};
-  std::string_view rest = text.substr(static_cast<std::size_t>(stopped - text.data()));
+  std::string_view rest = text;
+  const auto number = leading_number(rest);
+  if (!number) return {};
+  Quantity quantity{*number, {}};
   if (!rest.starts_with(' ')) return {};
   rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
   while (rest.ends_with(' ')) rest.remove_suffix(1);

@@ -13,6 +13,9 @@ struct Quantity {
   std::string unit;
 };
 
+/// Returns the finite number that a text is; nothing for any other text, such as a formula, or a number with a unit.
+std::optional<double> plain_number(std::string_view text);
+
 /// Returns the parts of a text that is a number, a blank and a unit; nothing for any other text, such as a formula.
 std::optional<Quantity> quantity_of(std::string_view text);
 

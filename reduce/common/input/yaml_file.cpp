@@ -1,7 +1,6 @@
 #include "reduce/common/input/yaml_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -212,13 +211,9 @@ std::vector<YamlValue> YamlValue::items() const {
 double YamlValue::number() const {
   if (!is_scalar()) fail(is_null() ? "expected a number, found nothing" : "expected a number");
   const std::string& written = node_->scalar;
-  double value = 0;
-  const char* begin = written.data() + (written.starts_with('+') ? 1 : 0);
-  const char* end = written.data() + written.size();
-  const auto [stopped, error] = std::from_chars(begin, end, value);
-  if (error == std::errc() && stopped == end && begin != end && std::isfinite(value)) {
-    check_range(value);
-    return value;
+  if (const auto value = plain_number(written)) {
+    check_range(*value);
+    return *value;
   }
   if (written == ".inf" || written == "-.inf" || written == "inf" || written == "-inf" || written == ".nan" ||
       written == "nan")

@@ -73,6 +73,20 @@ output: {only: )yaml" + only + "}\n",
              Contains("'arm_3' is not one of the nodes, or a part") && Contains("did you mean"));
 }
 
+TEST_CASE("any number of nodes are placed relative to each other, but not in a circle") {
+  const auto read = [](const std::string& nodes) {
+    return read_mechanism_text(nodes + "elements: {m: {type: point_mass, node: n_1, mass: 1}}\n", "model.yaml");
+  };
+  const MechanismFile file = read(R"yaml(
+nodes:
+  "n_{k}": {repeat: {count: 50000, as: k}, at: "n_{k+1}", position: [1, 0, 0]}
+  n_50001: {}
+)yaml");
+  CHECK(file.model.node(*file.model.find_node("n_1")).frame.x[0] == 50000);
+  CHECK_THAT(message_of<bielle::InputError>([&] { read("nodes:\n  n_1: {at: b}\n  b: {at: c}\n  c: {at: b}\n"); }),
+             Contains("model.yaml:4: nodes.c.at") && Contains("in a circle: n_1, b, c, b"));
+}
+
 TEST_CASE("bodies that carry each other in a circle are refused where they stand") {
   const std::string rest =
       "  first: {type: rigid_body, node: b, mass: 1, inertia: [1, 1, 1], also: [c]}\n"

@@ -106,7 +106,7 @@ TEST_CASE("parts that cannot be placed are refused where they stand") {
              Contains("elements.a.body") && Contains("two entries"));
   CHECK_THAT(refusal("definitions:\n  a: {parts: {b: {part: a}}}\nparts: {c: {part: a}}\n"), Contains("20 times"));
   CHECK_THAT(refusal("definitions: {a: {nods: {}}}\nparts: {c: {part: a}}\n"),
-             Contains("'nods'") && Contains("section"));
+             Contains("definitions.a") && Contains("'nods'") && Contains("nodes"));
 }
 
 TEST_CASE("a point of a body takes the place of a node") {
@@ -148,4 +148,92 @@ parts: {a: {part: blade}, b: {part: blade, rotation_vector: [0, 0, "pi/2"]}}
   CHECK_THAT(refusal("nodes:\n  a: {carried_by: m}\n  b: {}\nelements: {m: {type: point_mass, node: b, mass: 1}}\n"),
              Contains("nodes.a.carried_by") && Contains("no rigid_body"));
   CHECK_THAT(refusal("nodes:\n  a: {carried_by: [m]}\n"), Contains("nodes.a.carried_by") && Contains("name"));
+}
+
+TEST_CASE("a part is placed in the axes of a node that is placed in those of many others") {
+  const std::string link = "definitions: {link: {nodes: {tip: {position: [1, 0, 0]}}}}\n";
+  const std::string chain = expanded(link + R"yaml(
+nodes:
+  "n_{k}": {repeat: {count: 50000, as: k}, at: "n_{k+1}", position: [1, 0, 0]}
+  n_50001: {}
+parts: {first: {part: link, at: n_1}, middle: {part: link, at: n_40001}}
+)yaml");
+  CHECK_THAT(chain,
+             Contains("first.tip: {position: [50001, 0, 0]}") && Contains("middle.tip: {position: [10001, 0, 0]}"));
+  CHECK_THAT(refusal(link + "nodes:\n  a: {at: b}\n  b: {at: a}\nparts: {p: {part: link, at: a}}\n"),
+             Contains("model.yaml:4: parts.p.at: nodes are placed relative to each other in a circle, by way of 'a'"));
+}
+
+TEST_CASE("nodes that are merged may be repeated, placed at others of the part, and carried") {
+  const auto placed = [](const std::string& nodes, const std::string& merge) {
+    return "nodes: {hub: {}}\ndefinitions:\n  a:\n    nodes: {o: {position: [1, 0, 0]}, " + nodes +
+           "}\n    elements: {b: {type: rigid_body, node: o, mass: 1, inertia: [1, 1, 1]}}\n"
+           "parts: {p: {part: a, merge: {" +
+           merge + "}}}\n";
+  };
+  CHECK_THAT(expanded(placed("\"n_{k}\": {repeat: {count: 2, as: k}, position: [k-1, 0, 0]}", "n_1: hub")),
+             Contains("p.n_2:") && !Contains("p.n_1"));
+  CHECK_THAT(expanded(placed("n: {at: o, position: [-1, 0, 0]}", "n: hub")), !Contains("p.n:"));
+  CHECK_THAT(expanded(placed("n: {carried_by: b}", "n: hub")), Contains("also: [hub]"));
+  CHECK_THAT(expanded(placed("n: {fixed: false}", "n: hub")), !Contains("p.n:"));
+  CHECK_THAT(refusal(placed("n: {fixed: true}", "n: hub")),
+             Contains("model.yaml:4: nodes.p.n.fixed") && Contains("`fixed` belongs to that one"));
+  CHECK_THAT(refusal(placed("n: {velocity: [1, 0, 0]}", "n: hub")), Contains("nodes.p.n.velocity"));
+  CHECK_THAT(refusal(placed("n: {if: 0}", "n: hub")), Contains("parts.p.merge") && Contains("no node 'n'"));
+  CHECK_THAT(refusal(placed("n: {}", "n: [hub]")), Contains("model.yaml:6: parts.p.merge.n: expected a text"));
+  CHECK_THAT(refusal(placed("n: {}", "n: {body: hub}")), Contains("parts.p.merge.n: expected the name of a node"));
+}
+
+TEST_CASE("definitions that are not placed are refused as well if they are wrong") {
+  CHECK_THAT(refusal("nodes: {a: {}}\ndefinitions: {a: {nods: {}}}\n"),
+             Contains("model.yaml:2: definitions.a: 'nods'") && Contains("nodes"));
+  CHECK_THAT(refusal("definitions: [a]\n"), Contains("model.yaml:1: definitions: expected keys"));
+  CHECK_THAT(refusal("definitions: {a: {gravity: [0, 0, 1]}}\n"), Contains("definitions.a: 'gravity'"));
+  CHECK_THAT(refusal("definitions: {a: {definitions: {}}}\n"), Contains("definitions.a: 'definitions'"));
+  CHECK_THAT(refusal("definitions: {a: {parameters: [1]}}\nparts: {p: {part: a}}\n"),
+             Contains("model.yaml:1: parts.p.parameters: expected keys"));
+  CHECK_THAT(refusal("definitions: {a: {hydraulics: 3}}\nparts: {p: {part: a}}\n"),
+             Contains("hydraulics: expected keys"));
+  CHECK_THAT(refusal(arm + "parts: {p: {part: [arm]}}\n"), Contains("parts.p.part: expected a text"));
+  for (const std::string name : {"t", "sin", "pi", "1a", "a.b", "a b"})
+    CHECK_THAT(refusal("definitions: {a: {parameters: {" + name + ": 1}}}\nparts: {p: {part: a}}\n"),
+               Contains("parts.p.parameters: '" + name + "'"));
+}
+
+TEST_CASE("a file without sections is no part") {
+  const bielle::test::TemporaryFolder folder;
+  folder.file("text.yaml", "hello\n");
+  folder.file("parts.yaml", "definitions: {a: {nodes: {n: {}}}}\n");
+  const auto message = [&](const std::string& file) {
+    return bielle::test::message_of<bielle::InputError>(
+        [&] { expanded("parts: {p: {file: " + file + "}}\n", "", folder / "model.yaml"); });
+  };
+  CHECK_THAT(message("text.yaml"), Contains("text.yaml:1: expected sections"));
+  CHECK_THAT(message("parts.yaml"), Contains("model.yaml:1: parts.p.file") && Contains("name the `part`"));
+}
+
+TEST_CASE("a name with dots within a part is one name in its formulas") {
+  CHECK_THAT(expanded("definitions: {a: {nodes: {x.y: {}}, measures: {z: x.y.position.x + x.y.velocity.x}}}\n"
+                      "parts: {p: {part: a}}\n"),
+             Contains("p.z: p.x.y.position.x + p.x.y.velocity.x"));
+}
+
+TEST_CASE("values with units, and points of bodies, stand in parts that are turned or mirrored") {
+  const auto placed = [](const std::string& sections, const std::string& keys = "rotation_vector: [0, 0, 1]") {
+    return "definitions:\n  a:\n    nodes: {n: {}, m: {position: [\"1 m\", 0, 0]}}\n" + sections +
+           "parts: {p: {part: a, " + keys + "}}\n";
+  };
+  const std::string load = "    loads: {f: {node: n, force: [";
+  CHECK_THAT(expanded(placed(load + "\"1 kN\", t, 0]}}\n", "mirror: x")), Contains("force: [(-1)*(1000), (1)*(t)"));
+  CHECK_THAT(refusal(placed(load + "\"1 kg\", 0, 0]}}\n")),
+             Contains("model.yaml:4: loads.p.f.force[1]: '1 kg'") && Contains("expected a value in N"));
+  CHECK_THAT(refusal(placed(load + "\"'a\", 0, 0]}}\n")), Contains("model.yaml:4: loads.p.f.force[1]: ''a'"));
+  const std::string body =
+      "    elements: {b: {type: rigid_body, node: n, mass: 1, inertia: [1, 1, 1, \"1 kg m^2\", 0, 0]}}\n";
+  CHECK_THAT(expanded(placed(body, "mirror: x")), Contains("inertia: [1, 1, 1, -(1), -(0), 0]"));
+  CHECK_THAT(expanded(placed(body + "    joints: {h: {type: hinge, nodes: [{body: b, at: [0.5, 0, 0]}, m], "
+                                    "axis: [[0, 0, 1], [0, 0, 1]]}}\n")),
+             Contains("nodes: [p.h.point_1, p.m]") && Contains("second_axis"));
+  CHECK_THAT(refusal(placed(body + "    loads: {f: {node: {body: b, att: [1, 0, 0]}, force: [0, 0, 1]}}\n")),
+             Contains("loads.p.f.node: 'att' is not a key of a point of a body"));
 }

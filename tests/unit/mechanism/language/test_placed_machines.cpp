@@ -34,14 +34,22 @@ const std::string machine = R"yaml(
       spring: {type: spring_damper, nodes: [arm, rider], at: [[0, 0.1, 0], [0.1, 0, 0]], stiffness: 300, damping: 2, length: 0.4}
       pull: {type: node_force, nodes: [arm, cart], force: [1, "2*sin(9*t)", 0.5], moment: [0, 0.2, 0.1], at: [0, 0.1, 0], axes: inertial}
       push: {type: node_force, nodes: [arm, rider], force: [0.3, 0.2, "t"], moment: [0.1, 0, 0]}
+      anchor: {type: spring_damper, nodes: [ground, cart], at: [[0.4, 0.3, 0.1], [0, 0.1, 0]], stiffness: 200}
+      tether: {type: node_force, nodes: [rider, ground], force: [0.5, "2*t", 0.3], at: [0.3, 0.1, 0.2]}
+      stay: {type: node_force, nodes: [ground, rider], force: [0.5, "2*t", 0.3], moment: [0.1, 0, "t"]}
     joints:
       shoulder: {type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [0.2, 1, 0.1], stiffness: 5, rest: 0.2}
       elbow: {type: universal, nodes: [arm, wrist], axis: [0, 0, 1], second_axis: [0, 1, 0], stiffness: {angle_1: 20, angle_2: 10}}
       rail: {type: prismatic, nodes: [ground, cart], axis: [1, 0.5, 0], stiffness: 100, rest: 0.05}
       link: {type: distance, nodes: [cart, side]}
+      ramp: {type: contact, stiffness: 2e4, shapes: [{node: ground, plane: [0, 0.1, 1], at: [0, 0, 0.17], rotation_vector: [0.1, 0, 0]}, {node: rider, sphere: 0.1}]}
     drives:
       motor: {joint: shoulder, torque: "3*sin(5*t) - 0.1*shoulder.angle"}
+    measures:
+      reach: {node: rider, relative_to: arm, quantity: position, direction: x, at: [[0.1, 0, 0.2], [0, 0.1, 0]]}
+      rise: {node: rider, direction: [0.1, 0.2, 1], at: [[0.1, 0.3, 0.2], [0, 0.1, 0]]}
     loads:
+      servo: {node: rider, force: [reach, 0, "2*rise"]}
       wind: {node: rider, force: ["2*t", 1, 0.2], moment: [0.1, 0, "0.3*cos(3*t)"], at: [0.1, 0, 0]}
       thrust: {node: rider, force: [0.1, 0, 1], moment: [0, 0.2, 0], follower: true}
 )yaml";

@@ -57,6 +57,16 @@ TEST_CASE("repetitions that mean nothing are refused where they stand") {
   CHECK_THAT(repeat("as: k"), Contains("give the `count`"));
   CHECK_THAT(repeat("count: 2"), Contains("'as' is missing"));
   CHECK_THAT(repeat("count: 2, as: k, form: 1"), Contains("'form'") && Contains("from"));
+  CHECK_THAT(repeat("count: 2 m, as: k"), Contains("nodes.a.repeat.count") && Contains("without a unit"));
+  CHECK_THAT(repeat("count: 2, as: [k]"), Contains("model.yaml:2: nodes.a.repeat.as: expected a text"));
+  for (const std::string name : {"t", "pi", "sin", "a b", "1", "k+1", "k.a", "ä"})
+    CHECK_THAT(repeat("count: 2, as: \"" + name + "\""), Contains("nodes.a.repeat.as: '" + name + "'"));
+  for (const std::string list : {"", "[]", "{}", "3", "[3]", "[[]]"})
+    CHECK_THAT(refusal("nodes:\n  a: {repeat: " + list + "}\n"), Contains("model.yaml:2: nodes.a.repeat: "));
+  CHECK_THAT(refusal("nodes:\n  a: {repeat: [{count: 2, as: k}, {count: 3, as: k}]}\n"),
+             Contains("nodes.a.repeat.as: 'k' has a meaning"));
+  CHECK_THAT(refusal("nodes:\n  a: {repeat: [{count: 2000, as: j}, {count: 2000, as: k}], if: k < 0}\n"),
+             Contains("nodes.a.repeat: these are more than 1000000 entries"));
   CHECK_THAT(refusal("nodes:\n  \"a_{k/2}\": {repeat: {count: 1, as: k}}\n"), Contains("{k/2}") && Contains("0.5"));
   CHECK_THAT(refusal("nodes:\n  \"a_{k\": {repeat: {count: 1, as: k}}\n"), Contains("not closed"));
   CHECK_THAT(refusal("nodes:\n  \"a_{m}\": {repeat: {count: 1, as: k}}\n"), Contains("'m'"));
@@ -76,6 +86,8 @@ nodes:
   CHECK_THAT(written, Contains("a: ") && !Contains("b: ") && Contains("c: ") && !Contains("d: ") && Contains("e_1") &&
                           !Contains("e_2") && Contains("e_3"));
   CHECK_THAT(refusal("nodes:\n  a: {if: dorp}\n"), Contains("model.yaml:2: nodes.a.if") && Contains("dorp"));
+  for (const std::string value : {"", "[]", "{}", "nan", "0/0", "5 deg", "no"})
+    CHECK_THAT(refusal("nodes:\n  a: {if: " + value + "}\n"), Contains("model.yaml:2: nodes.a.if: "));
 }
 
 TEST_CASE("a case replaces parameters and analyses") {
@@ -93,6 +105,13 @@ cases:
   CHECK_THAT(refusal(text, "slwo"), Contains("slow"));
   CHECK_THAT(refusal("nodes: {a: {}}\ncases:\n  c: {parameters: {x: 1}}\n", "c"),
              Contains("model.yaml:3: cases.c.parameters") && Contains("'x'"));
+  for (const std::string wrong :
+       {"c: 3", "c: []", "c: {gravity: [0, 0, 1]}", "c: {parameters: []}", "c: {parameters: {x: 1}}"})
+    CHECK_THAT(refusal("nodes: {a: {}}\ncases:\n  " + wrong + "\n"), Contains("model.yaml:3: cases.c"));
+  CHECK_THAT(refusal("nodes: {a: {}}\ncases:\n  a/b: {}\n"),
+             Contains("model.yaml:3: cases: 'a/b' is no name of a case"));
+  CHECK_THAT(refusal("cases:\n  c: {parameters: {x: }}\nparameters: {x: 1}\n", "c"),
+             Contains("model.yaml:2: parameters.x: expected a number"));
   CHECK_THAT(refusal("nodes: {a: {}}\ncases:\n  c: {prameters: {x: 1}}\n", "c"), Contains("parameters"));
 }
 
