@@ -64,7 +64,7 @@ class Extras:
             users.setdefault(section.material.upper(), []).append(section.set + (" (with an orientation, which is left out)" if section.oriented else ""))
         for name, properties in self.materials.items():
             regions = ", ".join(users.get(name.upper(), [])) or "no section"
-            notes.append(f"material '{name}' of {regions} is, in the file's units (the body file wants SI), {name.lower()}: {_properties(properties)}")
+            notes.append(f"material '{name}' of {regions} is, in the file's units (the body file wants SI, or `materials: from_file`), {name.lower()}: {_properties(properties)}")
         if len(users) > 1:
             notes.append("several materials: name them for their regions in the body file: "
                          + ", ".join(f"{section.set}: {section.material.lower()}" for section in self.sections))
@@ -82,7 +82,7 @@ def _properties(properties):
             values.append(f"density: {_number(numbers[0])}")
         else:
             rest.append(f"*{keyword}" + (f", TYPE={kind}" if "TYPE" in options else ""))
-    return "{" + ", ".join(values) + "}" + (f"; left out: {', '.join(rest)}, as materials are isotropic and linear" if rest else "")
+    return "{" + ", ".join(values) + "}" + (f"; not in this line: {', '.join(rest)}" if rest else "")
 
 
 def _number(word):

@@ -118,7 +118,7 @@ def _tell_materials(extras, cards):
         text = ", ".join(f"{key}: {value:g}" for key, value in
                          (("young", young), ("poisson", poisson), ("density", card.number(5, None))) if value is not None)
         users = ", ".join(of_property.get(number, [])) or "no property"
-        extras.notes.append(f"MAT1 {number} of {users} is, in the file's units (the body file wants SI), mat_{number}: {{{text}}}")
+        extras.notes.append(f"MAT1 {number} of {users} is, in the file's units (the body file wants SI, or `materials: from_file`), mat_{number}: {{{text}}}")
 
 
 def _tell_masses(extras, cards, places, tied):

@@ -175,6 +175,29 @@ TEST_CASE("A single distorted cell of any type has six rigid motions and no othe
   CHECK(masses.minCoeff() > 0);
 }
 
+TEST_CASE("Plain and reduced integration: hex8 and wedge6 are stiffer, hex20 has six hourglass modes") {
+  const auto values = [](CellType type, Integration integration) {
+    const Mesh mesh = cell_box(type, extent, {1, 1, 1});
+    const Solid solid = make_solid(mesh, {{"m", steel}}, {{"all", "m"}}, integration);
+    const Eigen::MatrixXd K = dense(assemble_stiffness(solid, node_graph(mesh)));
+    const Eigen::VectorXd found = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
+    return Eigen::VectorXd(found / found.maxCoeff());
+  };
+  for (const CellType type : {CellType::hex8, CellType::wedge6}) {
+    CAPTURE(cell_name(type));
+    const Eigen::VectorXd standard = values(type, Integration::standard), plain = values(type, Integration::plain);
+    CHECK((values(type, Integration::reduced) - standard).norm() < 1e-12);
+    CHECK(plain(6) > 1.2 * standard(6));
+  }
+  const Eigen::VectorXd standard = values(CellType::hex20, Integration::standard),
+                        reduced = values(CellType::hex20, Integration::reduced);
+  CHECK((values(CellType::hex20, Integration::plain) - standard).norm() < 1e-12);
+  CHECK(standard(6) > 1e-3);
+  // Eight points see 48 strains of the 54 that 60 displacements without rigid motions have.
+  CHECK(reduced.head<12>().cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(reduced(12) > 1e-3);
+}
+
 TEST_CASE("Stiffness, stress and geometric stiffness of all types turn with the body") {
   const Cells cells = GENERATE(from_range(all_cells()));
   CAPTURE(cells.name);
