@@ -113,6 +113,7 @@ void read_regions(const YamlValue& root, BodyFile& body) {
   const YamlValue materials = root.at("materials");
   std::map<std::string, std::string> of_deck;
   if (!materials.is_map()) {
+    materials.word();  // from_file
     of_deck = read_deck_materials(root, body);
   } else {
     for (const auto& [name, value] : materials.entries()) {
@@ -128,7 +129,7 @@ void read_regions(const YamlValue& root, BodyFile& body) {
 
   if (!root.has("regions")) {
     if (of_deck.empty())
-      root.fail("'regions' is missing: it tells which volumes have which material, e.g. all: " + names.front());
+      root.fail("the key 'regions' is missing: it tells which volumes have which material, e.g. all: " + names.front());
     options.regions = of_deck;
     for (const auto& [group, material] : of_deck) body.mesh.volumes.push_back({group, materials.path()});
     return;

@@ -107,8 +107,10 @@ class DeckMaterials(CommandTest):
         self.refuse(self.nastran(""), "PSOLID 1 names the material 1", ending="bdf")
         self.refuse(self.nastran("MAT1,1,210000.\n"), "needs two of E, G and NU", ending="bdf")
         self.refuse(self.nastran("MAT1,1,210000.,,.3\n"), "MAT1 1 has no density", ending="bdf")
+        for wrong in ("from_files", "[from_file]"):
+            self.refuse(self.abaqus(steel), "bad.yaml:4: materials", text=FROM_FILE.replace("from_file", wrong))
         plain = f"body: bar\ngeometry: bar.inp\nmaterials: {{stuff: {STEEL}}}\n" + INTERFACES
-        self.refuse(self.abaqus(steel), "'regions' is missing", text=plain)
+        self.refuse(self.abaqus(steel), "the key 'regions' is missing", text=plain)
         units = plain.replace("body: bar", "body: bar\nregions: {all: stuff}\nmass_unit: t")
         self.refuse(self.abaqus(steel), "bad.yaml:3: mass_unit", "materials: from_file", text=units)
         self.refuse(self.abaqus(steel), "mass_unit", "'slinch'", text=FROM_FILE.replace("mass_unit: t", "mass_unit: slinc"))

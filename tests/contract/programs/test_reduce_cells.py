@@ -123,6 +123,39 @@ class Cells(CommandTest):
         self.expect_refusal(1, "mixed.yaml", "-o", "mixed.h5",
                             says=("mixed.yaml:2: geometry", "4 quadrilateral faces of solid cells stand against two triangles", "(0.3, "))
 
+    def test_reduced_integration_is_judged(self):
+        """A bar one cell thick is singular, a thicker one has hourglass modes among the high ones."""
+        for across, says in ((1, "singular at the point"), (3, "is an hourglass mode")):
+            box = cell_decks.Box(("hexahedron",) * (6 if across == 1 else 3), 2, across)
+            self.write("bar.inp", box.abaqus())
+            for integration, wanted in (("standard", False), ("reduced", True)):
+                with self.subTest(across=across, integration=integration):
+                    text = BODY.format(name="bar", kept="all").replace("bar.msh", "bar.inp").replace("count: 4", "count: 60")
+                    text = text.split("  right:")[0] + "modes:" + text.split("modes:")[1]
+                    self.write("bar.yaml", f"integration: {integration}\n" + text)
+                    done = self.run_program("bar.yaml", "-o", "bar.h5")
+                    self.assertEqual(done.returncode, 2 if wanted and across == 1 else 0)
+                    self.assertEqual(says in done.stderr, wanted)
+                    self.assertEqual("integration: reduced' out" in done.stderr, wanted)
+
+    def test_plain_integration_locks(self):
+        """hex8 without internal modes bends far too little, as other programs' C3D8."""
+        self.mesh("bar", ("hexahedron",) * 12, 1)
+        first = {}
+        for integration in ("standard", "plain"):
+            text = BODY.format(name="bar", kept="all")
+            self.write("bar.yaml", f"integration: {integration}\n" + text)
+            done = self.run_program("bar.yaml", "-o", "bar.h5", "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with h5py.File(self.path("bar.h5")) as file:
+                first[integration] = float(file["adequacy/free_frequencies"][0])
+                self.assertEqual(float(file["adequacy/element_order"][()]), 1 if integration == "plain" else 2)
+        self.assertGreater(first["plain"], 1.05 * first["standard"])
+        self.mesh("tets", ("tetra",) * 3, 2)
+        for integration in ("plain", "reduced"):
+            self.write("tets.yaml", f"integration: {integration}\n" + BODY.format(name="tets", kept="all"))
+            self.expect_refusal(1, "tets.yaml", "-o", "tets.h5", says=("tets.yaml:1: integration", f"'{integration}'", "the mesh has none"))
+
     def test_inverted_cells_are_named(self):
         box = cell_decks.Box(("hexahedron",) * 2, 1)
         middle = next(k for k, x in enumerate(box.points) if np.allclose(x, [0.3, 0, 0.05]))

@@ -166,7 +166,9 @@ TEST_CASE("cells of order 1 and of order 2 do not fit together") {
                       "0.5) m: the body would be torn open between the corners; use cells with the same number of "
                       "nodes on an edge and on a face"));
   // Wedges meet hexahedra.
-  CHECK_NOTHROW(joined(linear, moved(cell_box(CellType::wedge6, {1, 1, 1}, {1, 2, 2}), {1, 0, 0})));
+  const TemporaryFolder folder;
+  const Mesh fits = joined(linear, moved(cell_box(CellType::wedge6, {1, 1, 1}, {1, 2, 2}), {1, 0, 0}));
+  CHECK(import(request(folder.file("body.msh", as_msh(fits)))).solid_count() == 12);
 }
 
 TEST_CASE("a quadrilateral on two triangles is refused, along either diagonal") {
@@ -174,8 +176,7 @@ TEST_CASE("a quadrilateral on two triangles is refused, along either diagonal") 
   const std::string message =
       "1 quadrilateral face of solid cells stands against two triangles, the first at (1, 0.5, 0.5) m: the "
       "displacements of both sides would part there; pyramids join hexahedra and tetrahedra";
-  CHECK_THAT(refusal(joined(box, moved(cell_box(CellType::tet4, {1, 1, 1}, {1, 1, 1}), {1, 0, 0}))),
-             Contains(message));
+  CHECK_THAT(refusal(joined(box, moved(cell_box(CellType::tet4, {1, 1, 1}, {1, 1, 1}), {1, 0, 0}))), Contains(message));
   const PointMap turned = [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x.x(), 1 - x.z(), x.y()); };
   CHECK_THAT(refusal(joined(box, moved(cell_box(CellType::tet4, {1, 1, 1}, {1, 1, 1}, turned), {1, 0, 0}))),
              Contains(message));
