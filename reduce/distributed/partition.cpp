@@ -61,11 +61,7 @@ SolidPart part_of(const Solid& solid, const std::vector<int>& cells) {
   MeshShare& share = part.share;
   share.integration = solid.integration;
   share.points = solid.mesh.points(Eigen::all, part.points);
-  for (const GroupPart& of_type : solid.cells.group_of(cells).parts) {
-    CellBlock own{of_type.type, solid.mesh.block(of_type.type)->nodes(Eigen::all, of_type.cells)};
-    for (int& node : own.nodes.reshaped()) node = number[node];
-    share.blocks.push_back(std::move(own));
-  }
+  share.blocks = solid.cells.blocks_of(cells, number);
   for (const int cell : cells) share.material_of.push_back(solid.material_of[cell]);
   for (const Material& material : solid.materials) {
     share.elasticities.push_back(material.elasticity);

@@ -1,9 +1,8 @@
 #include "reduce/fe/stress.hpp"
 
-#include <algorithm>
-
 #include <Eigen/LU>
 
+#include "reduce/common/sort_unique.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/internal_modes.hpp"
@@ -175,8 +174,7 @@ std::vector<int> surface_nodes(const Solid& solid) {
     const Eigen::VectorXi nodes = faces.nodes(face);
     result.insert(result.end(), nodes.begin(), nodes.end());
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_unique(result);
   return result;
 }
 

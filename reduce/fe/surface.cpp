@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/sort_unique.hpp"
 #include "reduce/mesh/quadrature.hpp"
 #include "reduce/mesh/shape_functions.hpp"
 
@@ -67,8 +68,7 @@ SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& name) {
   if (!(result.area > 0)) {
     throw InputError(fmt::format("the surface group '{}' has no area", name));
   }
-  std::sort(result.nodes.begin(), result.nodes.end());
-  result.nodes.erase(std::unique(result.nodes.begin(), result.nodes.end()), result.nodes.end());
+  sort_unique(result.nodes);
   result.centroid = first / result.area;
 
   const auto count = static_cast<Eigen::Index>(result.nodes.size());

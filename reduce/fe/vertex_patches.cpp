@@ -1,6 +1,6 @@
 #include "reduce/fe/vertex_patches.hpp"
 
-#include <algorithm>
+#include "reduce/common/sort_unique.hpp"
 
 namespace bielle::reduce {
 
@@ -32,8 +32,7 @@ std::vector<int> patch_of(const Solid& solid, const Surroundings& around, std::s
         const std::vector<int>& more = around.cells[around.number[at]];
         wider.insert(wider.end(), more.begin(), more.end());
       }
-    std::sort(wider.begin(), wider.end());
-    wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+    sort_unique(wider);
     patch = std::move(wider);
   }
   return patch;

@@ -8,6 +8,7 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/sort_unique.hpp"
 #include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {
@@ -29,26 +30,20 @@ Eigen::Vector3d middle(const Mesh& mesh, const Corners& corners) {
   return sum / corners.size();
 }
 
-bool same_nodes(Eigen::VectorXi one, Eigen::VectorXi other) {
-  std::sort(one.begin(), one.end());
-  std::sort(other.begin(), other.end());
-  return one.size() == other.size() && one == other;
-}
-
 void check_common_faces(const Mesh& mesh, const FaceTable& faces) {
   const SolidCells cells(mesh);
   Faults faults;
   std::set<std::string> kinds;
   for (int face = 0; face < faces.size(); ++face) {
-    if (faces.on_boundary(face) || same_nodes(faces.nodes(face), faces.other_nodes(face))) continue;
+    if (faces.on_boundary(face) || faces.same_on_both_sides(face)) continue;
     faults.add(middle(mesh, faces.corners(face)));
     for (const int cell : {faces.cell(face), faces.other_cell(face)}) kinds.insert(cell_name(cells.type(cell)));
   }
   if (faults.count == 0) return;
   throw InputError(fmt::format(
-      "{} between cells {} not the same nodes on both sides ({}), the first at {}: the body would be torn open between "
-      "the corners; {}",
-      counted(faults.count, "face"), faults.count == 1 ? "has" : "have", fmt::join(kinds, ", "),
+      "{} between cells {} not have the same nodes on both sides ({}), the first at {}: the body would be torn open "
+      "between the corners; {}",
+      counted(faults.count, "face"), faults.count == 1 ? "does" : "do", fmt::join(kinds, ", "),
       place_name(faults.first),
       kinds.size() > 1 ? "use cells with the same number of nodes on an edge and on a face" : "merge the nodes"));
 }
@@ -84,8 +79,7 @@ std::vector<std::array<int, 2>> boundary_edges(const FaceTable& faces) {
       edges.push_back({std::min(a, b), std::max(a, b)});
     }
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_unique(edges);
   return edges;
 }
 
@@ -98,8 +92,7 @@ void check_hanging_nodes(const Mesh& mesh, const FaceTable& faces) {
   std::vector<std::pair<double, int>> corners;
   for (const auto& edge : edges)
     for (const int node : edge) corners.emplace_back(direction * mesh.points.col(node), node);
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  sort_unique(corners);
   const auto is_edge = [&](int a, int b) {
     return std::binary_search(edges.begin(), edges.end(), std::array<int, 2>{std::min(a, b), std::max(a, b)});
   };

@@ -38,9 +38,14 @@ Eigen::VectorXi FaceTable::nodes(int face) const {
   return cells_.nodes(of.cell)(side_of(of.cell, of.side).nodes);
 }
 
-Eigen::VectorXi FaceTable::other_nodes(int face) const {
+bool FaceTable::same_on_both_sides(int face) const {
   const Face& of = faces_[face];
-  return cells_.nodes(of.other)(side_of(of.other, of.other_side).nodes);
+  const std::vector<int>&one = side_of(of.cell, of.side).nodes, &other = side_of(of.other, of.other_side).nodes;
+  if (one.size() != other.size()) return false;
+  const auto nodes = cells_.nodes(of.cell), of_other = cells_.nodes(of.other);
+  return std::all_of(one.begin(), one.end(), [&](int a) {
+    return std::any_of(other.begin(), other.end(), [&](int b) { return nodes(a) == of_other(b); });
+  });
 }
 
 Corners FaceTable::corners(int face) const { return corners_in(faces_[face].cell, faces_[face].side); }

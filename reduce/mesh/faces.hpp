@@ -24,12 +24,12 @@ class FaceTable {
 
   int size() const { return static_cast<int>(faces_.size()); }
   bool on_boundary(int face) const { return faces_[face].other < 0; }
+  bool same_on_both_sides(int face) const;  ///< whether both cells have all its nodes, not only its corners
   int cell(int face) const { return faces_[face].cell; }         ///< its (first) solid cell
   int other_cell(int face) const { return faces_[face].other; }  ///< its second one; -1 on the boundary
   CellType type(int face) const { return side_of(faces_[face].cell, faces_[face].side).type; }  ///< tri3, quad8, ...
-  Eigen::VectorXi nodes(int face) const;        ///< all its nodes in gmsh's order of its type
-  Eigen::VectorXi other_nodes(int face) const;  ///< the same as the second cell has them
-  Corners corners(int face) const;              ///< three or four, outward
+  Eigen::VectorXi nodes(int face) const;  ///< all its nodes in gmsh's order of its type
+  Corners corners(int face) const;        ///< three or four, outward
   /// Returns the face with these corners in any order.
   std::optional<int> find(const Corners& corners) const;
   std::vector<int> boundary() const;  ///< faces of one cell only, ascending

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/sort_unique.hpp"
 #include "reduce/mesh/selectors.hpp"
 
 namespace bielle::reduce {
@@ -56,11 +57,6 @@ std::vector<int> faces_of(const std::vector<Corners>& cells, const FaceTable& fa
     found.push_back(*face);
   }
   return found;
-}
-
-void sort_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 // Adds cells of one block and their nodes to a group.

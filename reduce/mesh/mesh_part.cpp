@@ -33,11 +33,7 @@ MeshExtraction::MeshExtraction(const Mesh& whole, const std::vector<int>& parts,
       part_.nodes.push_back(node);
     }
   part_.mesh.points = whole.points(Eigen::all, part_.nodes);
-  for (const GroupPart& of_type : all.group_of(cells).parts) {
-    CellBlock own{of_type.type, whole.block(of_type.type)->nodes(Eigen::all, of_type.cells)};
-    for (int& node : own.nodes.reshaped()) node = number_in_part_[node];
-    part_.mesh.blocks.push_back(std::move(own));
-  }
+  part_.mesh.blocks = all.blocks_of(cells, number_in_part_);
 }
 
 void MeshExtraction::add_volumes() {

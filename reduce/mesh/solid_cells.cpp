@@ -1,17 +1,8 @@
 #include "reduce/mesh/solid_cells.hpp"
 
-#include <algorithm>
+#include "reduce/common/sort_unique.hpp"
 
 namespace bielle::reduce {
-
-namespace {
-
-void sort_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-}  // namespace
 
 SolidCells::SolidCells(const Mesh& mesh) : mesh_(&mesh) {
   for (std::size_t k = 0; k < mesh.blocks.size(); ++k) {
@@ -68,6 +59,16 @@ Group SolidCells::group_of(std::vector<int> cells) const {
   }
   sort_unique(group.nodes);
   return group;
+}
+
+std::vector<CellBlock> SolidCells::blocks_of(const std::vector<int>& cells, const std::vector<int>& number) const {
+  std::vector<CellBlock> blocks;
+  for (const GroupPart& part : group_of(cells).parts) {
+    CellBlock block{part.type, mesh_->block(part.type)->nodes(Eigen::all, part.cells)};
+    for (int& node : block.nodes.reshaped()) node = number[node];
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
 }
 
 }  // namespace bielle::reduce

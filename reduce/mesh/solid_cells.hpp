@@ -38,6 +38,8 @@ class SolidCells {
   std::vector<int> members(const Group& group) const;
   /// A volume group of some cells.
   Group group_of(std::vector<int> cells) const;
+  /// Blocks of some cells alone, in the order of their numbers. @param number  new number of each node
+  std::vector<CellBlock> blocks_of(const std::vector<int>& cells, const std::vector<int>& number) const;
 
  private:
   const Range& range_of(int cell) const;

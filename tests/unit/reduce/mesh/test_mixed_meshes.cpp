@@ -158,13 +158,15 @@ TEST_CASE("straightening mends the cells of order 2 of every type in a mixed mes
 
 TEST_CASE("cells of order 1 and of order 2 do not fit together") {
   const Mesh linear = cell_box(CellType::hex8, {1, 1, 1}, {1, 2, 2});
-  CHECK_THAT(refusal(joined(linear, moved(cell_box(CellType::hex20, {1, 1, 1}, {1, 2, 2}), {1, 0, 0}))),
-             Contains("4 faces between cells have not the same nodes on both sides (hex20, hex8), the first at (1, "));
-  CHECK_THAT(refusal(joined(cell_box(CellType::hex20, {1, 1, 1}, {1, 1, 1}),
-                            moved(cell_box(CellType::hex27, {1, 1, 1}, {1, 1, 1}), {1, 0, 0}))),
-             Contains("1 face between cells has not the same nodes on both sides (hex20, hex27), the first at (1, 0.5, "
-                      "0.5) m: the body would be torn open between the corners; use cells with the same number of "
-                      "nodes on an edge and on a face"));
+  CHECK_THAT(
+      refusal(joined(linear, moved(cell_box(CellType::hex20, {1, 1, 1}, {1, 2, 2}), {1, 0, 0}))),
+      Contains("4 faces between cells do not have the same nodes on both sides (hex20, hex8), the first at (1, "));
+  CHECK_THAT(
+      refusal(joined(cell_box(CellType::hex20, {1, 1, 1}, {1, 1, 1}),
+                     moved(cell_box(CellType::hex27, {1, 1, 1}, {1, 1, 1}), {1, 0, 0}))),
+      Contains("1 face between cells does not have the same nodes on both sides (hex20, hex27), the first at (1, 0.5, "
+               "0.5) m: the body would be torn open between the corners; use cells with the same number of "
+               "nodes on an edge and on a face"));
   // Wedges meet hexahedra.
   const TemporaryFolder folder;
   const Mesh fits = joined(linear, moved(cell_box(CellType::wedge6, {1, 1, 1}, {1, 2, 2}), {1, 0, 0}));
