@@ -11,7 +11,7 @@ import numpy as np
 from .abaqus_file import read_sections
 from .foreign_mesh import MANY_PROGRAMS, NASTRAN, is_nastran
 from .messages import InputError, counted
-from .nastran_cards import read_cards
+from .nastran_cards import read_cards, young_and_poisson
 
 # Rows of Nastran's order xx yy zz xy yz zx, and of Abaqus' xx yy zz xy xz yz, in the order xx yy zz yz xz xy.
 FROM_NASTRAN, FROM_ABAQUS = (0, 1, 2, 4, 5, 3), (0, 1, 2, 5, 4, 3)
@@ -77,13 +77,9 @@ def _required(card, k, what):
 
 
 def _mat1(card):
-    young, shear, poisson = (card.number(k, None) for k in (2, 3, 4))
-    if sum(value is not None for value in (young, shear, poisson)) < 2:
+    young, poisson = young_and_poisson(card)
+    if young is None or poisson is None:
         raise InputError(f"'{card.path}': line {card.line}: MAT1 {card.integer(1)} needs two of E, G and NU")
-    if young is None:
-        young = 2 * shear * (1 + poisson)
-    if poisson is None:
-        poisson = young / (2 * shear) - 1
     return {"young": young, "poisson": poisson, "density": _required(card, 5, "density")}
 
 

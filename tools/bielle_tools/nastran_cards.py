@@ -13,6 +13,16 @@ from .text_lines import lines_of
 DEEPEST = 20  # files that include each other
 
 
+def young_and_poisson(card):
+    """The constants of a MAT1, of which one follows from the other two; None for what cannot be known."""
+    young, shear, poisson = (card.number(k, None) for k in (2, 3, 4))
+    if young is None and None not in (shear, poisson):
+        young = 2 * shear * (1 + poisson)
+    if poisson is None and None not in (young, shear):
+        poisson = young / (2 * shear) - 1
+    return young, poisson
+
+
 class Card:
     def __init__(self, path, line, fields):
         self.path, self.line, self.fields, self.name = path, line, fields, fields[0]

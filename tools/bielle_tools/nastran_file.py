@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .messages import InputError, counted
+from .nastran_cards import young_and_poisson
 from .nastran_mesh import SHAPES
 
 # Cards of stiffness, mass or conditions that solid cells do not represent.
@@ -110,11 +111,7 @@ def _tell_materials(extras, cards):
         of_property.setdefault(card.integer(2), []).append(f"property_{card.integer(1)}")
     for card in cards["MAT1"]:
         number = card.integer(1)
-        young, shear, poisson = (card.number(k, None) for k in (2, 3, 4))
-        if young is None and None not in (shear, poisson):
-            young = 2 * shear * (1 + poisson)
-        if poisson is None and None not in (young, shear):
-            poisson = young / (2 * shear) - 1
+        young, poisson = young_and_poisson(card)
         text = ", ".join(f"{key}: {value:g}" for key, value in
                          (("young", young), ("poisson", poisson), ("density", card.number(5, None))) if value is not None)
         users = ", ".join(of_property.get(number, [])) or "no property"
