@@ -256,12 +256,10 @@ const KeyTable& body_file_keys() {
         "geometry."},
        {"mass_unit", word(mass_units(), "a unit of mass"), otherwise("kg"),
         "Unit of mass of the materials that are taken from the file; their length has the `length_unit`, their time is "
-        "in "
-        "seconds. A file in N, mm and MPa has `t`."},
+        "in seconds. A file in N, mm and MPa has `t`."},
        {"integration", word({"standard", "plain", "reduced"}, "an integration"), otherwise("standard"),
         "Integration of the stiffness. `plain` leaves out the internal modes of hexahedra with 8 nodes and of wedges "
-        "with "
-        "6, which then lock in bending, as C3D8 and C3D6 of other programs; `reduced` takes 2 x 2 x 2 points in "
+        "with 6, which then lock in bending, as C3D8 and C3D6 of other programs; `reduced` takes 2 x 2 x 2 points in "
         "hexahedra with 20 nodes, as C3D20R, and warns of hourglass modes."},
        {"regions", entries("physical volume", {name_of("material")}), computed("those of the file, with `from_file`"),
         "Materials of the physical volumes; `all` is the whole body."},
