@@ -7,6 +7,7 @@
 
 #include "reduce/body_file/body_interfaces.hpp"
 #include "reduce/body_file/body_loads.hpp"
+#include "reduce/body_file/body_masses.hpp"
 #include "reduce/body_file/body_materials.hpp"
 #include "reduce/body_file/body_pieces.hpp"
 #include "reduce/body_file/body_points.hpp"
@@ -27,8 +28,8 @@ const KeyTable& mesh_keys() {
         "Length of edges at which the mesh aims. A `.geo` may do without, other geometries may not."},
        {"order", integer().between(1, 2), otherwise("2"),
         "Order of the tetrahedra: 1 for 4 nodes, 2 for 10. Order 1 is far too stiff in bending."},
-       {"sizes", entries("physical group, interface, load or point", {number("m").positive()}), optional,
-        "Other sizes on physical groups, or on the surfaces of interfaces, loads and points; they fade into `size` "
+       {"sizes", entries("physical group, interface, load, point or mass", {number("m").positive()}), optional,
+        "Other sizes on physical groups, or on the surfaces of interfaces, loads, points and masses; they fade into `size` "
         "away from them."}}};
   return table;
 }
@@ -91,12 +92,15 @@ void read_mesh(const YamlValue& root, MeshRequest& request) {
     for (const auto& [name, size] : sizes->entries()) request.sizes[name] = {size.number(), size.path()};
 }
 
-// `mesh.sizes` may name interfaces, loads and points: their groups take their place.
+// `mesh.sizes` may name interfaces, loads, points and masses: their groups take their place.
 void resolve_sizes(const YamlValue& root, const ReductionOptions& options, MeshRequest& request) {
   std::map<std::string, std::string> group_of;
   for (const PointRequest& point : options.points)
     if (!point.group.empty()) group_of[point.name] = point.group;
   for (const LoadRequest& load : options.loads) group_of[load.name] = load.group;
+  for (const CoatingRequest& coating : options.coatings) group_of[coating.name] = coating.group;
+  for (const MassRequest& mass : options.masses)
+    if (!mass.group.empty()) group_of[mass.name] = mass.group;
   for (const InterfaceRequest& interface : options.interfaces) group_of[interface.name] = interface.group;
   std::map<std::string, GroupSize> resolved;
   for (const auto& [name, size] : request.sizes) {
@@ -226,6 +230,8 @@ BodyFile read(const YamlValue& file) {
   if (const auto damping = root.find("damping")) read_damping(*damping, body.options);
   if (const auto loads = root.find("loads"))
     for (const auto& [name, value] : loads->entries()) body.options.loads.push_back(read_load(name, value, body.mesh));
+  if (const auto masses = root.find("masses")) read_masses(*masses, body.mesh, body.options);
+  body.options.lumped = root.at("lumped").boolean();
   if (const auto points = root.find("points")) body.options.points = read_points(*points, body.mesh);
   if (const auto recovery = root.find("recovery")) read_recovery(*recovery, body.options);
   if (const auto pieces = root.find("pieces")) body.pieces = read_pieces(*pieces, body.mesh.cuts);
@@ -271,6 +277,11 @@ const KeyTable& body_file_keys() {
        {"damping", nested(damping_keys), optional, "Damping of the body, which is undamped without it."},
        {"loads", entries("load", {nested(load_keys)}), optional, "Patterns of load by their names."},
        {"points", entries("point", {nested(point_keys)}), optional, "Points inside the body by their names."},
+       {"masses", entries("mass", {nested(mass_keys)}), optional,
+        "Masses that the body carries: equipment, paint; by their names."},
+       {"lumped", boolean(), otherwise("false"),
+        "The mesh has a diagonal mass matrix, to compare with other programs: row sums for cells of order 1, the scaled "
+        "diagonal for cells of order 2. Frequencies become less accurate."},
        {"recovery", nested(recovery_keys), optional, "Fields that the mechanism can recover."},
        {"pieces", nested(pieces_keys), optional,
         "Cuts that divide the body into several superelements; it is one without them."}}};

@@ -8,7 +8,7 @@ namespace bielle::reduce {
 
 namespace {
 
-const KeyTable& cylinder_keys() {
+const KeyTable& cylinder_shape_keys() {
   using namespace keys;
   static const KeyTable table{"a cylinder",
                               "A circular cylinder without ends.",
@@ -18,7 +18,7 @@ const KeyTable& cylinder_keys() {
   return table;
 }
 
-const KeyTable& plane_keys() {
+const KeyTable& plane_shape_keys() {
   using namespace keys;
   static const KeyTable table{"a plane",
                               "A plane without bounds.",
@@ -33,8 +33,8 @@ const KeyTable& shape_keys() {
       "a surface given by its shape",
       "A shape on which a surface lies, within 1e-4 of the diagonal of the body's box; with several shapes it lies on "
       "all of them.",
-      {{"cylinder", nested(cylinder_keys), optional, "A circular cylinder on which the surface lies."},
-       {"plane", nested(plane_keys), optional, "A plane on which the surface lies."},
+      {{"cylinder", nested(cylinder_shape_keys), optional, "A circular cylinder on which the surface lies."},
+       {"plane", nested(plane_shape_keys), optional, "A plane on which the surface lies."},
        {"box", list_of(2, vector3("m")), optional,
         "Two opposite corners of a box along the axes of the body, in which the surface lies."}}};
   return table;

@@ -80,8 +80,9 @@ class DistributedMatrices : public BodyMatrices {
  public:
   DistributedMatrices(Channel& channel, int ranks, const Solid& solid, int threads) : channel_(channel), solid_(solid) {
     order(channel_, Command::keep, threads);
+    const CoatedCells coated = coated_cells(solid);
     for (const std::vector<int>& cells : divided_cells(solid, ranks)) {
-      SolidPart part = part_of(solid, cells);
+      SolidPart part = part_of(solid, cells, coated);
       send_packed(channel_, part.share);
       points_.push_back(std::move(part.points));
     }
@@ -98,7 +99,7 @@ class DistributedMatrices : public BodyMatrices {
   DistributedMatrices& operator=(const DistributedMatrices&) = delete;
 
   RowMatrix stiffness_times(const RowMatrix& u) const override { return product_of_parts(Command::stiffness, u, 3); }
-  RowMatrix mass_times(const RowMatrix& u, int rows_per_node) const override {
+  RowMatrix mesh_mass_times(const RowMatrix& u, int rows_per_node) const override {
     return product_of_parts(Command::mass, u, rows_per_node);
   }
 

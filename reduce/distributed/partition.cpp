@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "reduce/mesh/faces.hpp"
+
 namespace bielle::reduce {
 
 namespace {
@@ -36,6 +38,34 @@ void divide(const Eigen::Matrix3Xd& centroids, std::span<int> cells, int first_p
   divide(centroids, {middle, cells.end()}, first_part + low, parts - low, result);
 }
 
+/// Adds the faces of a coating on some cells.
+/// @param cells  ascending @param on  cell of each face @param number  of each point in the share
+void add_coating(const Solid& solid, const Coating& coating, const std::vector<int>& cells, const std::vector<int>& on,
+                 const std::vector<int>& number, MeshShare& share) {
+  Coating own{{coating.faces.dimension, {}, {}}, coating.mass_per_area};
+  std::size_t face = 0;
+  for (const GroupPart& of_type : coating.faces.parts) {
+    std::vector<int> here;
+    for (const int column : of_type.cells)
+      if (std::binary_search(cells.begin(), cells.end(), on[face++])) here.push_back(column);
+    if (here.empty()) continue;
+    auto block = std::find_if(share.blocks.begin(), share.blocks.end(),
+                              [&](const CellBlock& known) { return known.type == of_type.type; });
+    if (block == share.blocks.end())
+      block = share.blocks.insert(share.blocks.end(),
+                                  {of_type.type, Eigen::MatrixXi(node_count(of_type.type), 0)});
+    Eigen::MatrixXi nodes = solid.mesh.block(of_type.type)->nodes(Eigen::all, here);
+    for (int& node : nodes.reshaped()) node = number[node];
+    const Eigen::Index first = block->nodes.cols();
+    block->nodes.conservativeResize(Eigen::NoChange, first + nodes.cols());
+    block->nodes.rightCols(nodes.cols()) = nodes;
+    GroupPart faces{of_type.type, std::vector<int>(here.size())};
+    std::iota(faces.cells.begin(), faces.cells.end(), static_cast<int>(first));
+    own.faces.parts.push_back(std::move(faces));
+  }
+  if (!own.faces.parts.empty()) share.coatings.push_back(std::move(own));
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts) {
@@ -48,7 +78,22 @@ std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts) {
   return result;
 }
 
-SolidPart part_of(const Solid& solid, const std::vector<int>& cells) {
+CoatedCells coated_cells(const Solid& solid) {
+  CoatedCells result;
+  if (solid.coatings.empty()) return result;
+  const FaceTable faces(solid.mesh);
+  for (const Coating& coating : solid.coatings) {
+    result.emplace_back();
+    for (const GroupPart& part : coating.faces.parts)
+      for (const int face : part.cells) {
+        const auto nodes = solid.mesh.block(part.type)->nodes.col(face);
+        result.back().push_back(faces.cell(faces.find(corners_of(part.type, nodes)).value()));
+      }
+  }
+  return result;
+}
+
+SolidPart part_of(const Solid& solid, const std::vector<int>& cells, const CoatedCells& coated) {
   SolidPart part;
   std::vector<int> number(static_cast<std::size_t>(solid.points()), -1);
   for (const int cell : cells)
@@ -67,6 +112,9 @@ SolidPart part_of(const Solid& solid, const std::vector<int>& cells) {
     share.elasticities.push_back(material.elasticity);
     share.densities.push_back(material.density);
   }
+  share.lumped = solid.lumped;
+  for (std::size_t k = 0; k < solid.coatings.size(); ++k)
+    add_coating(solid, solid.coatings[k], cells, coated[k], number, share);
   return part;
 }
 

@@ -20,7 +20,12 @@ struct SolidPart {
 /// @param parts  >= 1; there may be more than cells
 std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts);
 
-/// @param cells  ascending
-SolidPart part_of(const Solid& solid, const std::vector<int>& cells);
+/// By coating: the (first) cell of each of its faces.
+using CoatedCells = std::vector<std::vector<int>>;
+CoatedCells coated_cells(const Solid& solid);
+
+/// @param cells   ascending
+/// @param coated  coated_cells of the solid
+SolidPart part_of(const Solid& solid, const std::vector<int>& cells, const CoatedCells& coated);
 
 }  // namespace bielle::reduce

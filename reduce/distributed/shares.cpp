@@ -4,6 +4,11 @@
 
 namespace bielle::reduce {
 
+void exchange(Packing& packing, Coating& coating) {
+  packing(coating.faces);
+  packing(coating.mass_per_area);
+}
+
 void exchange(Packing& packing, MeshShare& share) {
   packing(share.points);
   packing(share.blocks);
@@ -11,6 +16,8 @@ void exchange(Packing& packing, MeshShare& share) {
   packing(share.elasticities);
   packing(share.densities);
   packing(share.integration);
+  packing(share.coatings);
+  packing(share.lumped);
 }
 
 void exchange(Packing& packing, InteriorShare& share) {

@@ -8,6 +8,7 @@
 
 #include "reduce/common/files/packing.hpp"
 #include "reduce/fe/integration.hpp"
+#include "reduce/fe/solid.hpp"
 #include "reduce/mesh/mesh.hpp"
 
 namespace bielle::reduce {
@@ -15,11 +16,13 @@ namespace bielle::reduce {
 /// Cells with their points, numbered anew, and their materials.
 struct MeshShare {
   Eigen::Matrix3Xd points;                                ///< [m]
-  std::vector<CellBlock> blocks;                          ///< one for each type of cells
+  std::vector<CellBlock> blocks;                          ///< one for each type of cells, then of coated faces
   std::vector<int> material_of;                           ///< of each cell, block after block
   std::vector<Eigen::Matrix<double, 6, 6>> elasticities;  ///< [Pa]
   std::vector<double> densities;                          ///< [kg/m^3]
   Integration integration = Integration::standard;
+  std::vector<Coating> coatings;                          ///< faces that are not in another share, too
+  bool lumped = false;
 };
 
 void exchange(Packing& packing, MeshShare& share);

@@ -8,6 +8,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/dense/blas.hpp"
+#include "reduce/fe/cell_mass.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/fe/internal_modes.hpp"
 #include "reduce/fe/solid_block.hpp"
@@ -152,35 +153,29 @@ void add_to_node_matrix(const SolidBlock& block, const NodeGraph& graph, Eigen::
 
 template <int N>
 void add_mass(const SolidBlock& block, const NodeGraph& graph, NodeMatrix& m, int threads) {
-  const CellRules<N> rules(N == 4                          ? CellDegrees{2, 2}
-                           : N == 10                       ? CellDegrees{4, 7}
-                           : SolidCell<N>::is_second_order ? CellDegrees{4, 7}
-                                                           : CellDegrees{2, 4});
-  const auto integrate = [](const CellRule<N>& rule, const auto& jacobian) {
-    Eigen::Matrix<double, N, N> sum = Eigen::Matrix<double, N, N>::Zero();
-    for (std::size_t p = 0; p < rule.size(); ++p) {
-      sum.noalias() += rule.weights(p) * jacobian(p) * rule.values[p] * rule.values[p].transpose();
-    }
-    return sum;
-  };
-  const Eigen::Matrix<double, N, N> straight = integrate(rules.straight, [](std::size_t) { return 1.0; });
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const CellMass<N> mass;
   InvertedCells inverted;
   for_each_cell(block, threads, [&](int e) {
-    const CellPoints<N> x = block.points<N>(e);
-    const CellRule<N>& rule = rules.of(x);
-    const auto jacobian = [&](std::size_t p) {
-      const double value = Eigen::Matrix3d(x * rule.local_gradients[p]).determinant();
-      if (!(value > 0)) {
-        inverted.note(block.first + e);
-      }
-      return value;
-    };
+    double least_jacobian = 0;
+    const Matrix reference = mass.of(block.points<N>(e), least_jacobian);
+    if (!(least_jacobian > 0)) inverted.note(block.first + e);
     const double density = block.material(e).density;
-    const Eigen::Matrix<double, N, N> reference =
-        &rule == &rules.straight ? Eigen::Matrix<double, N, N>(jacobian(0) * straight) : integrate(rule, jacobian);
-    add_to_node_matrix<N>(block, graph, e, density * reference, m);
+    const Matrix used =
+        block.solid.lumped ? lumped_mass<Matrix>(reference, SolidCell<N>::is_second_order) : reference;
+    add_to_node_matrix<N>(block, graph, e, density * used, m);
   });
   inverted.check(block.solid);
+}
+
+void add_coating(const Solid& solid, const Coating& coating, const NodeGraph& graph, NodeMatrix& m) {
+  for_each_face(solid.mesh, coating.faces, [&](const FacePoints& face) {
+    Eigen::MatrixXd mass = coating.mass_per_area * face_mass(face);
+    if (solid.lumped) mass = lumped_mass(mass, cell_info(face.type).order == 2);
+    for (Eigen::Index b = 0; b < face.nodes.size(); ++b)
+      for (Eigen::Index a = 0; a < face.nodes.size(); ++a)
+        m.values[static_cast<std::size_t>(graph.place(face.nodes(a), face.nodes(b)))] += mass(a, b);
+  });
 }
 
 }  // namespace
@@ -194,6 +189,7 @@ SymmetricMatrix assemble_stiffness(const Solid& solid, const NodeGraph& graph, i
 NodeMatrix assemble_mass(const Solid& solid, const NodeGraph& graph, int threads) {
   NodeMatrix m{&graph, std::vector<double>(graph.neighbours.size(), 0.0)};
   for_each_block(solid, [&]<int N>(const SolidBlock& block) { add_mass<N>(block, graph, m, threads); });
+  for (const Coating& coating : solid.coatings) add_coating(solid, coating, graph, m);
   return m;
 }
 

@@ -5,7 +5,8 @@
 // 3); 2 or 3 points in each direction of other cells, by their order. hex8 and wedge6 have internal modes
 // (internal_modes.hpp). Consistent mass m_ab = int rho N_a N_b dV, integrated exactly on straight cells and on
 // curved tetrahedra, with 4 points in each direction of other curved cells: the common 4-point rule of tet10 would cost
-// 5e-4 in frequencies.
+// 5e-4 in frequencies. Coatings add int m'' N_a N_b dA of their faces, whose nodes share a cell. A lumped solid has a
+// diagonal in place of the mass of each cell and face, of the same sum (cell_mass.hpp).
 #pragma once
 
 #include "reduce/fe/node_graph.hpp"

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/fe/cell_mass.hpp"
 #include "reduce/fe/solid_block.hpp"
 
 namespace bielle::reduce {
@@ -76,6 +77,38 @@ Moments moments(const SolidBlock& block, CellDegrees degrees, const Eigen::Vecto
   return result;
 }
 
+/// Moments of the nodes of a lumped solid without its coatings. The volume is that of the lumped functions, the same.
+template <int N>
+Moments lumped_moments(const SolidBlock& block, const Eigen::Vector3d& origin) {
+  const CellMass<N> mass;
+  Moments result;
+  double least_jacobian = 0;
+  for (Eigen::Index e = 0; e < block.cells(); ++e) {
+    const CellPoints<N> x = block.points<N>(e);
+    const Eigen::VectorXd parts =
+        lumped_mass(mass.of(x, least_jacobian), SolidCell<N>::is_second_order).diagonal();
+    for (int a = 0; a < N; ++a) result.add(parts(a), block.material(e).density, x.col(a) - origin);
+  }
+  return result;
+}
+
+/// Moments of a coating, which has no volume.
+Moments coating_moments(const Solid& solid, const Coating& coating, const Eigen::Vector3d& origin) {
+  Moments result;
+  for_each_face(solid.mesh, coating.faces, [&](const FacePoints& face) {
+    if (solid.lumped) {
+      const Eigen::MatrixXd parts = lumped_mass(face_mass(face), cell_info(face.type).order == 2);
+      for (Eigen::Index a = 0; a < face.nodes.size(); ++a)
+        result.add(parts(a, a), coating.mass_per_area, solid.mesh.points.col(face.nodes(a)) - origin);
+    } else {
+      for (Eigen::Index p = 0; p < face.places.cols(); ++p)
+        result.add(face.normals.col(p).norm(), coating.mass_per_area, face.places.col(p) - origin);
+    }
+  });
+  result.volume = 0;
+  return result;
+}
+
 }  // namespace
 
 Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
@@ -136,8 +169,9 @@ MassProperties mass_properties(const Solid& solid, int threads) {
   Moments all;
   for_each_block(solid, [&]<int N>(const SolidBlock& block) {
     constexpr int curved = N == 4 ? 2 : N == 10 ? 7 : SolidCell<N>::is_second_order ? 9 : 4;
-    all.add(moments<N>(block, {2, curved}, origin, threads));
+    all.add(solid.lumped ? lumped_moments<N>(block, origin) : moments<N>(block, {2, curved}, origin, threads));
   });
+  for (const Coating& coating : solid.coatings) all.add(coating_moments(solid, coating, origin));
   const Eigen::Vector3d r = all.first / all.mass;
   const Eigen::Matrix3d second = all.second - all.mass * r * r.transpose();
   MassProperties result;
@@ -156,6 +190,14 @@ std::vector<bool> points_of_solid(const Solid& solid) {
     }
   }
   return result;
+}
+
+std::vector<int> nodes_of_solid(const Solid& solid) {
+  const std::vector<bool> inside = points_of_solid(solid);
+  std::vector<int> nodes;
+  for (int a = 0; a < solid.points(); ++a)
+    if (inside[a]) nodes.push_back(a);
+  return nodes;
 }
 
 }  // namespace bielle::reduce

@@ -1,4 +1,4 @@
-// The solid cells of a mesh with their materials: what the assembly integrates over.
+// The solid cells of a mesh with their materials and coatings: the assembly integrates over them.
 #pragma once
 
 #include <map>
@@ -14,6 +14,12 @@
 
 namespace bielle::reduce {
 
+/// Mass without stiffness on a surface: paint, lining.
+struct Coating {
+  Group faces;               ///< of the solid's mesh; faces that occur in several coatings have the mass of each
+  double mass_per_area = 0;  ///< [kg/m^2]
+};
+
 /// Isoparametric cells of linear elastic material. It refers to its mesh.
 struct Solid {
   const Mesh& mesh;
@@ -21,6 +27,8 @@ struct Solid {
   std::vector<Material> materials;
   std::vector<int> material_of;  ///< number of each cell's material in `materials`
   Integration integration = Integration::standard;
+  std::vector<Coating> coatings = {};
+  bool lumped = false;  ///< whether its mass matrix is diagonal (assembly.hpp), in place of the consistent one
 
   Eigen::Index points() const { return mesh.points.cols(); }
 };
@@ -33,7 +41,8 @@ struct Solid {
 Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
                  const std::map<std::string, std::string>& regions, Integration integration = Integration::standard);
 
-/// Mass, its centre and the inertia about it, integrated over the cells.
+/// Mass, its centre and the inertia about it, integrated over the cells and coatings; of a lumped mass those of its
+/// nodes, whose mass is that of the integral and whose centre and inertia differ from it by the mesh.
 struct MassProperties {
   double mass = 0;                                    ///< [kg]
   double volume = 0;                                  ///< [m^3]
@@ -45,5 +54,7 @@ MassProperties mass_properties(const Solid& solid, int threads = 1);
 
 /// Tells of each point whether it belongs to a solid cell.
 std::vector<bool> points_of_solid(const Solid& solid);
+/// Returns the points of solid cells, ascending.
+std::vector<int> nodes_of_solid(const Solid& solid);
 
 }  // namespace bielle::reduce

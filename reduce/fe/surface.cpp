@@ -1,14 +1,13 @@
 #include "reduce/fe/surface.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/sort_unique.hpp"
-#include "reduce/mesh/quadrature.hpp"
-#include "reduce/mesh/shape_functions.hpp"
+#include "reduce/fe/face_points.hpp"
 
 namespace bielle::reduce {
 
@@ -24,40 +23,29 @@ std::vector<std::string> surface_groups(const Mesh& mesh) {
   return result;
 }
 
-/// Calls visit(nodes of the face, N_a, x, int n dA of the point) at every point of a rule of degree 7, which is exact
-/// for N_a n on curved faces of order 2 and for N_a x |n| on plane ones, and nearly exact if |n| is no polynomial.
+/// Calls visit(nodes of the face, N_a, x, int n dA of the point) at every point of all faces.
 template <typename Visitor>
 void integrate(const Mesh& mesh, const Group& group, const Visitor& visit) {
-  for (const GroupPart& part : group.parts) {
-    const Quadrature rule = cell_quadrature(part.type, 7);
-    std::vector<Eigen::VectorXd> values;
-    std::vector<Eigen::MatrixXd> gradients;
-    for (const auto& xi : rule.points.colwise()) {
-      values.push_back(shape_values(part.type, xi));
-      gradients.push_back(shape_gradients(part.type, xi));
-    }
-    const Eigen::MatrixXi& cells = mesh.block(part.type)->nodes;
-    for (const int cell : part.cells) {
-      const Eigen::VectorXi nodes = cells.col(cell);
-      const Eigen::Matrix3Xd points = mesh.points(Eigen::all, nodes);
-      for (std::size_t p = 0; p < values.size(); ++p) {
-        const Eigen::Matrix<double, 3, 2> tangents = points * gradients[p];
-        const Eigen::Vector3d normal = rule.weights(p) * tangents.col(0).cross(tangents.col(1));
-        visit(nodes, values[p], Eigen::Vector3d(points * values[p]), normal);
-      }
-    }
-  }
+  for_each_face(mesh, group, [&](const FacePoints& face) {
+    for (Eigen::Index p = 0; p < face.places.cols(); ++p)
+      visit(face.nodes, face.values[static_cast<std::size_t>(p)], Eigen::Vector3d(face.places.col(p)),
+            Eigen::Vector3d(face.normals.col(p)));
+  });
 }
 
 }  // namespace
 
-SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& name) {
+const Group& surface_group(const Mesh& mesh, const std::string& name) {
   const auto place = mesh.groups.find(name);
   if (place == mesh.groups.end() || place->second.dimension != 2) {
     throw InputError(
         fmt::format("the mesh has no surface group '{}'{}", name, did_you_mean(name, surface_groups(mesh))));
   }
-  const Group& group = place->second;
+  return place->second;
+}
+
+SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& name) {
+  const Group& group = surface_group(mesh, name);
   SurfaceIntegrals result;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   integrate(mesh, group, [&](const auto& nodes, const auto&, const Eigen::Vector3d& x, const Eigen::Vector3d& normal) {
@@ -87,6 +75,20 @@ SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& name) {
                 result.normals.col(column) += n(a) * normal;
               }
             });
+  return result;
+}
+
+SurfaceIntegrals integrate_nodes(const Mesh& mesh, std::vector<int> nodes, const Eigen::VectorXd& weights) {
+  SurfaceIntegrals result;
+  const Eigen::Matrix3Xd points = mesh.points(Eigen::all, nodes);
+  result.nodes = std::move(nodes);
+  result.area = weights.sum();
+  result.centroid = points * weights / result.area;
+  const Eigen::Matrix3Xd r = points.colwise() - result.centroid;
+  result.weights = weights;
+  result.first_moments = r * weights.asDiagonal();
+  result.second_moment = result.first_moments * r.transpose();
+  result.normals = Eigen::Matrix3Xd::Zero(3, weights.size());
   return result;
 }
 

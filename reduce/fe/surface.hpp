@@ -21,9 +21,17 @@ struct SurfaceIntegrals {
   Eigen::Matrix3Xd normals;  ///< int N_a n dA, n the normal of the faces as oriented in the mesh [m^2]
 };
 
+/// @throws InputError if the mesh has no such surface group (nearest name)
+const Group& surface_group(const Mesh& mesh, const std::string& name);
+
 /// @throws InputError if the mesh has no such surface group (nearest name) or its area is zero; the message names the
 ///         group, and the caller gives it a subject
 SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& group);
+
+/// The same sums over nodes with weights in place of areas; there are no normals.
+/// @param nodes    ascending, at least three that are not on one line
+/// @param weights  one for each node, positive, in any unit
+SurfaceIntegrals integrate_nodes(const Mesh& mesh, std::vector<int> nodes, const Eigen::VectorXd& weights);
 
 /// Forces on the nodes of a surface [N], one column per node of `surface.nodes`.
 /// @param pressure  [Pa], pushing against the outward normal

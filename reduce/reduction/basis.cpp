@@ -18,17 +18,18 @@ namespace {
 
 constexpr int most_modes_below = 1000;  // upper bound for a frequency limit; more is probably a wrong unit
 
-/// M times the linear fields.
+/// M times the linear fields; masses have the field at their elements.
 RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const Eigen::Vector3d& centre) {
   RowMatrix functions(solid.points(), 4);
   functions << Eigen::VectorXd::Ones(solid.points()), (solid.mesh.points.colwise() - centre).transpose();
-  const RowMatrix products = matrices.mass_times(functions, 1);
+  const RowMatrix products = matrices.mesh_mass_times(functions, 1);
   RowMatrix result = RowMatrix::Zero(3 * solid.points(), LinearFields::count);
   for (Eigen::Index a = 0; a < solid.points(); ++a) {
     for (int i = 0; i < 3; ++i) {
       result.block<1, 4>(3 * a + i, 4 * i) = products.row(a);
     }
   }
+  matrices.masses().add_linear_inertia(centre, result);
   return result;
 }
 

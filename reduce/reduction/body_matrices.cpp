@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <utility>
 
@@ -66,7 +67,7 @@ class MatricesHere : public BodyMatrices {
 
   RowMatrix stiffness_times(const RowMatrix& u) const override { return stiffness_.multiply(u, threads_); }
   Eigen::VectorXd stiffness_diagonal() const override { return stiffness_.diagonal(); }
-  RowMatrix mass_times(const RowMatrix& u, int rows_per_node) const override {
+  RowMatrix mesh_mass_times(const RowMatrix& u, int rows_per_node) const override {
     return mass_.multiply(u, rows_per_node, threads_);
   }
   std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const override {
@@ -85,7 +86,7 @@ class MatricesHere : public BodyMatrices {
     return std::make_unique<SymmetricFactor>(structure, std::move(matrix), threads_);
   }
   bool can_count_signs() const override { return true; }
-  std::optional<PivotSigns> count_signs(const Factor& factor, const BorderedShift& shifted) const override {
+  std::optional<PivotSigns> count_mesh_signs(const Factor& factor, const BorderedShift& shifted) const override {
     SymmetricMatrix matrix = principal_submatrix(stiffness_, shifted.kept);
     subtract_inertia(matrix, shifted.kept, mass_, shifted.eigenvalue, threads_);
     if (shifted.corner.cols() > 0) matrix = bordered(matrix, shifted.border, shifted.corner);
@@ -103,6 +104,27 @@ class MatricesHere : public BodyMatrices {
 };
 
 }  // namespace
+
+RowMatrix BodyMatrices::mass_times(const RowMatrix& u) const {
+  RowMatrix products = mesh_mass_times(u);
+  masses_.add_inertia(u, products);
+  return products;
+}
+
+// The masses' part -sigma B B^T of the interior is full in the points of their surfaces. It is the Schur complement of a
+// border: [A, sqrt(sigma) B; ., I] has the signs of A - sigma B B^T, and one positive one for each column of B.
+std::optional<PivotSigns> BodyMatrices::count_signs(const Factor& factor, const BorderedShift& shifted) const {
+  if (masses_.empty()) return count_mesh_signs(factor, shifted);
+  BorderedShift all = shifted;
+  const Eigen::MatrixXd root = std::sqrt(shifted.eigenvalue) * masses_.root_of_inertia(shifted.kept);
+  const Eigen::Index rows = root.rows(), old = shifted.corner.cols(), more = root.cols();
+  all.border.conservativeResize(rows, old + more);
+  all.border.rightCols(more) = root;
+  all.corner = Eigen::MatrixXd::Identity(old + more, old + more);
+  if (old > 0) all.corner.topLeftCorner(old, old) = shifted.corner;
+  all.scale.resize(shifted.scale.size() + static_cast<std::size_t>(more), 1.0);
+  return count_mesh_signs(factor, all);
+}
 
 std::unique_ptr<BodyMatrices> assembled_matrices(const Solid& solid, const InteriorUnknowns& interior, int threads) {
   return std::make_unique<MatricesHere>(solid, interior, threads);

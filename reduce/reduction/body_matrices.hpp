@@ -6,9 +6,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "reduce/fe/solid.hpp"
+#include "reduce/reduction/added_masses.hpp"
 #include "reduce/reduction/interior_graph.hpp"
 #include "reduce/sparse/factor.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
@@ -23,15 +25,20 @@ struct BorderedShift {
   std::vector<double> scale;       ///< absolute value of the diagonal entry of each row
 };
 
-/// K [N/m] and M [kg] of all points of a solid, unknowns x y z of point 0, of point 1, ...
+/// K [N/m] and M [kg] of all points of a solid, unknowns x y z of point 0, of point 1, ... Masses on the body belong to
+/// this process, wherever the mesh's matrices are.
 class BodyMatrices {
  public:
   virtual ~BodyMatrices() = default;
 
   virtual RowMatrix stiffness_times(const RowMatrix& u) const = 0;
   virtual Eigen::VectorXd stiffness_diagonal() const = 0;
-  /// M is m (x) I3. @param rows_per_node  rows of u per point: 3, or 1 for the product with m
-  virtual RowMatrix mass_times(const RowMatrix& u, int rows_per_node = 3) const = 0;
+  /// M u, with the masses on the body.
+  RowMatrix mass_times(const RowMatrix& u) const;
+  /// The mesh's part of M is m (x) I3. @param rows_per_node  rows of u per point: 3, or 1 for the product with m
+  virtual RowMatrix mesh_mass_times(const RowMatrix& u, int rows_per_node = 3) const = 0;
+  const AddedMasses& masses() const { return masses_; }
+  void put_on(AddedMasses masses) { masses_ = std::move(masses); }
   /// See fe/geometric_stiffness.hpp.
   virtual std::vector<Eigen::MatrixXd> geometric_stiffness(const RowMatrix& fields, const RowMatrix& shapes) const = 0;
 
@@ -44,10 +51,17 @@ class BodyMatrices {
     return shift_invert_eigenpairs(problem, count, options);
   }
   virtual bool can_count_signs() const { return false; }
-  /// Signs of the pivots of the elimination in the order of the factor. @returns nothing if they cannot be counted
-  virtual std::optional<PivotSigns> count_signs(const Factor& /*factor*/, const BorderedShift& /*shifted*/) const {
+  /// Signs of the pivots of the elimination in the order of the factor, without those of the masses, which are
+  /// positive. @param shifted  its border and corner hold the masses already @returns nothing if they cannot be counted
+  std::optional<PivotSigns> count_signs(const Factor& factor, const BorderedShift& shifted) const;
+
+ protected:
+  virtual std::optional<PivotSigns> count_mesh_signs(const Factor& /*factor*/, const BorderedShift& /*shifted*/) const {
     return std::nullopt;
   }
+
+ private:
+  AddedMasses masses_;
 };
 
 /// Makes the matrices of a solid; they may refer to it.

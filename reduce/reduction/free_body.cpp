@@ -132,7 +132,7 @@ GeometricStiffness geometric_stiffness(const Solid& solid, const BodyMatrices& m
   RowMatrix tie_forces;  // forces of rigid ties, which only they use
   if (carries) tie_forces = matrices.stiffness_times(fields) + basis.linear.inertia * amplitudes;
 
-  const TieSecondOrder second_order(solid, ties, basis);
+  const TieSecondOrder second_order(solid, ties, matrices.masses(), basis);
   GeometricStiffness result;
   constexpr Eigen::Index chunk = 18;  // matrices of the mesh in memory at a time: all of a body with two interfaces
   for (Eigen::Index first = 0; first < count; first += chunk) {
@@ -144,6 +144,7 @@ GeometricStiffness geometric_stiffness(const Solid& solid, const BodyMatrices& m
       const Eigen::Index field = first + f;
       Eigen::MatrixXd& k = reduced[f];
       second_order.add(tie_forces, field, loads[field].applied, k);
+      second_order.add_masses({loads[field].translation, loads[field].gradient, body.centre}, k);
       k = Eigen::MatrixXd(k + k.transpose()) / 2;
       field < 6 ? void(result.spin[field] = std::move(k)) : result.load.push_back(std::move(k));
     }

@@ -24,10 +24,9 @@ ResidualRequest inertia_relief(const LinearFields& linear) {
   request.may_be_empty = true;
   request.loads.reserve(Eigen::VectorXi::Constant(linear.inertia.rows(), 4));
   for (Eigen::Index row = 0; row < linear.inertia.rows(); ++row)
-    for (Eigen::Index j = 0; j < 4; ++j) {
-      const Eigen::Index column = 4 * (row % 3) + j;
-      request.loads.insert(row, column) = linear.inertia(row, column);
-    }
+    for (Eigen::Index column = 0; column < LinearFields::count; ++column)  // of other directions: under masses alone
+      if (column / 4 == row % 3 || linear.inertia(row, column) != 0)
+        request.loads.insert(row, column) = linear.inertia(row, column);
   request.loads.makeCompressed();
   return request;
 }

@@ -30,10 +30,7 @@ std::vector<Eigen::Index> spread_over(const Eigen::Matrix3Xd& points) {
 /// Calls act(k, number of places, weights of place k, nodes of the mesh).
 template <class Act>
 void for_each_place(const Solid& solid, const std::string& body, const Act& act) {
-  const std::vector<bool> in_solid = points_of_solid(solid);
-  std::vector<Eigen::Index> inside;
-  for (Eigen::Index a = 0; a < solid.points(); ++a)
-    if (in_solid[static_cast<std::size_t>(a)]) inside.push_back(a);
+  const std::vector<int> inside = nodes_of_solid(solid);
   const Eigen::Matrix3Xd points = solid.mesh.points(Eigen::all, inside);
   const std::vector<Eigen::Index> places = spread_over(points);
   for (std::size_t k = 0; k < places.size(); ++k) {

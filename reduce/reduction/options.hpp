@@ -52,6 +52,25 @@ struct PointRequest {
   std::string subject;                      ///< "points.pin"
 };
 
+/// A rigid mass that moves as the area-weighted mean of a surface, or as the mean of the nodes around a place.
+struct MassRequest {
+  std::string name;
+  std::string group;                                  ///< surface group that it follows; or
+  std::optional<Eigen::Vector3d> place;               ///< place in the mesh whose nodes it follows [m]
+  double mass = 0;                                    ///< [kg], positive
+  std::optional<Eigen::Vector3d> position;            ///< its centre [m]; default: centroid of the surface, the place
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about its centre, body axes [kg m^2]
+  std::string subject;                                ///< "masses.motor"
+};
+
+/// Mass without stiffness on a surface.
+struct CoatingRequest {
+  std::string name;
+  std::string group;         ///< surface group
+  double mass_per_area = 0;  ///< [kg/m^2], positive
+  std::string subject;       ///< "masses.paint"
+};
+
 enum class RecoveryExtent { none, surface, all };
 
 struct ReductionOptions {
@@ -72,6 +91,9 @@ struct ReductionOptions {
   std::optional<std::array<double, 2>> rayleigh;  ///< alpha [1/s] on M~, beta [s] on K~
   std::vector<LoadRequest> loads;
   std::vector<PointRequest> points;
+  std::vector<MassRequest> masses;
+  std::vector<CoatingRequest> coatings;
+  bool lumped = false;  ///< whether the mesh has a diagonal mass matrix (fe/assembly.hpp)
   RecoveryExtent displacement_recovery = RecoveryExtent::all;
   RecoveryExtent stress_recovery = RecoveryExtent::surface;
   bool judged = true;  ///< whether to measure the accuracy of the reduction

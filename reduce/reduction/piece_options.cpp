@@ -59,15 +59,24 @@ std::size_t piece_of(const Mesh& whole, const CutMesh& cut, const InterfaceReque
                           "an interface belongs to one; move the cut, or divide the interface");
 }
 
-/// A point in the mesh belongs to the nearest piece, the first of several.
+/// Returns the piece nearest to a place, the first of several.
+std::size_t piece_at(const CutMesh& cut, const Eigen::Vector3d& place) {
+  std::vector<double> distances;
+  for (const MeshPart& piece : cut.pieces) distances.push_back(distance_from_mesh(piece.mesh.points, place));
+  return static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin());
+}
+
 std::size_t piece_of(const Mesh& whole, const CutMesh& cut, const PointRequest& request) {
   if (!request.group.empty())
     return piece_of_surface(whole, cut, request.group, request.subject,
                             "a point belongs to one; move the cut, or take a part of the surface");
-  std::vector<double> distances;
-  for (const MeshPart& piece : cut.pieces)
-    distances.push_back(distance_from_mesh(piece.mesh.points, request.position.value()));
-  return static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin());
+  return piece_at(cut, request.position.value());
+}
+
+std::size_t piece_of(const Mesh& whole, const CutMesh& cut, const MassRequest& request) {
+  if (request.place) return piece_at(cut, *request.place);
+  return piece_of_surface(whole, cut, request.group, request.subject,
+                          "a mass belongs to one; move the cut, or divide the mass");
 }
 
 InterfaceRequest cut_interface(const MeshCut& cut, const CutPlane& plane, const CutSurface& surface, Tie tie) {
@@ -100,6 +109,8 @@ ReductionOptions without_parts(const ReductionOptions& options) {
   result.interfaces.clear();
   result.loads.clear();
   result.points.clear();
+  result.masses.clear();
+  result.coatings.clear();
   result.regions.clear();
   result.damping_ratios.clear();
   return result;
@@ -129,6 +140,11 @@ std::vector<ReductionOptions> piece_options(const Mesh& whole, const CutMesh& cu
   for (const InterfaceRequest& request : options.interfaces)
     result[piece_of(whole, cut, request)].interfaces.push_back(request);
   for (const PointRequest& request : options.points) result[piece_of(whole, cut, request)].points.push_back(request);
+  for (const MassRequest& request : options.masses) result[piece_of(whole, cut, request)].masses.push_back(request);
+  for (const CoatingRequest& request : options.coatings) {
+    about(request.subject, [&] { return integrate_surface(whole, request.group); });
+    for (const std::size_t piece : pieces_with(cut, request.group)) result[piece].coatings.push_back(request);
+  }
   for (std::size_t c = 0; c < cut.cuts.size(); ++c)
     for (const int piece : cut.cuts[c].pieces)
       result[piece].interfaces.push_back(cut_interface(cut.cuts[c], planes[cut.cuts[c].plane], surfaces[c], tie));

@@ -35,10 +35,8 @@ TiedPoint tie_to_surface(const Solid& solid, const PointRequest& request) {
 
 /// Points of the mesh outside the solid do not move with it and are not used.
 TiedPoint tie_to_mesh(const Solid& solid, const PointRequest& request, const std::string& body) {
-  const std::vector<bool> in_solid = points_of_solid(solid);
-  std::vector<int> inside, nodes;
-  for (int a = 0; a < solid.points(); ++a)
-    if (in_solid[a]) inside.push_back(a);
+  const std::vector<int> inside = nodes_of_solid(solid);
+  std::vector<int> nodes;
   const Eigen::Matrix3Xd points = solid.mesh.points(Eigen::all, inside);
   const PointWeights weights = point_weights(points, request.position.value(), body);
   for (const Eigen::Index node : weights.nodes) nodes.push_back(inside[node]);

@@ -103,16 +103,8 @@ void add_recovery(const Solid& solid, const ReductionOptions& options, const Row
   if (options.stress_recovery == RecoveryExtent::none) {
     return;
   }
-  std::vector<int> nodes = surface_nodes(solid);
-  if (options.stress_recovery == RecoveryExtent::all) {
-    const std::vector<bool> inside = points_of_solid(solid);
-    nodes.clear();
-    for (int a = 0; a < solid.points(); ++a) {
-      if (inside[a]) {
-        nodes.push_back(a);
-      }
-    }
-  }
+  const std::vector<int> nodes =
+      options.stress_recovery == RecoveryExtent::all ? nodes_of_solid(solid) : surface_nodes(solid);
   result.stress_recovery = nodal_stress(solid, shapes, nodes, threads);
   result.stress_origin = stress_origin(solid, options.materials, nodes);
   result.stress_nodes = nodes;

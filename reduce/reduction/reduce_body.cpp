@@ -193,10 +193,10 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
                          ReductionReport* report, const MatrixMaker& make) {
   progress.start("stiffness and mass");
   check_connected(mesh);
-  const Solid solid = about(
-      "regions", [&] { return make_solid(mesh, options.materials, options.regions, options.integration); },
-      Subject::hidden);
-  const MassProperties properties = mass_properties(solid, threads);
+  const Solid solid = requested_solid(mesh, options);
+  AddedMasses masses(solid, options.masses, options.name);
+  for (const std::string& text : told_masses(solid, masses, options.coatings)) progress.note(text);
+  const MassProperties properties = with_masses(mass_properties(solid, threads), masses);
   const Ties ties = make_ties(solid, options.interfaces);
   const std::vector<TiedPoint> points = tie_points(solid, options.points, options.name);
   std::vector<ResidualRequest> residual = residual_requests(solid, options.loads, points);
@@ -204,6 +204,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.mode_count.value_or(0), progress);
   HeldFreedoms freedoms(solid, ties);
   const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, freedoms.interior(), threads);
+  kept_matrices->put_on(std::move(masses));
   const BodyMatrices& matrices = *kept_matrices;
 
   if (options.modes_proven && !matrices.can_count_signs())

@@ -7,6 +7,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/fe/solid.hpp"
+#include "reduce/reduction/added_masses.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/cut_effect.hpp"
 #include "reduce/superelement/assembled_pieces.hpp"
@@ -101,8 +102,9 @@ CutBody reduce_pieces(const Mesh& mesh, const std::vector<CutPlane>& planes, con
   if (!options.damping_ratios.empty() && body.free_frequencies.size() > 0)
     for (Superelement& piece : body.pieces)
       piece.damping = damping_of_piece(piece, options.damping_ratios.front(), body.free_frequencies(0));
+  const Solid solid = requested_solid(mesh, options);
   const std::vector<Check> found =
-      check_masses(whole, mass_properties(make_solid(mesh, options.materials, options.regions)));
+      check_masses(whole, with_masses(mass_properties(solid), AddedMasses(solid, options.masses, options.name)));
   fail_when_a_check_does(found, "the assembled pieces");
   if (checks) *checks = found;
   if (request.compare) {

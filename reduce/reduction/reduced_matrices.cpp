@@ -30,7 +30,7 @@ Eigen::MatrixXd strided_product(const RowMatrix& a, int k, const RowMatrix& b, i
 Eigen::MatrixXd inner_products(const RowMatrix& a, const RowMatrix& b) { return strided_product(a, 0, b, 0, 1); }
 
 std::array<Eigen::MatrixXd, 6> inertia_components(const RowMatrix& shapes, const BodyMatrices& matrices) {
-  const RowMatrix products = matrices.mass_times(shapes);
+  const RowMatrix products = matrices.mesh_mass_times(shapes);
   constexpr std::array<std::array<int, 2>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   std::array<Eigen::MatrixXd, 6> result;
   for (std::size_t s = 0; s < 6; ++s) {
@@ -40,6 +40,7 @@ std::array<Eigen::MatrixXd, 6> inertia_components(const RowMatrix& shapes, const
       result[s] = Eigen::MatrixXd(result[s] + result[s].transpose()) / 2;
     }
   }
+  matrices.masses().add_inertia_components(shapes, result);
   return result;
 }
 

@@ -35,10 +35,10 @@ Eigen::MatrixXd rigid_rotation(const Ties& ties, int number, const Basis& basis)
 }
 
 /// int u r^T dA of a surface, columns one below the other (9,n), u the displacement.
-Eigen::MatrixXd first_moments(const TiedSurface& surface, const Basis& basis) {
+Eigen::MatrixXd first_moments(const SurfaceIntegrals& surface, const Basis& basis) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(9, basis.shapes.cols());
   for (std::size_t k = 0; k < surface.nodes.size(); ++k) {
-    const Eigen::Vector3d moment = surface.integrals.first_moments.col(static_cast<Eigen::Index>(k));
+    const Eigen::Vector3d moment = surface.first_moments.col(static_cast<Eigen::Index>(k));
     for (int i = 0; i < 3; ++i) {
       result.middleRows<3>(3 * i) += moment(i) * basis.shapes.middleRows<3>(3 * surface.nodes[k]);
     }
@@ -46,9 +46,28 @@ Eigen::MatrixXd first_moments(const TiedSurface& surface, const Basis& basis) {
   return result;
 }
 
+/// Term of the rotation of a surface whose mean a load follows. @param n  sum of F a^T, a from the centroid to each
+/// force @param w  see spread_moment
+Eigen::Matrix3d mean_rotation_term(const SurfaceIntegrals& surface, const Eigen::Matrix3d& n,
+                                   const Eigen::Vector3d& w) {
+  return n.trace() * Eigen::Matrix3d::Identity() - symmetric(n) + symmetric(skew(w) * surface.second_moment);
+}
+
 }  // namespace
 
-TieSecondOrder::TieSecondOrder(const Solid& solid, const Ties& ties, const Basis& basis) : solid_(solid), ties_(ties) {
+TieSecondOrder::MeanMotion TieSecondOrder::mean_motion(const SurfaceIntegrals& surface, const Basis& basis) {
+  MeanMotion motion{Eigen::MatrixXd::Zero(3, basis.shapes.cols()), first_moments(surface, basis)};
+  const Eigen::Matrix3d inverse = polar_moment(surface).inverse();
+  for (int j = 0; j < 3; ++j)
+    motion.rotation += inverse * skew(Eigen::Vector3d::Unit(j)) * motion.deformation.middleRows<3>(3 * j);
+  for (int j = 0; j < 3; ++j)
+    motion.deformation.middleRows<3>(3 * j) +=
+        skew(surface.second_moment.col(j)) * motion.rotation;  // - theta x S e_j
+  return motion;
+}
+
+TieSecondOrder::TieSecondOrder(const Solid& solid, const Ties& ties, const AddedMasses& masses, const Basis& basis)
+    : solid_(solid), ties_(ties), masses_(masses) {
   const Eigen::Index n = basis.shapes.cols();
   for (std::size_t i = 0; i < ties.interfaces.size(); ++i) {
     const TiedSurface& surface = ties.surfaces[i];
@@ -56,18 +75,14 @@ TieSecondOrder::TieSecondOrder(const Solid& solid, const Ties& ties, const Basis
     if (surface.tie == Tie::rigid) {
       rotation = rigid_rotation(ties, static_cast<int>(i), basis);
     } else if (surface.tie == Tie::average) {
-      deformation = first_moments(surface, basis);
-      const Eigen::Matrix3d inverse = polar_moment(surface.integrals).inverse();
-      for (int j = 0; j < 3; ++j) {
-        rotation += inverse * skew(Eigen::Vector3d::Unit(j)) * deformation.middleRows<3>(3 * j);
-      }
-      for (int j = 0; j < 3; ++j) {
-        deformation.middleRows<3>(3 * j) += skew(surface.integrals.second_moment.col(j)) * rotation;  // - theta x S e_j
-      }
+      MeanMotion motion = mean_motion(surface.integrals, basis);
+      rotation = std::move(motion.rotation);
+      deformation = std::move(motion.deformation);
     }
     rotations_.push_back(std::move(rotation));
     deformations_.push_back(std::move(deformation));
   }
+  for (const AddedMass& mass : masses) of_masses_.push_back(mean_motion(mass.surface, basis));
 }
 
 Eigen::Matrix3d TieSecondOrder::rotation_term(const RowMatrix& tie_forces, Eigen::Index field,
@@ -83,8 +98,7 @@ Eigen::Matrix3d TieSecondOrder::rotation_term(const RowMatrix& tie_forces, Eigen
   }
   if (surface.tie == Tie::average && load.interface == static_cast<int>(number)) {
     const Eigen::Matrix3d n = load.force * (interface.position - surface.integrals.centroid).transpose();
-    return n.trace() * Eigen::Matrix3d::Identity() - symmetric(n) +
-           symmetric(skew(spread_moment(surface, interface, load)) * surface.integrals.second_moment);
+    return mean_rotation_term(surface.integrals, n, spread_moment(surface, interface, load));
   }
   return Eigen::Matrix3d::Zero();
 }
@@ -94,12 +108,16 @@ void TieSecondOrder::add_deformation(const InterfaceLoad& load, Eigen::MatrixXd&
   if (ties_.surfaces[number].tie != Tie::average) {
     return;
   }
-  const Eigen::MatrixXd& d = deformations_[number];
-  const Eigen::Vector3d w = spread_moment(ties_.surfaces[number], ties_.interfaces[number], load);
+  add_deformation(spread_moment(ties_.surfaces[number], ties_.interfaces[number], load), rotations_[number],
+                  deformations_[number], k);
+}
+
+void TieSecondOrder::add_deformation(const Eigen::Vector3d& w, const Eigen::MatrixXd& rotation,
+                                     const Eigen::MatrixXd& d, Eigen::MatrixXd& k) {
   const Eigen::RowVectorXd trace = d.row(0) + d.row(4) + d.row(8);
   const Eigen::MatrixXd lever =
       w(0) * d.topRows<3>() + w(1) * d.middleRows<3>(3) + w(2) * d.bottomRows<3>() - w * trace;  // D w - w tr D
-  const Eigen::MatrixXd half = transposed_product(rotations_[number], lever);
+  const Eigen::MatrixXd half = transposed_product(rotation, lever);
   k -= half + half.transpose();
 }
 
@@ -126,6 +144,22 @@ void TieSecondOrder::add(const RowMatrix& tie_forces, Eigen::Index field, const 
   if (load.interface >= 0) {
     add_deformation(load, k);
     add_release(load, k);
+  }
+}
+
+void TieSecondOrder::add_masses(const LinearAcceleration& acceleration, Eigen::MatrixXd& k) const {
+  std::size_t number = 0;
+  for (const AddedMass& mass : masses_) {
+    const MeanMotion& motion = of_masses_[number++];
+    const Eigen::Vector3d arm = mass.position - mass.surface.centroid;
+    const Eigen::Vector3d at_centre =
+        acceleration.translation + acceleration.gradient * (mass.position - acceleration.centre);
+    const Eigen::Matrix3d n =
+        -mass.mass * at_centre * arm.transpose() - acceleration.gradient * mass.second_moment();
+    const Eigen::Vector3d moment(n(2, 1) - n(1, 2), n(0, 2) - n(2, 0), n(1, 0) - n(0, 1));  // sum of a x F
+    const Eigen::Vector3d w = polar_moment(mass.surface).inverse() * moment;
+    k += congruent(mean_rotation_term(mass.surface, n, w), motion.rotation);
+    add_deformation(w, motion.rotation, motion.deformation, k);
   }
 }
 

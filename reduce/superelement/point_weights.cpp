@@ -110,16 +110,16 @@ PointWeights point_weights(const Matrix3Xd& nodes, const Vector3d& point, const 
                     "apart there; the position is in the axes of the mesh",
                     nearest, body, spacing));
   const double size = arms.colwise().norm().maxCoeff();
-  const VectorXd weight = (arms.colwise().squaredNorm().array() / (size * size) + closeness * closeness)
-                              .square()
-                              .inverse()
-                              .matrix()
-                              .transpose();
+  result.weights = (arms.colwise().squaredNorm().array() / (size * size) + closeness * closeness)
+                       .square()
+                       .inverse()
+                       .matrix()
+                       .transpose();
   result.strains = Eigen::MatrixXd::Zero(6, 3 * count);
   if (in_space(arms))
-    set_rows_of_linear_field(arms, weight, size, result);
+    set_rows_of_linear_field(arms, result.weights, size, result);
   else
-    result.rows = rows_of_rigid_motion(arms, weight);
+    result.rows = rows_of_rigid_motion(arms, result.weights);
   return result;
 }
 

@@ -15,6 +15,7 @@ namespace bielle {
 
 struct PointWeights {
   std::vector<Eigen::Index> nodes;  ///< mesh nodes
+  Eigen::VectorXd weights;          ///< weight of each node in the fit, the largest for the nearest
   /// (6, 3 nodes): maps the displacements x y z of the first node, the second ... to displacement and rotation of the
   /// point.
   Eigen::MatrixXd rows;

@@ -2,9 +2,6 @@
 
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-#include <fmt/format.h>
-
 namespace bielle::mechanism {
 namespace {
 
@@ -31,22 +28,6 @@ MassProperties operator*(double factor, const MassProperties& body) {
 
 MassProperties placed(const Frame& H_BA, const MassProperties& body) {
   return {body.mass, H_BA.x + H_BA.R * body.centre, H_BA.R * body.inertia * H_BA.R.transpose()};
-}
-
-std::string inertia_fault(const Matrix3& inertia) {
-  if (!inertia.allFinite()) return "the inertia tensor about the centre of mass is too large for a number";
-  const Vector3 p = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  const std::string found = fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m^2", p[0], p[1], p[2]);
-  // The limit includes the rounding of a tensor in axes that are not principal axes.
-  if (!(p[0] >= -1e-9 * p[2] && p[2] > 0))
-    return "the inertia tensor about the centre of mass must be positive definite (one principal moment may be zero: a "
-           "line of mass; without any inertia: `point_mass`); " +
-           found;
-  if (p[2] > (p[0] + p[1]) * (1 + 1e-3))
-    return "no body has this inertia about its centre of mass: the largest principal moment exceeds the sum of the two "
-           "others; " +
-           found;
-  return "";
 }
 
 MassProperties box(const Vector3& edges) {

@@ -2,10 +2,7 @@
 //
 //   Steiner: J_O = J_C - m c~ c~;     sum of bodies: m c = sum m_k c_k,  J_O = sum J_O,k
 //   rotation by R: J -> R J R^T
-// A distribution of positive mass has no negative principal moments, and none exceeds the sum of the two others.
 #pragma once
-
-#include <string>
 
 #include "mechanism/math/se3.hpp"
 
@@ -25,11 +22,6 @@ MassProperties operator+(const MassProperties& a, const MassProperties& b);
 MassProperties operator*(double factor, const MassProperties& body);
 /// Transforms a body at a frame: described in A, result in B. @param H_BA  frame A in B
 MassProperties placed(const Frame& H_BA, const MassProperties& body);
-
-/// Explains why no body of positive mass has this inertia about its centre of mass, with its principal moments; empty
-/// if the inertia is valid. Moments of thin plates and rods are exactly at the bound and are rounded in input files: a
-/// violation by 0.1 % is accepted. The moment of a line of mass about itself may be zero.
-std::string inertia_fault(const Matrix3& inertia);
 
 // Homogeneous solids of density 1 kg/m^3 about the middle of their axis. Lengths are in [m], and z is the axis.
 MassProperties box(const Vector3& edges);

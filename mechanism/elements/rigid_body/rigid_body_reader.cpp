@@ -10,41 +10,16 @@
 #include "mechanism/elements/rigid_body/solid_reader.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_frame.hpp"
+#include "reduce/superelement/inertia_tensor.hpp"
 
 namespace bielle::mechanism {
 namespace {
-
-Matrix3 symmetric(double xx, double yy, double zz, double xy, double xz, double yz) {
-  Matrix3 J;
-  J << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  return J;
-}
-
-/// Reads three principal values, six entries of the symmetric tensor, or 3x3.
-Matrix3 inertia_entries(const YamlValue& value) {
-  const std::string expected =
-      "expected the inertia tensor as [xx, yy, zz], [xx, yy, zz, xy, xz, yz] or three rows of "
-      "three";
-  if (!value.is_sequence()) value.fail(expected);
-  if (value.size() == 6) {
-    const Eigen::VectorXd e = value.vector();
-    return symmetric(e[0], e[1], e[2], e[3], e[4], e[5]);
-  }
-  if (value.size() != 3) value.fail(expected);
-  if (!value.at(std::size_t{0}).is_sequence()) {
-    const Vector3 e = value.vector3();
-    return symmetric(e[0], e[1], e[2], 0, 0, 0);
-  }
-  const Matrix3 J = value.matrix(3, 3);
-  if (!(J - J.transpose()).isZero(1e-9 * J.cwiseAbs().maxCoeff())) value.fail("an inertia tensor is symmetric");
-  return 0.5 * (J + J.transpose());
-}
 
 /// Reads `inertia`, about the centre of mass or, with `inertia_about: node`, about the node; in the node's axes or,
 /// with `inertia_axes: {orientation}`, in rotated axes.
 Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre) {
   const YamlValue value = entry.at("inertia");
-  Matrix3 J = inertia_entries(value);
+  Matrix3 J = read_inertia_tensor(value);
   if (const auto axes = entry.find("inertia_axes")) {
     const Matrix3 R = read_orientation(*axes);
     J = R * J * R.transpose();
@@ -56,7 +31,7 @@ Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre)
     value.fail(fault + (about_node
                             ? ". Is the tensor about the node? (`inertia_about: centre` is the default)"
                             : ". Is the tensor about the centre of mass (else: `inertia_about: node`), and are the "
-                              "products of inertia entries of the tensor?"));
+                              "products of inertia entries of the tensor? A mass without inertia is a `point_mass`"));
   return J;
 }
 
@@ -119,7 +94,6 @@ const KeyTable& inertia_axes_keys() {
 
 const KeyTable& rigid_body_keys() {
   using namespace keys;
-  const char* unit = "kg m^2";
   static const KeyTable table{
       "a rigid_body",
       "A rigid body on a node, by its mass and inertia or by solids.",
@@ -129,7 +103,7 @@ const KeyTable& rigid_body_keys() {
        {"centre", vector3("m").as_point(), computed("the node, or the centre of the solid"),
         "Centre of mass in the axes of the node."},
        {"inertia",
-        {list_of(3, number(unit)), list_of(6, number(unit)), matrix(3, 3, unit)},
+        inertia_tensor_forms(),
         optional,
         "Inertia tensor as `[xx, yy, zz]`, `[xx, yy, zz, xy, xz, yz]` or three rows of three, which is needed without "
         "`solid`."},

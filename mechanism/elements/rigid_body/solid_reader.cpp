@@ -10,6 +10,7 @@
 #include "mechanism/elements/rigid_body/solid_space.hpp"
 #include "mechanism/reading/read_frame.hpp"
 #include "mechanism/reading/read_numbers.hpp"
+#include "reduce/superelement/inertia_tensor.hpp"
 
 namespace bielle::mechanism {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "reduce/distributed/partition.hpp"
 #include "reduce/fe/assembly.hpp"
+#include "reduce/fe/surface.hpp"
 #include "tests/support/box_mesh.hpp"
 
 using namespace bielle;
@@ -41,7 +42,7 @@ TEST_CASE("each cell is in one part, and parts are of one size but for the first
 TEST_CASE("a body of two parts is divided across its length") {
   const Bar box;
   const auto parts = divided_cells(box.solid, 2);
-  const SolidPart low = part_of(box.solid, parts[0]), high = part_of(box.solid, parts[1]);
+  const SolidPart low = part_of(box.solid, parts[0], {}), high = part_of(box.solid, parts[1], {});
   CHECK(low.share.points.row(0).maxCoeff() <= 2.0 / 3 + 1e-12);  // a quarter: one and a half of six slices
   CHECK(high.share.points.row(0).minCoeff() >= 1.0 / 3 - 1e-12);
 }
@@ -52,20 +53,25 @@ TEST_CASE("more parts than cells leave some without any") {
   const auto parts = divided_cells(solid, 20);
   REQUIRE(parts.size() == 20);
   CHECK(std::any_of(parts.begin(), parts.end(), [](const auto& cells) { return cells.empty(); }));
-  for (const std::vector<int>& cells : parts) CHECK(part_of(solid, cells).share.material_of.size() == cells.size());
+  for (const std::vector<int>& cells : parts) CHECK(part_of(solid, cells, {}).share.material_of.size() == cells.size());
 }
 
-TEST_CASE("matrices of the parts add up to those of the solid") {
-  const Bar box;
+TEST_CASE("matrices of the parts add up to those of the solid, coated and lumped or not") {
+  Bar box;
+  for (const char* name : {"x0", "y1", "z0"})
+    box.solid.coatings.push_back({surface_group(box.mesh, name), name[0] == 'x' ? 3000.0 : 500.0});
+  box.solid.lumped = GENERATE(false, true);
+  const CoatedCells coated = coated_cells(box.solid);
   const NodeGraph graph = node_graph(box.solid.mesh);
   const RowMatrix u = RowMatrix::Random(3 * box.solid.points(), 2);
   const RowMatrix force = assemble_stiffness(box.solid, graph).multiply(u);
   const RowMatrix momentum = assemble_mass(box.solid, graph).multiply(u, 3);
   RowMatrix sum_of_forces = RowMatrix::Zero(u.rows(), 2), sum_of_momenta = sum_of_forces;
   for (const std::vector<int>& cells : divided_cells(box.solid, 3)) {
-    SolidPart part = part_of(box.solid, cells);
+    SolidPart part = part_of(box.solid, cells, coated);
     const Mesh mesh{part.share.points, part.share.blocks, {}};
-    const Solid solid{mesh, SolidCells(mesh), box.solid.materials, part.share.material_of};
+    const Solid solid{mesh, SolidCells(mesh), box.solid.materials, part.share.material_of,
+                      part.share.coatings, part.share.lumped};
     const NodeGraph own = node_graph(solid.mesh);
     RowMatrix rows(3 * solid.points(), 2);
     for (std::size_t a = 0; a < part.points.size(); ++a)

@@ -1,0 +1,201 @@
+#include "reduce/reduction/added_masses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
+#include "reduce/reduction/basis.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/reduction/ties.hpp"
+#include "reduce/superelement/point_weights.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// The nodes around a place, with the weights that a named point there gives them.
+SurfaceIntegrals around(const Solid& solid, const Eigen::Vector3d& place, const std::string& body) {
+  const std::vector<int> inside = nodes_of_solid(solid);
+  const PointWeights weights = point_weights(solid.mesh.points(Eigen::all, inside), place, body);
+  std::map<int, double> weight_of;
+  for (std::size_t k = 0; k < weights.nodes.size(); ++k)
+    weight_of[inside[static_cast<std::size_t>(weights.nodes[k])]] = weights.weights[static_cast<Eigen::Index>(k)];
+  std::vector<int> nodes;
+  Eigen::VectorXd sorted(weights.weights.size());
+  for (const auto& [node, weight] : weight_of) {
+    sorted[static_cast<Eigen::Index>(nodes.size())] = weight;
+    nodes.push_back(node);
+  }
+  return integrate_nodes(solid.mesh, std::move(nodes), sorted);
+}
+
+AddedMass put_on(const Solid& solid, const MassRequest& request, const std::string& body) {
+  AddedMass result;
+  result.surface =
+      request.place ? around(solid, *request.place, body) : integrate_surface(solid.mesh, request.group);
+  const std::optional<Eigen::Vector3d> position = request.position ? request.position : request.place;
+  check_position(position, result.surface, solid.mesh);
+  Interface centre;
+  centre.position = position.value_or(result.surface.centroid);
+  result.loads.resize(3 * static_cast<Eigen::Index>(result.surface.nodes.size()), 6);
+  for (int axis = 0; axis < 6; ++axis)
+    result.loads.col(axis) = spread_unit_load(result.surface, centre, axis).reshaped();
+  result.name = request.name;
+  result.mass = request.mass;
+  result.position = centre.position;
+  result.inertia = request.inertia;
+  return result;
+}
+
+/// L with L L^T = J; moments that rounding makes negative count as zero.
+Eigen::Matrix3d root(const Eigen::Matrix3d& inertia) {
+  const SymmetricEigenpairs pairs = symmetric_eigenpairs(inertia);
+  return pairs.vectors * pairs.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+}  // namespace
+
+Eigen::Matrix3d AddedMass::second_moment() const {
+  return inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;
+}
+
+Eigen::Matrix<double, 6, 6> AddedMass::matrix() const {
+  Eigen::Matrix<double, 6, 6> result = Eigen::Matrix<double, 6, 6>::Zero();
+  result.topLeftCorner<3, 3>().diagonal().setConstant(mass);
+  result.bottomRightCorner<3, 3>() = inertia;
+  return result;
+}
+
+Eigen::MatrixXd AddedMass::motion(const RowMatrix& u) const {
+  Eigen::MatrixXd rows(loads.rows(), u.cols());
+  for (std::size_t a = 0; a < surface.nodes.size(); ++a)
+    rows.middleRows<3>(3 * static_cast<Eigen::Index>(a)) = u.middleRows<3>(3 * surface.nodes[a]);
+  return transposed_product(loads, rows);
+}
+
+void AddedMass::add_forces(const Eigen::MatrixXd& f, RowMatrix& forces) const {
+  const Eigen::MatrixXd rows = product(loads, f);
+  for (std::size_t a = 0; a < surface.nodes.size(); ++a)
+    forces.middleRows<3>(3 * surface.nodes[a]) += rows.middleRows<3>(3 * static_cast<Eigen::Index>(a));
+}
+
+AddedMasses::AddedMasses(const Solid& solid, const std::vector<MassRequest>& requests, const std::string& body) {
+  std::set<std::string> names;
+  for (const MassRequest& request : requests)
+    about(request.subject, [&] {
+      if (!names.insert(request.name).second) throw InputError(fmt::format("there are two masses '{}'", request.name));
+      masses_.push_back(put_on(solid, request, body));
+    });
+}
+
+void AddedMasses::add_inertia(const RowMatrix& u, RowMatrix& products) const {
+  for (const AddedMass& mass : masses_) mass.add_forces(mass.matrix() * mass.motion(u), products);
+}
+
+void AddedMasses::add_linear_inertia(const Eigen::Vector3d& centre, RowMatrix& inertia) const {
+  for (const AddedMass& mass : masses_) {
+    const Eigen::Matrix3d second = mass.second_moment();
+    const Eigen::Vector3d arm = mass.position - centre;
+    Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(6, LinearFields::count);
+    for (int i = 0; i < 3; ++i) {
+      loads(i, 4 * i) = mass.mass;
+      for (int j = 0; j < 3; ++j) {
+        loads(i, 4 * i + 1 + j) = mass.mass * arm(j);
+        loads.col(4 * i + 1 + j).tail<3>() = skew(second.col(j)).col(i);  // int xi x e_i xi_j dm
+      }
+    }
+    mass.add_forces(loads, inertia);
+  }
+}
+
+void AddedMasses::add_inertia_components(const RowMatrix& shapes, std::array<Eigen::MatrixXd, 6>& components) const {
+  constexpr std::array<std::array<int, 2>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  for (const AddedMass& mass : masses_) {
+    const Eigen::MatrixXd motion = mass.motion(shapes);
+    const Eigen::Matrix3d second = mass.second_moment();
+    std::array<Eigen::MatrixXd, 3> turned;  // rows: the displacement of direction k per unit of xi
+    for (int k = 0; k < 3; ++k)
+      turned[static_cast<std::size_t>(k)] = skew(Eigen::Vector3d::Unit(k)) * motion.bottomRows<3>();
+    for (std::size_t s = 0; s < order.size(); ++s) {
+      const auto [k, l] = order[s];
+      const Eigen::MatrixXd along_l = second * turned[static_cast<std::size_t>(l)];
+      components[s] += mass.mass * motion.row(k).transpose() * motion.row(l);
+      components[s] += transposed_product(turned[static_cast<std::size_t>(k)], along_l);
+      if (k == l) components[s] = Eigen::MatrixXd(components[s] + components[s].transpose()) / 2;
+    }
+  }
+}
+
+Eigen::MatrixXd AddedMasses::root_of_inertia(const std::vector<std::int64_t>& unknowns) const {
+  const auto rows = static_cast<Eigen::Index>(unknowns.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, 6 * static_cast<Eigen::Index>(masses_.size()));
+  for (std::size_t k = 0; k < masses_.size(); ++k) {
+    const AddedMass& mass = masses_[k];
+    Eigen::Matrix<double, 6, 6> factor = Eigen::Matrix<double, 6, 6>::Zero();
+    factor.topLeftCorner<3, 3>().diagonal().setConstant(std::sqrt(mass.mass));
+    factor.bottomRightCorner<3, 3>() = root(mass.inertia);
+    const Eigen::MatrixXd columns = mass.loads * factor;
+    for (std::size_t a = 0; a < mass.surface.nodes.size(); ++a)
+      for (int i = 0; i < 3; ++i) {
+        const std::int64_t unknown = 3 * static_cast<std::int64_t>(mass.surface.nodes[a]) + i;
+        const auto place = std::lower_bound(unknowns.begin(), unknowns.end(), unknown);
+        if (place == unknowns.end() || *place != unknown) continue;
+        result.block<1, 6>(place - unknowns.begin(), 6 * static_cast<Eigen::Index>(k)) =
+            columns.row(3 * static_cast<Eigen::Index>(a) + i);
+      }
+  }
+  return result;
+}
+
+MassProperties with_masses(const MassProperties& body, const AddedMasses& masses) {
+  MassProperties sum = body;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();  // about the centre of the body alone
+  for (const AddedMass& mass : masses) {
+    sum.mass += mass.mass;
+    first += mass.mass * (mass.position - body.centre);
+  }
+  sum.centre = body.centre + first / sum.mass;
+  const auto moved = [&](double mass, const Eigen::Vector3d& centre) {
+    const Eigen::Matrix3d arm = skew(Eigen::Vector3d(centre - sum.centre));
+    return Eigen::Matrix3d(-mass * arm * arm);
+  };
+  sum.inertia += moved(body.mass, body.centre);
+  for (const AddedMass& mass : masses) sum.inertia += mass.inertia + moved(mass.mass, mass.position);
+  return sum;
+}
+
+std::vector<std::string> told_masses(const Solid& solid, const AddedMasses& masses,
+                                     const std::vector<CoatingRequest>& coatings) {
+  std::vector<std::string> told;
+  for (const AddedMass& mass : masses) {
+    const Eigen::Vector3d& x = mass.position;
+    told.push_back(fmt::format("masses.{}: {:.6g} kg with the centre ({:.6g}, {:.6g}, {:.6g}) m follow {}", mass.name,
+                               mass.mass, x.x(), x.y(), x.z(), counted(mass.surface.nodes.size(), "node")));
+  }
+  for (const CoatingRequest& coating : coatings) {
+    const double area = integrate_surface(solid.mesh, coating.group).area;
+    told.push_back(fmt::format("masses.{}: {:.6g} kg/m^2 on {:.6g} m^2 are {:.6g} kg", coating.name,
+                               coating.mass_per_area, area, area * coating.mass_per_area));
+  }
+  return told;
+}
+
+Solid requested_solid(const Mesh& mesh, const ReductionOptions& options) {
+  Solid solid = about(
+      "regions", [&] { return make_solid(mesh, options.materials, options.regions, options.integration); }, Subject::hidden);
+  solid.lumped = options.lumped;
+  for (const CoatingRequest& request : options.coatings)
+    solid.coatings.push_back(
+        {about(request.subject, [&] { return surface_group(mesh, request.group); }), request.mass_per_area});
+  return solid;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,233 @@
+// Rigid masses and coatings on a body.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bodies.hpp"
+#include <catch2/catch.hpp>
+
+#include "reduce/common/error.hpp"
+#include "reduce/dense/dense_products.hpp"
+#include "reduce/reduction/missed_modes.hpp"
+#include "reduce/reduction/reduce_pieces.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+#include "tests/support/cell_box.hpp"
+#include "tests/support/messages.hpp"
+
+using namespace bielle;
+using namespace bielle::reduce;
+using Catch::Contains;
+using Eigen::Matrix3d, Eigen::Vector3d;
+
+namespace test_added_masses {
+
+MassRequest mass_on(const std::string& group, double mass) {
+  MassRequest request;
+  request.name = "motor";
+  request.group = group;
+  request.mass = mass;
+  request.subject = "masses.motor";
+  return request;
+}
+
+MassRequest mass_at(const Vector3d& place, double mass) {
+  MassRequest request = mass_on("", mass);
+  request.place = place;
+  return request;
+}
+
+const Matrix3d skew_inertia = (Matrix3d() << 0.3, 0.02, -0.05, 0.02, 0.4, 0.01, -0.05, 0.01, 0.25).finished();
+
+/// A bar of length 1 and Poisson's ratio 0, clamped at x = 0 and guided along x by its other faces.
+ReductionOptions rod(int modes) {
+  ReductionOptions options;
+  options.name = "rod";
+  options.materials = {{"cork", Material::isotropic(4e8, 0, 2000)}};
+  options.regions = {{"all", "cork"}};
+  options.interfaces = {test::interface("root", "x0", Tie::rigid)};
+  options.mode_count = modes;
+  return options;
+}
+
+/// Frequencies of the modes whose effective mass is along x [Hz].
+std::vector<double> axial_frequencies(const Superelement& body) {
+  std::vector<double> found;
+  for (Eigen::Index k = 0; k < body.modes(); ++k)
+    if (body.effective_mass(k, 0) > 1e-3 * body.total_mass) found.push_back(body.frequencies(k));
+  return found;
+}
+
+TEST_CASE("a rod with a mass at its end vibrates as the closed form says", "[reduction]") {
+  // beta tan beta = rod's mass over the mass at its end, f = beta c / (2 pi L), c = sqrt(E / rho)
+  const Mesh mesh = test::cell_box(CellType::hex20, {1, 0.1, 0.1}, {8, 1, 1});
+  ReductionOptions options = rod(20);
+  options.masses = {mass_on("x1", 2000 * 0.01 * 0.5)};
+  const std::vector<double> found = axial_frequencies(test::reduced(mesh, options));
+  REQUIRE(found.size() >= 2);
+  const double c = std::sqrt(4e8 / 2000.0);
+  const double beta[] = {1.076873986, 3.643597167};  // roots of beta tan beta = 2
+  for (int k = 0; k < 2; ++k) {
+    REQUIRE(std::abs(beta[k] * std::tan(beta[k]) - 2) < 1e-7);
+    CHECK(found[static_cast<std::size_t>(k)] == Approx(beta[k] * c / (2 * std::numbers::pi)).epsilon(k == 0 ? 2e-6 : 2e-4));
+  }
+}
+
+TEST_CASE("a rod with lumped masses vibrates as the closed form of the difference scheme says", "[reduction]") {
+  // f_k = c n / (pi L) sin((2 k - 1) pi / (4 n)) of n equal elements with half of their mass at each end.
+  constexpr int n = 6;
+  const Mesh mesh = test::cell_box(CellType::hex8, {1, 0.1, 0.1}, {n, 1, 1});
+  ReductionOptions options = rod(30);
+  options.lumped = true;
+  const std::vector<double> found = axial_frequencies(test::reduced(mesh, options));
+  REQUIRE(found.size() >= 2);
+  const double c = std::sqrt(4e8 / 2000.0);
+  for (int k = 1; k <= 2; ++k)
+    CHECK(found[static_cast<std::size_t>(k - 1)] ==
+          Approx(c * n / std::numbers::pi * std::sin((2 * k - 1) * std::numbers::pi / (4 * n))).epsilon(1e-8));
+}
+
+TEST_CASE("a mass on the surface of an interface is a rigid body on its node", "[reduction]") {
+  // Without it the interface node would carry the body; both models have the same modes, since they hold the node.
+  const Mesh mesh = test::twisted_block();
+  ReductionOptions bare = test::steel_body(Tie::rigid, Tie::average, 5), loaded = bare;
+  const Vector3d position(0.7, 0.1, -0.2);
+  bare.interfaces[1].position = loaded.interfaces[1].position = Vector3d(0.5, 0, 0.1);
+  loaded.masses = {mass_on("x1", 30)};
+  loaded.masses[0].position = position;
+  loaded.masses[0].inertia = skew_inertia;
+  const Superelement a = test::reduced(mesh, bare), b = test::reduced(mesh, loaded);
+  REQUIRE(a.size() == b.size());
+  CHECK((a.frequencies - b.frequencies).norm() < 1e-9 * a.frequencies.norm());
+
+  const Matrix3d arm = skew(Vector3d(position - Vector3d(0.5, 0, 0.1)));
+  Eigen::Matrix<double, 6, 6> rigid;  // [m, -m d~; m d~, J - m d~ d~] at the node
+  rigid << 30 * Matrix3d::Identity(), -30 * arm, 30 * arm, skew_inertia - 30 * arm * arm;
+  Eigen::MatrixXd expected = a.mass;
+  expected.block<6, 6>(6, 6) += rigid;
+  // Signs of modes may differ: boundary coordinates, then the modes alone.
+  const double scale = expected.cwiseAbs().maxCoeff();
+  CHECK((b.mass.topLeftCorner<12, 12>() - expected.topLeftCorner<12, 12>()).norm() < 1e-10 * scale);
+  CHECK((b.mass.topRightCorner(12, 5).cwiseAbs() - expected.topRightCorner(12, 5).cwiseAbs()).norm() < 1e-7 * scale);
+  CHECK((b.stiffness - a.stiffness).norm() < 1e-9 * a.stiffness.norm());
+
+  // S_kl of the element dm at xi: its displacement is W_x + theta x xi.
+  const Matrix3d second = skew_inertia.trace() / 2 * Matrix3d::Identity() - skew_inertia;
+  for (int k = 0; k < 3; ++k) {
+    Eigen::Matrix<double, 3, 6> along = Eigen::Matrix<double, 3, 6>::Zero();  // of xi
+    along.rightCols<3>() = skew(Vector3d::Unit(k));
+    Eigen::RowVectorXd centre = Eigen::RowVectorXd::Zero(6);
+    centre(k) = 1;
+    centre.tail<3>() = -arm.row(k);
+    const Eigen::Matrix<double, 6, 6> s = 30 * centre.transpose() * centre + along.transpose() * second * along;
+    const Eigen::MatrixXd found = b.inertia_components[static_cast<std::size_t>(k)] -
+                                  a.inertia_components[static_cast<std::size_t>(k)];
+    CHECK((found.block<6, 6>(6, 6) - s).norm() < 1e-10 * scale);
+  }
+}
+
+TEST_CASE("a spinning body with a point mass stiffens as under the load of its centrifugal force", "[reduction]") {
+  // The mass at the node of an interface: K_sigma of the loaded body is that of the bare one plus that of the force.
+  const Mesh mesh = test::box_mesh({{0.6, 0.1, 0.1}, {6, 1, 1}});
+  ReductionOptions bare = test::steel_body(Tie::rigid, Tie::average, 0), loaded = bare;
+  loaded.masses = {mass_on("x1", 20)};
+  const Superelement a = test::reduced(mesh, bare), b = test::reduced(mesh, loaded);
+  // A spin about z has the field a = -x, -y: K per Om_1^2 .. is ordered 11 22 33; the force is along x.
+  const double force = 20 * (0.6 - b.centre.x());
+  for (const std::size_t spin : {1, 2}) {
+    const Eigen::MatrixXd change = b.spin_stiffness[spin] - a.spin_stiffness[spin];
+    const Eigen::MatrixXd pull = force * a.load_stiffness[6];
+    INFO(spin << ": " << change.norm() << " " << pull.norm());
+    // a.spin_stiffness[s] belongs to the field Om_s Om_s: the sum of the two others' directions.
+    CHECK((change.block<6, 6>(6, 6) - pull.block<6, 6>(6, 6)).norm() < 1e-8 * pull.norm());
+    CHECK((change - pull).norm() < 1e-8 * pull.norm());
+  }
+}
+
+TEST_CASE("bodies with masses and coatings pass all checks of a reduction, whatever their ties", "[reduction]") {
+  ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 6);
+  switch (GENERATE(0, 1, 2, 3)) {
+    case 0:
+      break;
+    case 1:
+      options = test::steel_body(Tie::free, Tie::average, 6);
+      break;
+    case 2:
+      options = test::steel_body(Tie::average, Tie::average, 6);
+      options.inertia_relief = true;
+      break;
+    case 3:
+      options.interfaces.pop_back();
+      break;
+  }
+  options.masses = {mass_on("z1", 12), mass_at({0.3, 0.02, 0.1}, 3)};
+  options.masses[0].position = Vector3d(0.3, 0.1, 0.4);
+  options.masses[0].inertia = skew_inertia;
+  options.masses[1].name = "sensor";
+  options.coatings = {{"paint", "y0", 200, "masses.paint"}};
+  options.lumped = GENERATE(false, true);
+  options.modes_proven = true;
+  ReductionReport report;
+  const Superelement body = test::reduced(test::twisted_block(), options, &report);
+  bool counted = false;
+  for (const Check& check : report.checks) {
+    INFO(check.name << " = " << check.value);
+    CHECK(check.passed());
+    counted = counted || check.name == "missed_modes";
+    if (check.name.ends_with("virial")) CHECK(check.value < 1e-8);
+  }
+  CHECK(counted);
+  CHECK((body.mass - body.inertia_components[0] - body.inertia_components[1] - body.inertia_components[2]).norm() <
+        1e-12 * body.mass.norm());
+}
+
+TEST_CASE("a mass at a place follows rigid motions exactly, and at a node the node", "[reduction]") {
+  const Mesh mesh = test::twisted_block();
+  const Solid solid = test::steel_solid(mesh);
+  const int node = 40;
+  const AddedMasses masses(solid, {mass_at(mesh.points.col(node), 2)}, "block");
+  const AddedMass& mass = *masses.begin();
+  const Eigen::MatrixXd motion = mass.motion(RowMatrix(rigid_motions(mesh.points, mass.position)));
+  CHECK((motion - Eigen::MatrixXd::Identity(6, 6)).cwiseAbs().maxCoeff() < 1e-11);
+  RowMatrix alone = RowMatrix::Zero(3 * solid.points(), 1);
+  alone(3 * node + 1, 0) = 1;
+  CHECK(std::abs(mass.motion(alone)(1, 0) - 1) < 1e-4);
+}
+
+TEST_CASE("pieces have the masses that lie in them", "[reduction]") {
+  const Mesh mesh = test::box_mesh({{0.8, 0.1, 0.1}, {8, 1, 1}});
+  ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 3);
+  options.masses = {mass_at({0.7, 0.05, 0.1}, 4)};
+  options.coatings = {{"paint", "z1", 50, "masses.paint"}};
+  Progress quiet(true);
+  const std::vector<CutPlane> cuts{{"cut_1", {0.4, 0, 0}, {1, 0, 0}, "pieces.planes"}};
+  std::vector<Check> checks;
+  const CutBody body = reduce_pieces(mesh, cuts, options, {Tie::rigid, true}, quiet, 2, &checks);
+  const double half = 7800 * 0.4 * 0.01 + 50 * 0.4 * 0.1;
+  CHECK(body.pieces[0].total_mass == Approx(half).epsilon(1e-12));
+  CHECK(body.pieces[1].total_mass == Approx(half + 4).epsilon(1e-12));
+  for (const Check& check : checks) CHECK(check.passed());
+
+  options.masses = {mass_on("z1", 4)};
+  CHECK_THROWS_WITH(reduce_pieces(mesh, cuts, options, {Tie::rigid, false}, quiet, 2),
+                    Contains("a mass belongs to one; move the cut, or divide the mass"));
+}
+
+TEST_CASE("masses on no surface, far away or outside the body are refused", "[reduction]") {
+  const Mesh mesh = test::twisted_block();
+  const auto refusal = [&](const MassRequest& request) {
+    ReductionOptions options = test::steel_body(Tie::rigid, Tie::average);
+    options.masses = {request};
+    return test::message_of<InputError>([&] { test::reduced(mesh, options); });
+  };
+  CHECK_THAT(refusal(mass_on("x2", 1)), Contains("masses.motor: the mesh has no surface group 'x2'; did you mean"));
+  CHECK_THAT(refusal(mass_at({5, 0, 0}, 1)), Contains("masses.motor: stands 4.5"));
+  MassRequest far = mass_on("z1", 1);
+  far.position = Vector3d(300, 0, 0);
+  CHECK_THAT(refusal(far), Contains("masses.motor: its position is 3"));
+  ReductionOptions options = test::steel_body(Tie::rigid, Tie::average);
+  options.coatings = {{"paint", "zz", 1, "masses.paint"}};
+  CHECK_THAT(test::message_of<InputError>([&] { test::reduced(mesh, options); }),
+             Contains("masses.paint: the mesh has no surface group 'zz'"));
+}
+
+}  // namespace test_added_masses
