@@ -131,13 +131,12 @@ TEST_CASE("a spinning body with a point mass stiffens as under the load of its c
   ReductionOptions bare = test::steel_body(Tie::rigid, Tie::average, 0), loaded = bare;
   loaded.masses = {mass_on("x1", 20)};
   const Superelement a = test::reduced(mesh, bare), b = test::reduced(mesh, loaded);
-  // A spin about z has the field a = -x, -y: K per Om_1^2 .. is ordered 11 22 33; the force is along x.
+  // Fields of Om_2^2 and Om_3^2 push the mass along x, as the unit load of coordinate 6 does.
   const double force = 20 * (0.6 - b.centre.x());
   for (const std::size_t spin : {1, 2}) {
     const Eigen::MatrixXd change = b.spin_stiffness[spin] - a.spin_stiffness[spin];
     const Eigen::MatrixXd pull = force * a.load_stiffness[6];
     INFO(spin << ": " << change.norm() << " " << pull.norm());
-    // a.spin_stiffness[s] belongs to the field Om_s Om_s: the sum of the two others' directions.
     CHECK((change.block<6, 6>(6, 6) - pull.block<6, 6>(6, 6)).norm() < 1e-8 * pull.norm());
     CHECK((change - pull).norm() < 1e-8 * pull.norm());
   }
@@ -219,7 +218,7 @@ TEST_CASE("masses on no surface, far away or outside the body are refused", "[re
     options.masses = {request};
     return test::message_of<InputError>([&] { test::reduced(mesh, options); });
   };
-  CHECK_THAT(refusal(mass_on("x2", 1)), Contains("masses.motor: the mesh has no surface group 'x2'; did you mean"));
+  CHECK_THAT(refusal(mass_on("x2", 1)), Contains("masses.motor: the mesh has no surface group 'x2'; expected one of 'x0'"));
   CHECK_THAT(refusal(mass_at({5, 0, 0}, 1)), Contains("masses.motor: stands 4.5"));
   MassRequest far = mass_on("z1", 1);
   far.position = Vector3d(300, 0, 0);
