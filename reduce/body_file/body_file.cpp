@@ -29,7 +29,8 @@ const KeyTable& mesh_keys() {
        {"order", integer().between(1, 2), otherwise("2"),
         "Order of the tetrahedra: 1 for 4 nodes, 2 for 10. Order 1 is far too stiff in bending."},
        {"sizes", entries("physical group, interface, load, point or mass", {number("m").positive()}), optional,
-        "Other sizes on physical groups, or on the surfaces of interfaces, loads, points and masses; they fade into `size` "
+        "Other sizes on physical groups, or on the surfaces of interfaces, loads, points and masses; they fade into "
+        "`size` "
         "away from them."}}};
   return table;
 }
@@ -280,7 +281,8 @@ const KeyTable& body_file_keys() {
        {"masses", entries("mass", {nested(mass_keys)}), optional,
         "Masses that the body carries: equipment, paint; by their names."},
        {"lumped", boolean(), otherwise("false"),
-        "The mesh has a diagonal mass matrix, to compare with other programs: row sums for cells of order 1, the scaled "
+        "The mesh has a diagonal mass matrix, to compare with other programs: row sums for cells of order 1, the "
+        "scaled "
         "diagonal for cells of order 2. Frequencies become less accurate."},
        {"recovery", nested(recovery_keys), optional, "Fields that the mechanism can recover."},
        {"pieces", nested(pieces_keys), optional,

@@ -21,8 +21,9 @@ Eigen::Matrix3d read_inertia(const YamlValue& mass) {
   const Eigen::Matrix3d tensor = read_inertia_tensor(*inertia);
   const std::string fault = inertia_fault(tensor);
   if (!fault.empty())
-    inertia->fail(fault + ". Is the tensor about the centre of mass, and are the products of inertia entries of the "
-                          "tensor? A mass without inertia has no `inertia`");
+    inertia->fail(fault +
+                  ". Is the tensor about the centre of mass, and are the products of inertia entries of the "
+                  "tensor? A mass without inertia has no `inertia`");
   if (!axes) return tensor;
   const Eigen::Matrix3d R = read_axes(*axes);
   return R * tensor * R.transpose();
@@ -31,8 +32,9 @@ Eigen::Matrix3d read_inertia(const YamlValue& mass) {
 CoatingRequest read_coating(const std::string& name, const YamlValue& value, MeshRequest& mesh) {
   for (const char* key : {"mass", "at", "position", "inertia", "axes"})
     if (const auto given = value.find(key))
-      given->fail("`per_area` spreads mass over a surface, which has neither a total nor a centre of its own: remove "
-                  "this key");
+      given->fail(
+          "`per_area` spreads mass over a surface, which has neither a total nor a centre of its own: remove "
+          "this key");
   return {name, read_surface(value, "surface", mesh), value.at("per_area").number(), value.path()};
 }
 
@@ -58,7 +60,8 @@ const KeyTable& mass_keys() {
       "an added mass",
       "A rigid mass that the body carries without being stiffened by it, or mass spread over a surface.",
       {{"surface", surface_forms(), optional,
-        "A surface that carries the mass, which moves as its area-weighted mean, as the node of an interface with `tie: "
+        "A surface that carries the mass, which moves as its area-weighted mean, as the node of an interface with "
+        "`tie: "
         "average` does. It may touch interfaces."},
        {"at", vector3("m"), optional,
         "A place in the mesh that carries the mass, in place of `surface`; the mass follows the nodes around it, of "
@@ -67,7 +70,8 @@ const KeyTable& mass_keys() {
        {"position", vector3("m"), computed("the centroid of the surface, or the place"),
         "Its centre of mass, connected by a rigid arm."},
        {"inertia", inertia_tensor_forms(), computed("none: a point mass"),
-        "Inertia tensor about its centre of mass as `[xx, yy, zz]`, `[xx, yy, zz, xy, xz, yz]` or three rows of three."},
+        "Inertia tensor about its centre of mass as `[xx, yy, zz]`, `[xx, yy, zz, xy, xz, yz]` or three rows of "
+        "three."},
        {"axes", nested(axes_keys), computed("the axes of the body"), "Axes of `inertia`."},
        {"per_area", number("kg/m^2").positive(), optional,
         "Mass per area of the `surface`, in place of `mass`: paint, lining, insulation."}}};

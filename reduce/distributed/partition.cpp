@@ -52,8 +52,7 @@ void add_coating(const Solid& solid, const Coating& coating, const std::vector<i
     auto block = std::find_if(share.blocks.begin(), share.blocks.end(),
                               [&](const CellBlock& known) { return known.type == of_type.type; });
     if (block == share.blocks.end())
-      block = share.blocks.insert(share.blocks.end(),
-                                  {of_type.type, Eigen::MatrixXi(node_count(of_type.type), 0)});
+      block = share.blocks.insert(share.blocks.end(), {of_type.type, Eigen::MatrixXi(node_count(of_type.type), 0)});
     Eigen::MatrixXi nodes = solid.mesh.block(of_type.type)->nodes(Eigen::all, here);
     for (int& node : nodes.reshaped()) node = number[node];
     const Eigen::Index first = block->nodes.cols();

@@ -21,7 +21,7 @@ struct MeshShare {
   std::vector<Eigen::Matrix<double, 6, 6>> elasticities;  ///< [Pa]
   std::vector<double> densities;                          ///< [kg/m^3]
   Integration integration = Integration::standard;
-  std::vector<Coating> coatings;                          ///< faces that are not in another share, too
+  std::vector<Coating> coatings;  ///< faces that are not in another share, too
   bool lumped = false;
 };
 

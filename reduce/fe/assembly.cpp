@@ -161,8 +161,7 @@ void add_mass(const SolidBlock& block, const NodeGraph& graph, NodeMatrix& m, in
     const Matrix reference = mass.of(block.points<N>(e), least_jacobian);
     if (!(least_jacobian > 0)) inverted.note(block.first + e);
     const double density = block.material(e).density;
-    const Matrix used =
-        block.solid.lumped ? lumped_mass<Matrix>(reference, SolidCell<N>::is_second_order) : reference;
+    const Matrix used = block.solid.lumped ? lumped_mass<Matrix>(reference, SolidCell<N>::is_second_order) : reference;
     add_to_node_matrix<N>(block, graph, e, density * used, m);
   });
   inverted.check(block.solid);

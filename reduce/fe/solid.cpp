@@ -85,8 +85,7 @@ Moments lumped_moments(const SolidBlock& block, const Eigen::Vector3d& origin) {
   double least_jacobian = 0;
   for (Eigen::Index e = 0; e < block.cells(); ++e) {
     const CellPoints<N> x = block.points<N>(e);
-    const Eigen::VectorXd parts =
-        lumped_mass(mass.of(x, least_jacobian), SolidCell<N>::is_second_order).diagonal();
+    const Eigen::VectorXd parts = lumped_mass(mass.of(x, least_jacobian), SolidCell<N>::is_second_order).diagonal();
     for (int a = 0; a < N; ++a) result.add(parts(a), block.material(e).density, x.col(a) - origin);
   }
   return result;

@@ -5,6 +5,7 @@
 
 #include "reduce/mesh/cell_type.hpp"
 #include "reduce/mesh/jacobian.hpp"
+#include "reduce/mesh/measures.hpp"
 #include "reduce/mesh/solid_cells.hpp"
 
 namespace bielle::reduce {
@@ -31,6 +32,7 @@ std::vector<std::pair<int, std::vector<int>>> middle_nodes(const CellInfo& cell)
 
 Straightening straighten_elements(Mesh& mesh) {
   Straightening result;
+  Eigen::Matrix3Xd before = mesh.points;
   const SolidCells cells(mesh);
   std::vector<char> offended(cells.size(), 0);
   std::vector<char> moved(mesh.points.cols(), 0);
@@ -68,6 +70,11 @@ Straightening straighten_elements(Mesh& mesh) {
     }
   }
   for (char element : offended) result.elements += element;
+  if (result.nodes == 0) return result;
+  const double after = mesh_volume(mesh);
+  std::swap(mesh.points, before);
+  result.volume_change = after / mesh_volume(mesh) - 1;
+  std::swap(mesh.points, before);
   return result;
 }
 

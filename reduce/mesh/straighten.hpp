@@ -11,6 +11,7 @@ struct Straightening {
   int nodes = 0;        ///< nodes moved to the middle of their edge (face, cell)
   double farthest = 0;  ///< longest way of a node [m]
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< new place of that node
+  double volume_change = 0;                         ///< of the body, relative
 };
 
 /// Moves the mid-side nodes of every second-order element whose Jacobian is not positive (of tetrahedra: not provably

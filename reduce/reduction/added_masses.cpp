@@ -39,8 +39,7 @@ SurfaceIntegrals around(const Solid& solid, const Eigen::Vector3d& place, const 
 
 AddedMass put_on(const Solid& solid, const MassRequest& request, const std::string& body) {
   AddedMass result;
-  result.surface =
-      request.place ? around(solid, *request.place, body) : integrate_surface(solid.mesh, request.group);
+  result.surface = request.place ? around(solid, *request.place, body) : integrate_surface(solid.mesh, request.group);
   const std::optional<Eigen::Vector3d> position = request.position ? request.position : request.place;
   check_position(position, result.surface, solid.mesh);
   Interface centre;
@@ -63,9 +62,7 @@ Eigen::Matrix3d root(const Eigen::Matrix3d& inertia) {
 
 }  // namespace
 
-Eigen::Matrix3d AddedMass::second_moment() const {
-  return inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;
-}
+Eigen::Matrix3d AddedMass::second_moment() const { return inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia; }
 
 Eigen::Matrix<double, 6, 6> AddedMass::matrix() const {
   Eigen::Matrix<double, 6, 6> result = Eigen::Matrix<double, 6, 6>::Zero();
@@ -190,7 +187,8 @@ std::vector<std::string> told_masses(const Solid& solid, const AddedMasses& mass
 
 Solid requested_solid(const Mesh& mesh, const ReductionOptions& options) {
   Solid solid = about(
-      "regions", [&] { return make_solid(mesh, options.materials, options.regions, options.integration); }, Subject::hidden);
+      "regions", [&] { return make_solid(mesh, options.materials, options.regions, options.integration); },
+      Subject::hidden);
   solid.lumped = options.lumped;
   for (const CoatingRequest& request : options.coatings)
     solid.coatings.push_back(

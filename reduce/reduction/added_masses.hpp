@@ -1,8 +1,8 @@
 // Rigid masses on the body, each of which moves as the mean of a surface or of the nodes around a place: M gets
 //     W^T [m I3, 0; 0, J] W,   W u: displacement of the mass's centre and its rotation, body axes (6),
-// of rank 6, which is added to products alone: the mesh's M stays m (x) I3. An element dm at xi from the centre moves by
-// d + theta x xi. All integrals follow with P = int xi xi^T dm = tr(J)/2 I - J; a mass takes the place of points that a
-// rigid tie carries.
+// of rank 6, which is added to products alone: the mesh's M stays m (x) I3. An element dm at xi from the centre moves
+// by d + theta x xi. All integrals follow with P = int xi xi^T dm = tr(J)/2 I - J; a mass takes the place of points
+// that a rigid tie carries.
 #pragma once
 
 #include <array>

@@ -111,8 +111,8 @@ RowMatrix BodyMatrices::mass_times(const RowMatrix& u) const {
   return products;
 }
 
-// The masses' part -sigma B B^T of the interior is full in the points of their surfaces. It is the Schur complement of a
-// border: [A, sqrt(sigma) B; ., I] has the signs of A - sigma B B^T, and one positive one for each column of B.
+// The masses' part -sigma B B^T of the interior is full in the points of their surfaces. It is the Schur complement of
+// a border: [A, sqrt(sigma) B; ., I] has the signs of A - sigma B B^T, and one positive one for each column of B.
 std::optional<PivotSigns> BodyMatrices::count_signs(const Factor& factor, const BorderedShift& shifted) const {
   if (masses_.empty()) return count_mesh_signs(factor, shifted);
   BorderedShift all = shifted;

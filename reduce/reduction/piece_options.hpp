@@ -18,11 +18,11 @@ struct PiecesRequest {
 /// The cuts for the pieces' file.
 std::vector<CutSurface> cut_surfaces(const CutMesh& cut);
 
-/// Requests for each piece: the interfaces, points, loads, masses and materials that lie in it, and its sides of the cuts as
-/// interfaces at one place. The total of a `force` is distributed over all pieces that its surface touches. Damping by
-/// ratios is left out, since the ratios are those of the whole body.
-/// @throws InputError about an interface, point or mass whose surface lies in several pieces, or an interface with the name
-/// of
+/// Requests for each piece: the interfaces, points, loads, masses and materials that lie in it, and its sides of the
+/// cuts as interfaces at one place. The total of a `force` is distributed over all pieces that its surface touches.
+/// Damping by ratios is left out, since the ratios are those of the whole body.
+/// @throws InputError about an interface, point or mass whose surface lies in several pieces, or an interface with the
+/// name of
 ///         a cut
 std::vector<ReductionOptions> piece_options(const Mesh& whole, const CutMesh& cut, const std::vector<CutPlane>& planes,
                                             const std::vector<CutSurface>& surfaces, const ReductionOptions& options,

@@ -61,8 +61,7 @@ TieSecondOrder::MeanMotion TieSecondOrder::mean_motion(const SurfaceIntegrals& s
   for (int j = 0; j < 3; ++j)
     motion.rotation += inverse * skew(Eigen::Vector3d::Unit(j)) * motion.deformation.middleRows<3>(3 * j);
   for (int j = 0; j < 3; ++j)
-    motion.deformation.middleRows<3>(3 * j) +=
-        skew(surface.second_moment.col(j)) * motion.rotation;  // - theta x S e_j
+    motion.deformation.middleRows<3>(3 * j) += skew(surface.second_moment.col(j)) * motion.rotation;  // - theta x S e_j
   return motion;
 }
 
@@ -154,8 +153,7 @@ void TieSecondOrder::add_masses(const LinearAcceleration& acceleration, Eigen::M
     const Eigen::Vector3d arm = mass.position - mass.surface.centroid;
     const Eigen::Vector3d at_centre =
         acceleration.translation + acceleration.gradient * (mass.position - acceleration.centre);
-    const Eigen::Matrix3d n =
-        -mass.mass * at_centre * arm.transpose() - acceleration.gradient * mass.second_moment();
+    const Eigen::Matrix3d n = -mass.mass * at_centre * arm.transpose() - acceleration.gradient * mass.second_moment();
     const Eigen::Vector3d moment(n(2, 1) - n(1, 2), n(0, 2) - n(2, 0), n(1, 0) - n(0, 1));  // sum of a x F
     const Eigen::Vector3d w = polar_moment(mass.surface).inverse() * moment;
     k += congruent(mean_rotation_term(mass.surface, n, w), motion.rotation);

@@ -7,8 +7,8 @@
 //               S = int r r^T dA, and of the surface's deformation, D = int u r^T dA - theta~ S with u its displacement
 //               from the centroid's: twice the symmetric part of -w.(D^T theta - theta tr D)
 // with F, M the load on that interface. A mass on a surface is a cloud of average ties, one for each of its elements,
-// with the inertia force of the element. The rotation is taken for the rotation vector, while an interface that releases
-// the turn about one axis d has the coordinates t = d x (E d) of the mechanism (the node may spin): of these
+// with the inertia force of the element. The rotation is taken for the rotation vector, while an interface that
+// releases the turn about one axis d has the coordinates t = d x (E d) of the mechanism (the node may spin): of these
 //     m.t = m.theta + (d.theta) (m.(d x theta)) / 2 + ..  for a kept moment direction m,
 // and the load m also contributes -(psi^T b + b^T psi) / 2, psi = d^T theta, b = m^T d~ theta. A single kept rotation
 // needs no correction: its coordinate is the rotation vector's component to second order.

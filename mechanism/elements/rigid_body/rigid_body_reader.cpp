@@ -102,9 +102,7 @@ const KeyTable& rigid_body_keys() {
        {"mass", number("kg").positive(), optional, "Mass, which is needed without `solid`."},
        {"centre", vector3("m").as_point(), computed("the node, or the centre of the solid"),
         "Centre of mass in the axes of the node."},
-       {"inertia",
-        inertia_tensor_forms(),
-        optional,
+       {"inertia", inertia_tensor_forms(), optional,
         "Inertia tensor as `[xx, yy, zz]`, `[xx, yy, zz, xy, xz, yz]` or three rows of three, which is needed without "
         "`solid`."},
        {"inertia_about", word({"centre", "node"}, "a point for the inertia"), otherwise("centre"),

@@ -53,8 +53,13 @@ void Entries::add(int row, int column, double value) {
 Part::Part(MeshShare share, int threads)
     : threads_(threads),
       mesh_(mesh_of(share)),
-      solid_{mesh_, SolidCells(mesh_), materials_of(share), std::move(share.material_of), share.integration,
-             std::move(share.coatings), share.lumped},
+      solid_{mesh_,
+             SolidCells(mesh_),
+             materials_of(share),
+             std::move(share.material_of),
+             share.integration,
+             std::move(share.coatings),
+             share.lumped},
       graph_(node_graph(mesh_, threads)),
       stiffness_(assemble_stiffness(solid_, graph_, threads)),
       mass_(assemble_mass(solid_, graph_, threads)) {}

@@ -19,7 +19,7 @@ PROGRAM = os.path.join(PROGRAMS, "bielle-reduce-mpi")
 WHY_NOT = ("bielle-reduce-mpi is not built" if not os.path.exists(PROGRAM) else
            "there is no mpirun" if not shutil.which("mpirun") else "")
 
-# Two ends of different kinds, a tie that lets the bar turn, loads and points with residual vectors, damping.
+# Two ends of different kinds, a tie that lets the bar turn, loads and points with residual vectors, damping, masses.
 RICH = BODY.replace("left: {surface: left, tie: rigid}", "left: {surface: left, tie: rigid, directions: [x, y, z, rx, rz]}").replace(
     "right: {surface: right, tie: rigid}", "right: {surface: right, tie: average}") + """\
 damping: {ratio: [0.01, 0.02]}
@@ -28,6 +28,10 @@ loads:
   wind: {surface: bottom, pressure: 1000}
 points:
   sensor: {at: [0.1, 0.01, 0.02], residual: [x, z]}
+masses:
+  motor: {surface: bottom, mass: 0.3, position: [0.1, 0, 0.1], inertia: [1e-3, 2e-3, 2e-3]}
+  bolt: {at: [0.1, 0.01, 0.02], mass: 0.1}
+  paint: {surface: bottom, per_area: 2}
 """
 PAIRS = """\
 body: pairs

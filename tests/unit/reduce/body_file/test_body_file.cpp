@@ -382,3 +382,53 @@ TEST_CASE("numbers may use parameters of the file, which may use those above the
   text = "parameters: {fine: 2 mm}\n" + body("size: 3e-3", "size: fine");
   CHECK(parse_body_file(text, "rod.yaml").mesh.size == Approx(2e-3));
 }
+
+TEST_CASE("Masses are read with every key") {
+  const BodyFile file =
+      read("recovery:",
+           "masses:\n"
+           "  motor: {surface: crown, mass: 2 t, position: [1, 2, 3], inertia: [2, 3, 4], axes: {x: [0, 1, "
+           "0], y: [0, 0, 1]}}\n"
+           "  bolt: {at: [0.1, 0, 0], mass: 0.2}\n"
+           "  paint: {surface: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}, per_area: 0.5}\n"
+           "lumped: true\n"
+           "recovery:");
+  const ReductionOptions& options = file.options;
+  REQUIRE(options.masses.size() == 2);
+  CHECK(options.masses[0].group == "crown");
+  CHECK(options.masses[0].mass == 2000);
+  CHECK(*options.masses[0].position == Eigen::Vector3d(1, 2, 3));
+  CHECK(options.masses[0].inertia.isApprox(Eigen::Matrix3d(Eigen::Vector3d(4, 2, 3).asDiagonal()), 1e-15));
+  CHECK(*options.masses[1].place == Eigen::Vector3d(0.1, 0, 0));
+  CHECK(options.masses[1].inertia.isZero(0));
+  CHECK_FALSE(options.masses[1].position);
+  REQUIRE(options.coatings.size() == 1);
+  CHECK(options.coatings[0].group == "masses.paint");
+  CHECK(options.coatings[0].mass_per_area == 0.5);
+  CHECK(options.lumped);
+  CHECK_FALSE(read().options.lumped);
+}
+
+TEST_CASE("Wrong masses are refused with what was expected") {
+  const auto refusal = [](const std::string& mass) {
+    return message("recovery:", "masses:\n  motor: " + mass + "\nrecovery:");
+  };
+  CHECK_THAT(refusal("{mass: 1}"), Contains("16: masses.motor: expected either `surface`"));
+  CHECK_THAT(refusal("{mass: 1, surface: crown, at: [0, 0, 0]}"), Contains("expected either `surface`"));
+  CHECK_THAT(refusal("{surface: crown}"), Contains("mass"));
+  CHECK_THAT(refusal("{surface: crown, mass: 0}"), Contains("masses.motor.mass: "));
+  CHECK_THAT(refusal("{surface: crown, mass: -1}"), Contains("masses.motor.mass: "));
+  CHECK_THAT(refusal("{surface: crown, mass: 1 m}"), Contains("masses.motor.mass: "));
+  CHECK_THAT(refusal("{surface: crown, mas: 1}"), Contains("did you mean 'mass'"));
+  CHECK_THAT(refusal("{surface: crown, mass: 1, axes: {x: [1, 0, 0], y: [0, 1, 0]}}"),
+             Contains("masses.motor.axes: they are the axes of `inertia`, which is not given"));
+  CHECK_THAT(refusal("{surface: crown, mass: 1, inertia: [1, 1, 3]}"), Contains("no body has this inertia"));
+  CHECK_THAT(refusal("{surface: crown, mass: 1, inertia: [0, 0, 0]}"), Contains("must be positive definite"));
+  CHECK_THAT(refusal("{surface: crown, mass: 1, inertia: 3}"), Contains("masses.motor.inertia: "));
+  CHECK_THAT(refusal("{surface: crown, mass: 1, inertia: [[1, 1, 0], [0, 1, 0], [0, 0, 1]]}"), Contains("symmetric"));
+  CHECK_THAT(refusal("{surface: crown, per_area: 1, mass: 1}"), Contains("masses.motor.mass: `per_area` spreads mass"));
+  CHECK_THAT(refusal("{at: [0, 0, 0], per_area: 1}"), Contains("masses.motor.at: `per_area` spreads mass"));
+  CHECK_THAT(refusal("{surface: crown, per_area: 0}"), Contains("masses.motor.per_area: "));
+  CHECK_THAT(refusal("3"), Contains("masses.motor: "));
+  CHECK_THAT(message("recovery:", "lumped: 2\nrecovery:"), Contains("15: lumped: expected true or false"));
+}

@@ -70,8 +70,13 @@ TEST_CASE("matrices of the parts add up to those of the solid, coated and lumped
   for (const std::vector<int>& cells : divided_cells(box.solid, 3)) {
     SolidPart part = part_of(box.solid, cells, coated);
     const Mesh mesh{part.share.points, part.share.blocks, {}};
-    const Solid solid{mesh, SolidCells(mesh), box.solid.materials, part.share.material_of,
-                      part.share.coatings, part.share.lumped};
+    const Solid solid{mesh,
+                      SolidCells(mesh),
+                      box.solid.materials,
+                      part.share.material_of,
+                      part.share.integration,
+                      part.share.coatings,
+                      part.share.lumped};
     const NodeGraph own = node_graph(solid.mesh);
     RowMatrix rows(3 * solid.points(), 2);
     for (std::size_t a = 0; a < part.points.size(); ++a)

@@ -3,8 +3,11 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
+#include "reduce/fe/assembly.hpp"
 #include "reduce/fe/solid.hpp"
+#include "reduce/fe/surface.hpp"
 #include "tests/support/box_mesh.hpp"
+#include "tests/support/cell_box.hpp"
 
 using namespace bielle;
 using namespace bielle::reduce;
@@ -89,4 +92,56 @@ TEST_CASE("Points that no cell uses are told apart") {
   const std::vector<bool> inside = points_of_solid(make_solid(mesh, metals, {{"all", "steel"}}));
   CHECK(std::count(inside.begin(), inside.end(), true) == mesh.point_count() - 1);
   CHECK_FALSE(inside.back());
+}
+
+TEST_CASE("A coated box has the mass, centre and inertia of a box and its plates") {
+  const Eigen::Vector3d size(0.7, 0.3, 0.2);
+  const CellType type = GENERATE(CellType::tet4, CellType::hex20, CellType::wedge15, CellType::pyramid13);
+  const Mesh mesh = test::cell_box(type, size, {3, 2, 2}, test::distortion(size, 0.1));
+  Solid solid = make_solid(mesh, metals, {{"all", "steel"}});
+  const double per_area = 40, steel = 7800 * size.prod(), plate = per_area * size.y() * size.z(),
+               top = per_area * size.x() * size.y();
+  solid.coatings = {{surface_group(mesh, "x1"), per_area}, {surface_group(mesh, "z0"), per_area}};
+  const MassProperties body = mass_properties(solid);
+  CHECK(body.mass == Approx(steel + plate + top).epsilon(1e-12));
+  CHECK(body.volume == Approx(size.prod()).epsilon(1e-12));
+  const Eigen::Vector3d centre = (steel * size / 2 + plate * Eigen::Vector3d(size.x(), size.y() / 2, size.z() / 2) +
+                                  top * Eigen::Vector3d(size.x() / 2, size.y() / 2, 0)) /
+                                 body.mass;
+  CHECK((body.centre - centre).norm() < 1e-13);
+  // About y: each part about its own centre, and Steiner's terms.
+  const double about_y =
+      steel / 12 * (size.x() * size.x() + size.z() * size.z()) + plate / 12 * size.z() * size.z() +
+      top / 12 * size.x() * size.x() +
+      steel * (Eigen::Vector2d(size.x(), size.z()) / 2 - Eigen::Vector2d(centre.x(), centre.z())).squaredNorm() +
+      plate * (Eigen::Vector2d(size.x(), size.z() / 2) - Eigen::Vector2d(centre.x(), centre.z())).squaredNorm() +
+      top * (Eigen::Vector2d(size.x() / 2, 0) - Eigen::Vector2d(centre.x(), centre.z())).squaredNorm();
+  CHECK(body.inertia(1, 1) == Approx(about_y).epsilon(1e-12));
+}
+
+TEST_CASE("A lumped solid has a diagonal mass matrix, positive, with the mass of the solid and its coatings") {
+  const Eigen::Vector3d size(0.7, 0.3, 0.2);
+  const CellType type = GENERATE(CellType::tet4, CellType::tet10, CellType::hex8, CellType::hex20, CellType::hex27,
+                                 CellType::wedge6, CellType::wedge15, CellType::pyramid5, CellType::pyramid13);
+  const Mesh mesh = test::cell_box(type, size, {2, 2, 1}, test::distortion(size, 0.1));
+  Solid solid = make_solid(mesh, metals, {{"all", "steel"}});
+  solid.coatings = {{surface_group(mesh, "y1"), 100}};
+  solid.lumped = true;
+  const NodeGraph graph = node_graph(mesh);
+  const NodeMatrix m = assemble_mass(solid, graph);
+  const RowMatrix ones = RowMatrix::Ones(solid.points(), 1), products = m.multiply(ones, 1);
+  double total = 0;
+  for (int a = 0; a < solid.points(); ++a) {
+    RowMatrix unit = RowMatrix::Zero(solid.points(), 1);
+    unit(a, 0) = 1;
+    const RowMatrix column = m.multiply(unit, 1);
+    CHECK(column(a, 0) > 0);
+    CHECK(column(a, 0) == products(a, 0));
+    CHECK(column.cwiseAbs().sum() == column(a, 0));
+    total += column(a, 0);
+  }
+  const MassProperties body = mass_properties(solid);
+  CHECK(total == Approx(7800 * size.prod() + 100 * size.x() * size.z()).epsilon(1e-12));
+  CHECK(body.mass == Approx(total).epsilon(1e-13));
+  CHECK((body.centre - mesh.points * products / total).norm() < 1e-13);
 }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/mesh/jacobian.hpp"
+#include "reduce/mesh/measures.hpp"
 #include "reduce/mesh/straighten.hpp"
 #include "tests/support/box_mesh.hpp"
 
@@ -41,10 +42,12 @@ TEST_CASE("a mid-side node that turns elements inside out goes to the middle of 
   const Eigen::Vector3d away(0.01, 0.3, 0.2);
   mesh.points.col(node) += away;
   REQUIRE(least_ratio(mesh) < 0);
+  const double volume = mesh_volume(mesh);
   const Straightening result = straighten_elements(mesh);
   CHECK(result.nodes == 1);
   CHECK(result.elements >= 1);
   CHECK(result.farthest == Approx(away.norm()).margin(1e-14));
+  CHECK(result.volume_change == Approx(1 / volume - 1).margin(1e-12));
   CHECK((result.place - straight.col(node)).norm() < 1e-14);
   CHECK((mesh.points - straight).cwiseAbs().maxCoeff() < 1e-14);
 }

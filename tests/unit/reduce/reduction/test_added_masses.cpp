@@ -68,7 +68,8 @@ TEST_CASE("a rod with a mass at its end vibrates as the closed form says", "[red
   const double beta[] = {1.076873986, 3.643597167};  // roots of beta tan beta = 2
   for (int k = 0; k < 2; ++k) {
     REQUIRE(std::abs(beta[k] * std::tan(beta[k]) - 2) < 1e-7);
-    CHECK(found[static_cast<std::size_t>(k)] == Approx(beta[k] * c / (2 * std::numbers::pi)).epsilon(k == 0 ? 2e-6 : 2e-4));
+    CHECK(found[static_cast<std::size_t>(k)] ==
+          Approx(beta[k] * c / (2 * std::numbers::pi)).epsilon(k == 0 ? 2e-6 : 2e-4));
   }
 }
 
@@ -119,8 +120,8 @@ TEST_CASE("a mass on the surface of an interface is a rigid body on its node", "
     centre(k) = 1;
     centre.tail<3>() = -arm.row(k);
     const Eigen::Matrix<double, 6, 6> s = 30 * centre.transpose() * centre + along.transpose() * second * along;
-    const Eigen::MatrixXd found = b.inertia_components[static_cast<std::size_t>(k)] -
-                                  a.inertia_components[static_cast<std::size_t>(k)];
+    const Eigen::MatrixXd found =
+        b.inertia_components[static_cast<std::size_t>(k)] - a.inertia_components[static_cast<std::size_t>(k)];
     CHECK((found.block<6, 6>(6, 6) - s).norm() < 1e-10 * scale);
   }
 }
@@ -218,7 +219,8 @@ TEST_CASE("masses on no surface, far away or outside the body are refused", "[re
     options.masses = {request};
     return test::message_of<InputError>([&] { test::reduced(mesh, options); });
   };
-  CHECK_THAT(refusal(mass_on("x2", 1)), Contains("masses.motor: the mesh has no surface group 'x2'; expected one of 'x0'"));
+  CHECK_THAT(refusal(mass_on("x2", 1)),
+             Contains("masses.motor: the mesh has no surface group 'x2'; expected one of 'x0'"));
   CHECK_THAT(refusal(mass_at({5, 0, 0}, 1)), Contains("masses.motor: stands 4.5"));
   MassRequest far = mass_on("z1", 1);
   far.position = Vector3d(300, 0, 0);
