@@ -16,10 +16,13 @@ const KeyTable& axes_keys() {
 }
 
 Eigen::Matrix3d read_axes(const YamlValue& value) {
-  const Eigen::Vector3d x = value.at("x").direction();
-  const Eigen::Vector3d z = x.cross(value.at("y").direction());
+  return triad(value.at("x").direction(), value.at("y").direction(), value);
+}
+
+Eigen::Matrix3d triad(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const YamlValue& place) {
+  const Eigen::Vector3d z = x.cross(y);
   // Below this angle to z, the direction of y is too inaccurate to be used.
-  if (z.norm() < 1e-6) value.fail("expected two directions that are not parallel");
+  if (z.norm() < 1e-6) place.fail("expected two directions that are not parallel");
   Eigen::Matrix3d axes;
   axes << x, z.normalized().cross(x), z.normalized();
   return axes;

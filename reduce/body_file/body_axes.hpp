@@ -19,4 +19,7 @@ const KeyTable& axes_keys();
 /// @throws InputError when a direction is missing or zero, or both are parallel
 Eigen::Matrix3d read_axes(const YamlValue& value);
 
+/// The triad of two directions. @param place  stands in the message @throws InputError when they are parallel
+Eigen::Matrix3d triad(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const YamlValue& place);
+
 }  // namespace bielle::reduce

@@ -9,6 +9,7 @@
 #include "reduce/body_file/body_axes.hpp"
 #include "reduce/common/input/plausible.hpp"
 #include "reduce/common/input/yaml_file.hpp"
+#include "reduce/fe/elasticity.hpp"
 
 namespace bielle::reduce {
 
@@ -16,9 +17,26 @@ namespace {
 
 Key density_key() { return {"density", keys::number("kg/m^3").positive(), keys::required, "Mass per volume."}; }
 
+const KeyTable& wound_axes_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "axes around a line",
+      "Axes of a wound part, which turn with the place around a line: in them a direction is `[radial, around, "
+      "along]`. "
+      "Each cell has the axes of its centroid.",
+      {{"point", vector3("m"), required, "A point of the line."},
+       {"axis", direction(), required, "Direction of the line; `along` is this direction."},
+       {"x", direction(), computed("[0, 1, 0], around the line"), "Direction of the material's axis 1."},
+       {"y", direction(), computed("[0, 0, 1], along the line"),
+        "Direction of the material's axis 2, which is made normal to x."}}};
+  return table;
+}
+
 Key axes_key() {
-  return {"axes", keys::nested(axes_keys), keys::computed("the axes of the body"),
-          "Directions of the material's axes 1 (x) and 2 (y) in the body."};
+  return {"axes",
+          {keys::nested(axes_keys), keys::nested(wound_axes_keys)},
+          keys::computed("the axes of the body"),
+          "Directions of the material's axes 1 (x) and 2 (y) in the body, or around a line."};
 }
 
 const KeyTable& isotropic_keys() {
@@ -92,6 +110,21 @@ Material made_of(const YamlValue& material) {
                                {constant("G23"), constant("G13"), constant("G12")}, constant("density"));
 }
 
+void set_axes(const YamlValue& given, Material& material) {
+  const bool wound = given.is_map() && (given.has("axis") || given.has("point"));
+  const YamlValue axes = given.keyed(wound ? wound_axes_keys() : axes_keys());
+  if (!wound) {
+    material.elasticity = rotate_elasticity(material.elasticity, read_axes(axes));
+    return;
+  }
+  const auto x = axes.find("x"), y = axes.find("y");
+  const Eigen::Matrix3d in_wound =
+      triad(x ? x->direction() : Eigen::Vector3d::UnitY(), y ? y->direction() : Eigen::Vector3d::UnitZ(), axes);
+  material.elasticity = rotate_elasticity(material.elasticity, in_wound);
+  material.winding_point = axes.at("point").vector3();
+  material.winding_axis = axes.at("axis").direction();
+}
+
 }  // namespace
 
 KeyForms material_forms() {
@@ -109,8 +142,7 @@ Material read_material(const YamlValue& given) {
     if (message.starts_with(value.file() + ":")) throw;
     value.fail(message);
   }
-  if (const auto axes = value.find("axes"))
-    material.elasticity = rotate_elasticity(material.elasticity, read_axes(*axes));
+  if (const auto axes = value.find("axes")) set_axes(*axes, material);
   return material;
 }
 
@@ -122,21 +154,6 @@ void warn_of_material(const YamlValue& given) {
     warn_outside(*stiffness, stiffness->matrix(6, 6).diagonal().maxCoeff(), plausible_modulus);
   const YamlValue density = value.at("density");
   warn_outside(density, density.number(), plausible_density);
-}
-
-Eigen::Matrix<double, 6, 6> rotate_elasticity(const Eigen::Matrix<double, 6, 6>& elasticity,
-                                              const Eigen::Matrix3d& rotation) {
-  // Stress turns with sigma'_ij = R_im R_jn sigma_mn, written for the six components; then C' = T C T^T.
-  constexpr int first[6] = {0, 1, 2, 1, 0, 0}, second[6] = {0, 1, 2, 2, 2, 1};
-  Eigen::Matrix<double, 6, 6> turn;
-  for (int a = 0; a < 6; ++a)
-    for (int b = 0; b < 6; ++b) {
-      const int i = first[a], j = second[a], m = first[b], n = second[b];
-      turn(a, b) = rotation(i, m) * rotation(j, n);
-      if (m != n) turn(a, b) += rotation(i, n) * rotation(j, m);
-    }
-  const Eigen::Matrix<double, 6, 6> turned = turn * elasticity * turn.transpose();
-  return 0.5 * (turned + turned.transpose());
 }
 
 }  // namespace bielle::reduce

@@ -19,7 +19,7 @@ KeyForms material_forms();
 /// Reads one material, of one of three kinds, told apart by its keys:
 /// isotropic `young`, `poisson`; orthotropic `E1 E2 E3 nu12 nu13 nu23 G12 G13 G23`; anisotropic `stiffness`, 6x6 in the
 /// order xx yy zz yz xz xy with engineering shear strains. All have a `density` [kg/m^3]; the latter two may have
-/// `axes`, the directions of the material's own axes in those of the body.
+/// `axes`, the directions of the material's own axes in those of the body, or around a line.
 /// @throws InputError with the place: keys of two kinds, moduli out of range, an unstable material
 Material read_material(const YamlValue& value);
 
@@ -27,11 +27,5 @@ Material read_material(const YamlValue& value);
 /// (plausible.hpp).
 /// @param value  a material that read_material has accepted
 void warn_of_material(const YamlValue& value);
-
-/// Rotates elastic constants: C'_ijkl = R_im R_jn R_ko R_lp C_mnop.
-/// @param elasticity  C in the material's axes, order xx yy zz yz xz xy [Pa]
-/// @param rotation    R, material -> body: its columns are the material's axes
-Eigen::Matrix<double, 6, 6> rotate_elasticity(const Eigen::Matrix<double, 6, 6>& elasticity,
-                                              const Eigen::Matrix3d& rotation);
 
 }  // namespace bielle::reduce

@@ -107,10 +107,7 @@ SolidPart part_of(const Solid& solid, const std::vector<int>& cells, const Coate
   share.points = solid.mesh.points(Eigen::all, part.points);
   share.blocks = solid.cells.blocks_of(cells, number);
   for (const int cell : cells) share.material_of.push_back(solid.material_of[cell]);
-  for (const Material& material : solid.materials) {
-    share.elasticities.push_back(material.elasticity);
-    share.densities.push_back(material.density);
-  }
+  share.materials = solid.materials;
   share.lumped = solid.lumped;
   for (std::size_t k = 0; k < solid.coatings.size(); ++k)
     add_coating(solid, solid.coatings[k], cells, coated[k], number, share);

@@ -4,6 +4,13 @@
 
 namespace bielle::reduce {
 
+void exchange(Packing& packing, Material& material) {
+  packing(material.elasticity);
+  packing(material.density);
+  packing(material.winding_point);
+  packing(material.winding_axis);
+}
+
 void exchange(Packing& packing, Coating& coating) {
   packing(coating.faces);
   packing(coating.mass_per_area);
@@ -13,8 +20,7 @@ void exchange(Packing& packing, MeshShare& share) {
   packing(share.points);
   packing(share.blocks);
   packing(share.material_of);
-  packing(share.elasticities);
-  packing(share.densities);
+  packing(share.materials);
   packing(share.integration);
   packing(share.coatings);
   packing(share.lumped);

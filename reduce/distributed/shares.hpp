@@ -15,11 +15,10 @@ namespace bielle::reduce {
 
 /// Cells with their points, numbered anew, and their materials.
 struct MeshShare {
-  Eigen::Matrix3Xd points;                                ///< [m]
-  std::vector<CellBlock> blocks;                          ///< one for each type of cells, then of coated faces
-  std::vector<int> material_of;                           ///< of each cell, block after block
-  std::vector<Eigen::Matrix<double, 6, 6>> elasticities;  ///< [Pa]
-  std::vector<double> densities;                          ///< [kg/m^3]
+  Eigen::Matrix3Xd points;        ///< [m]
+  std::vector<CellBlock> blocks;  ///< one for each type of cells, then of coated faces
+  std::vector<int> material_of;   ///< of each cell, block after block
+  std::vector<Material> materials;
   Integration integration = Integration::standard;
   std::vector<Coating> coatings;  ///< faces that are not in another share, too
   bool lumped = false;

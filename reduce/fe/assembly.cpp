@@ -83,9 +83,10 @@ void add_block(const BlockPlace& to, const double* block, SymmetricMatrix& k) {
 
 /// Returns the part that the internal modes of a cell take from its stiffness, (3 nodes, 3 nodes).
 template <int N>
-Eigen::Matrix<double, 3 * N, 3 * N> condensed_stiffness(const CellPoints<N>& x, const Material& material) {
+Eigen::Matrix<double, 3 * N, 3 * N> condensed_stiffness(const CellPoints<N>& x,
+                                                        const Eigen::Matrix<double, 6, 6>& elasticity) {
   thread_local InternalModes<N> modes(Integration::standard);
-  modes.set(x, material.elasticity);
+  modes.set(x, elasticity);
   return modes.condensed();
 }
 
@@ -125,7 +126,7 @@ void add_stiffness(const SolidBlock& block, const NodeGraph& graph, SymmetricMat
     Eigen::Matrix<double, 9, pairs> w_of_pairs, k_of_pairs = Eigen::Matrix<double, 9, pairs>::Zero();
     Eigen::Matrix<double, 3 * N, 3 * N> condensed;
     if constexpr (InternalModes<N>::any)
-      if (condense) condensed = condensed_stiffness<N>(x, block.material(e));
+      if (condense) condensed = condensed_stiffness<N>(x, block.elasticity(e));
     int pair = 0;
     for (int cell_b = 0; cell_b < N; ++cell_b) {
       const int b = block.nodes(cell_b, e);
@@ -137,7 +138,8 @@ void add_stiffness(const SolidBlock& block, const NodeGraph& graph, SymmetricMat
         to[static_cast<std::size_t>(pair++)] = {b, place - own};
       });
     }
-    const Eigen::Matrix<double, 9, 9>& tensor = tensors[block.material_number(e)];
+    Eigen::Matrix<double, 9, 9> tensor = tensors[block.material_number(e)];
+    if (block.material(e).is_wound()) tensor = elasticity_tensor(block.elasticity(e));
     add_dense_product({tensor.data(), 9, 9, 9, false}, {w_of_pairs.data(), 9, pairs, 9, false}, k_of_pairs.data(), 9);
     for (pair = 0; pair < pairs; ++pair) add_block(to[static_cast<std::size_t>(pair)], k_of_pairs.col(pair).data(), k);
   });

@@ -35,4 +35,28 @@ inline Eigen::Matrix<double, 9, 9> elasticity_tensor(const Eigen::Matrix<double,
   return tensor;
 }
 
+/// Q with Q s the components of a stress in turned axes: s'_ij = R_im R_jn s_mn.
+/// @param rotation  R, from the axes of s to those of the result
+inline Eigen::Matrix<double, 6, 6> stress_rotation(const Eigen::Matrix3d& rotation) {
+  constexpr int first[6] = {0, 1, 2, 1, 0, 0}, second[6] = {0, 1, 2, 2, 2, 1};
+  Eigen::Matrix<double, 6, 6> turn;
+  for (int a = 0; a < 6; ++a)
+    for (int b = 0; b < 6; ++b) {
+      const int i = first[a], j = second[a], m = first[b], n = second[b];
+      turn(a, b) = rotation(i, m) * rotation(j, n);
+      if (m != n) turn(a, b) += rotation(i, n) * rotation(j, m);
+    }
+  return turn;
+}
+
+/// Rotates elastic constants: C'_ijkl = R_im R_jn R_ko R_lp C_mnop.
+/// @param elasticity  C in the material's axes, order xx yy zz yz xz xy [Pa]
+/// @param rotation    R, material -> body: its columns are the material's axes
+inline Eigen::Matrix<double, 6, 6> rotate_elasticity(const Eigen::Matrix<double, 6, 6>& elasticity,
+                                                     const Eigen::Matrix3d& rotation) {
+  const Eigen::Matrix<double, 6, 6> turn = stress_rotation(rotation);
+  const Eigen::Matrix<double, 6, 6> turned = turn * elasticity * turn.transpose();
+  return 0.5 * (turned + turned.transpose());
+}
+
 }  // namespace bielle::reduce

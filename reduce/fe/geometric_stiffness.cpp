@@ -94,7 +94,7 @@ void add_cells(const SolidBlock& block, const NodeGraph& graph, const RowMatrix&
         const CellPoints<N> x = block.points<N>(e);
         const CellRule<N>& rule = is_straight<N>(x) ? straight : curved;
         const auto points = static_cast<Index>(rule.size());
-        const auto& elasticity = block.material(e).elasticity;
+        const Eigen::Matrix<double, 6, 6> elasticity = block.elasticity(e);
         set_strains(
             cell, modes, rule, x, elasticity, [&](double volume) { return Matrix6(volume * elasticity); },
             [&](Index p, const auto& gradients, double) { set_products<N>(gradients, p, products); });

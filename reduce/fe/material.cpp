@@ -1,10 +1,12 @@
 #include "reduce/fe/material.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
 #include "reduce/dense/symmetric_factors.hpp"
+#include "reduce/fe/elasticity.hpp"
 
 namespace bielle::reduce {
 
@@ -25,6 +27,20 @@ void check_positive_definite(const Eigen::Matrix<double, 6, 6>& elasticity, cons
 }
 
 }  // namespace
+
+Eigen::Matrix3d Material::axes_at(const Eigen::Vector3d& place) const {
+  const Eigen::Vector3d arm = place - winding_point;
+  const Eigen::Vector3d across = arm - winding_axis.dot(arm) * winding_axis;
+  Eigen::Matrix3d axes;
+  axes.col(0) = across / across.norm();
+  axes.col(2) = winding_axis;
+  axes.col(1) = winding_axis.cross(axes.col(0));
+  return axes;
+}
+
+Eigen::Matrix<double, 6, 6> Material::elasticity_at(const Eigen::Vector3d& place) const {
+  return is_wound() ? rotate_elasticity(elasticity, axes_at(place)) : elasticity;
+}
 
 Material Material::isotropic(double young, double poisson, double density) {
   if (!(young > 0)) {
@@ -75,7 +91,10 @@ Material Material::anisotropic(const Eigen::Matrix<double, 6, 6>& elasticity, do
     throw InputError(fmt::format("the elasticity matrix must be symmetric; entries differ by {:.3g} Pa", asymmetry));
   }
   check_positive_definite(elasticity, "these anisotropic constants");
-  return {(elasticity + elasticity.transpose()) / 2, density};
+  Material material;
+  material.elasticity = (elasticity + elasticity.transpose()) / 2;
+  material.density = density;
+  return material;
 }
 
 }  // namespace bielle::reduce

@@ -168,7 +168,7 @@ class BlockError {
         const CellPoints<N> x = block_.points<N>(e);
         const int number = block_.first + static_cast<int>(e);
         set_strains(
-            cell, modes, sampling_, x, block_.material(e).elasticity, [&](double) { return root(e); },
+            cell, modes, sampling_, x, block_.elasticity(e), [&, W = root(e)](double) { return W; },
             [&](Eigen::Index p, const auto&, double volume) { volumes(p) = volume; });
         cell.take(fields, block_.nodes, e, first);
         cell.evaluate(points, samples.of(number));
@@ -202,7 +202,7 @@ class BlockError {
                             {backward.data(), sampled, points, sampled, false}, stress.data(), size);
         } else {
           set_strains(
-              curved, modes, rule_, x, block_.material(e).elasticity, [&](double) { return root(e); },
+              curved, modes, rule_, x, block_.elasticity(e), [&, W = root(e)](double) { return W; },
               [&](Eigen::Index p, const auto&, double volume) { volumes(p) = volume; });
           curved.take(fields, block_.nodes, e, first);
           curved.evaluate(points, own.data());
@@ -218,7 +218,13 @@ class BlockError {
  private:
   static constexpr int most_points = SolidCell<N>::is_second_order && N != 10 ? 27 : 8;  // number of points of `rule_`
 
-  const Matrix6& root(Eigen::Index e) const { return roots_[static_cast<std::size_t>(block_.material_number(e))]; }
+  /// W of a cell; of a wound material W Q^T, the stress of which is smooth in the material's axes.
+  Matrix6 root(Eigen::Index e) const {
+    const Matrix6& root = roots_[static_cast<std::size_t>(block_.material_number(e))];
+    const Material& material = block_.material(e);
+    if (!material.is_wound()) return root;
+    return root * stress_rotation(material.axes_at(block_.centroid(e))).transpose();
+  }
 
   /// Whether the stress of a cell is the linear function that its sampling points give.
   static bool has_linear_stress(const CellPoints<N>& x) { return SolidCell<N>::is_simplex && is_straight<N>(x); }

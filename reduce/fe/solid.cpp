@@ -108,6 +108,24 @@ Moments coating_moments(const Solid& solid, const Coating& coating, const Eigen:
   return result;
 }
 
+/// Refuses cells whose centroid lies on the line of their wound material, which has no axes there.
+void check_windings(const Solid& solid, const std::vector<std::string>& names) {
+  for_each_block(solid, [&]<int N>(const SolidBlock& block) {
+    for (Eigen::Index e = 0; e < block.cells(); ++e) {
+      const Material& material = block.material(e);
+      if (!material.is_wound()) continue;
+      const Eigen::Vector3d centre = block.centroid(e), arm = centre - material.winding_point;
+      const double size = (block.points<N>(e).colwise() - centre).colwise().norm().maxCoeff();
+      if (arm.cross(material.winding_axis).norm() < 1e-3 * size)
+        throw InputError(
+            "materials." + names[static_cast<std::size_t>(block.material_number(e))],
+            fmt::format("a cell at ({:.6g}, {:.6g}, {:.6g}) m lies on the line around which the axes turn, "
+                        "where they have no direction",
+                        centre.x(), centre.y(), centre.z()));
+    }
+  });
+}
+
 }  // namespace
 
 Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
@@ -157,6 +175,7 @@ Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materi
         fmt::format("regions: {} of {} cells {} no material; name the volume groups that are missing or use 'all'",
                     without, solid.material_of.size(), without == 1 ? "has" : "have"));
   }
+  check_windings(solid, names);
   return solid;
 }
 

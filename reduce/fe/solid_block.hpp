@@ -18,6 +18,14 @@ struct SolidBlock {
   const Material& material(Eigen::Index cell) const {
     return solid.materials[static_cast<std::size_t>(material_number(cell))];
   }
+  Eigen::Vector3d centroid(Eigen::Index cell) const {
+    return solid.mesh.points(Eigen::all, nodes.col(cell)).rowwise().mean();
+  }
+  /// C of a cell [Pa], body axes.
+  Eigen::Matrix<double, 6, 6> elasticity(Eigen::Index cell) const {
+    const Material& of_cell = material(cell);
+    return of_cell.is_wound() ? of_cell.elasticity_at(centroid(cell)) : of_cell.elasticity;
+  }
   template <int N>
   CellPoints<N> points(Eigen::Index cell) const {
     return cell_points<N>(solid.mesh.points, nodes, cell);

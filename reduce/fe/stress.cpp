@@ -123,7 +123,7 @@ void add_stress(const SolidBlock& block, const StressSum& sum, int threads, RowM
       for (std::size_t c = 0; c < colour.size(); ++c) {
         const int e = cells[static_cast<std::size_t>(colour[c])];
         const CellPoints<N> x = block.points<N>(e);
-        const auto& elasticity = block.material(e).elasticity;
+        const Eigen::Matrix<double, 6, 6> elasticity = block.elasticity(e);
         set_strains(
             cell, modes, rule, x, elasticity, [&](double) { return elasticity; },
             [](Eigen::Index, const auto&, double) {});

@@ -49,6 +49,19 @@ SuperelementMesh kept_mesh(const Solid& solid, const std::vector<int>& points, b
   return result;
 }
 
+/// Gives each node of a wound material an elasticity of its own, in the axes of the body.
+void unwind(const Solid& solid, const std::vector<int>& nodes, StressOrigin& origin) {
+  for (std::size_t row = 0; row < nodes.size(); ++row) {
+    const Material& material = solid.materials[static_cast<std::size_t>(origin.material_of[row])];
+    if (!material.is_wound()) continue;
+    const Eigen::Vector3d place = solid.mesh.points.col(nodes[row]);
+    if (!material.axes_at(place).allFinite()) continue;  // on the line itself
+    origin.materials.push_back(
+        {origin.materials[static_cast<std::size_t>(origin.material_of[row])].name, material.elasticity_at(place)});
+    origin.material_of[row] = static_cast<int>(origin.materials.size()) - 1;
+  }
+}
+
 /// Materials and volume groups of the stress at nodes. A node on the boundary of two materials belongs to the groups of
 /// the material whose stress it has.
 StressOrigin stress_origin(const Solid& solid, const std::map<std::string, Material>& materials,
@@ -75,6 +88,7 @@ StressOrigin stress_origin(const Solid& solid, const std::map<std::string, Mater
       result.groups[name] = {rows.begin(), rows.end()};
     }
   }
+  unwind(solid, nodes, result);
   return result;
 }
 

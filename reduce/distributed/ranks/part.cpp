@@ -17,15 +17,6 @@ Mesh mesh_of(MeshShare& share) {
   return mesh;
 }
 
-std::vector<Material> materials_of(const MeshShare& share) {
-  std::vector<Material> materials(share.densities.size());
-  for (std::size_t k = 0; k < materials.size(); ++k) {
-    materials[k].elasticity = share.elasticities[k];
-    materials[k].density = share.densities[k];
-  }
-  return materials;
-}
-
 /// The unknowns that determine a row of u, with their weights.
 struct Followed {
   const int* unknowns;
@@ -55,7 +46,7 @@ Part::Part(MeshShare share, int threads)
       mesh_(mesh_of(share)),
       solid_{mesh_,
              SolidCells(mesh_),
-             materials_of(share),
+             std::move(share.materials),
              std::move(share.material_of),
              share.integration,
              std::move(share.coatings),

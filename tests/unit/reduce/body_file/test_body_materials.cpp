@@ -7,6 +7,7 @@
 #include "reduce/body_file/body_materials.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/input/yaml_file.hpp"
+#include "reduce/fe/elasticity.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/random.hpp"
 
@@ -53,6 +54,29 @@ TEST_CASE("orthotropic constants come back from the compliance, each in its plac
   CHECK(1 / s(3, 3) == Approx(3.5e9).epsilon(1e-12));        // yz: G23
   CHECK(1 / s(4, 4) == Approx(4.8e9).epsilon(1e-12));        // xz: G13
   CHECK(1 / s(5, 5) == Approx(5e9).epsilon(1e-12));          // xy: G12
+}
+
+TEST_CASE("axes around a line: fibres along axis 1 go round it, or along it, as they are told") {
+  const Material hoop = material(laminate + ", axes: {point: [1, 0, 0], axis: [0, 0, 2]}}");
+  CHECK(hoop.is_wound());
+  CHECK(hoop.winding_axis == Eigen::Vector3d::UnitZ());
+  const auto modulus = [](const Material& of, const Eigen::Vector3d& place, int axis) {
+    return 1 / Matrix6(of.elasticity_at(place).inverse())(axis, axis);
+  };
+  CHECK(modulus(hoop, {3, 0, 5}, 1) == Approx(140e9).epsilon(1e-12));  // around the line is y there
+  CHECK(modulus(hoop, {3, 0, 5}, 2) == Approx(10e9).epsilon(1e-12));   // axis 2 along it
+  CHECK(modulus(hoop, {3, 0, 5}, 0) == Approx(9e9).epsilon(1e-12));
+  CHECK(modulus(hoop, {1, -2, 0}, 0) == Approx(140e9).epsilon(1e-12));
+  const Material lengthwise =
+      material(laminate + ", axes: {point: [1, 0, 0], axis: [0, 0, 1], x: [0, 0, 1], y: [1, 0, 0]}}");
+  CHECK(modulus(lengthwise, {3, 0, 5}, 2) == Approx(140e9).epsilon(1e-12));
+  CHECK(modulus(lengthwise, {3, 0, 5}, 0) == Approx(10e9).epsilon(1e-12));
+  CHECK_THAT(message(laminate + ", axes: {point: [1, 0, 0]}}"), Contains("axis"));
+  CHECK_THAT(message(laminate + ", axes: {point: [1, 0, 0], axis: [0, 0, 0]}}"), Contains("axes.axis"));
+  CHECK_THAT(message(laminate + ", axes: {point: [1, 0, 0], axis: [0, 0, 1], x: [0, 0, 1]}}"),
+             Contains("not parallel"));
+  CHECK_THAT(message(laminate + ", axes: {point: [1, 0, 0], axis: [0, 0, 1], z: [0, 0, 1]}}"), Contains("'z'"));
+  CHECK_THAT(message(laminate + ", axes: 3}"), Contains("axes"));
 }
 
 TEST_CASE("axes turn a material: along the body's y it is as stiff as along its own 1") {
