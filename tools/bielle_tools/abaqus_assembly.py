@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .abaqus_systems import motion
+from .abaqus_ties import Tie
 from .messages import InputError, counted, did_you_mean
 
 STRIDE = 2**31  # more than any number of a node or element
@@ -95,7 +96,7 @@ class Assembly:
         """The amount by which numbers in a set or surface are raised."""
         name = keyword.options.get("INSTANCE")
         if name is None:
-            return -STRIDE if len(self.instances) > 1 else 0  # of reference points, which are left out
+            return -STRIDE if len(self.instances) > 1 else 0  # reference points have such numbers; they are left out
         number = self._number(self._local(name))
         if number is None:
             raise InputError(f"{keyword.where}: *{keyword.name}: there is no instance '{name}'"
@@ -183,6 +184,7 @@ class Assembly:
                 target.sets[kind][prefix.upper() + key] = (shown(name, target.sets[kind]), [entry(each) for each in entries])
         for key, (name, kind, entries, where) in source.surfaces.items():
             target.surfaces[prefix.upper() + key] = (shown(name, target.surfaces), kind, [(entry(each), side) for each, side in entries], where)
+        target.ties += [Tie(each.name, each.where, [[prefix + name for name in names] for names in each.pairs]) for each in source.ties]
         for counts, others in ((target.skipped, source.skipped), (target.formulations, source.formulations)):
             for name, count in others.items():
                 counts[name] = counts.get(name, 0) + count

@@ -14,7 +14,7 @@ TOLD = {
     "RIGID BODY": "an interface with `tie: rigid` stands for it", "COUPLING": "an interface stands for it: `tie: rigid` for *KINEMATIC, "
     "`tie: average` for *DISTRIBUTING", "DISTRIBUTING COUPLING": "an interface with `tie: average` stands for it",
     "KINEMATIC COUPLING": "an interface with `tie: rigid` stands for it", "MPC": "the nodes stay apart", "EQUATION": "the nodes stay apart",
-    "TIE": "the surfaces stay apart: mesh the parts with common nodes", "EMBEDDED ELEMENT": "the elements stay apart",
+    "EMBEDDED ELEMENT": "the elements stay apart",
     "SHELL TO SOLID COUPLING": "the surfaces stay apart", "CONTACT PAIR": "the surfaces stay apart", "PRE-TENSION SECTION": "there is no tension",
     "MASS": "give the mechanism a point mass there", "ROTARY INERTIA": "give the mechanism a rigid body there",
     "NONSTRUCTURAL MASS": "raise the density", "SPRING": "give the mechanism a spring there", "DASHPOT": "give the mechanism a damper there",

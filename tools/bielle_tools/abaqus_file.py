@@ -19,8 +19,9 @@ from .abaqus_assembly import STRIDE, Assembly
 from .abaqus_extras import Extras
 from .abaqus_lines import integer, numbers, read_keywords
 from .abaqus_systems import kind_of_coordinates, of_cylinder, system
+from .abaqus_ties import join_ties, read_tie
 from .cells import CELLS, FLATS, SIDES, permutation
-from .messages import InputError, counted
+from .messages import InputError, counted, did_you_mean
 from .solid_mesh import RawMesh
 
 # Element families of the two programs: label pattern, meshio type (None: points, lines and couplings, left out), nodes.
@@ -85,6 +86,7 @@ class _Reader:
         self.sets = {"NSET": {}, "ELSET": {}}  # upper-case name -> (name, entries)
         self.unsorted = set()  # upper-case names of node sets in the order of the file
         self.surfaces = {}  # upper-case name -> (name, kind, entries, where)
+        self.ties = []  # Tie
         self.skipped = {}  # element type -> count
         self.formulations = {}  # element type with a letter for its formulation -> count
         self.system = None  # origin and axes (columns) that *NODE is given in
@@ -109,6 +111,8 @@ class _Reader:
             self._set(keyword)
         elif name == "SURFACE":
             self._surface(keyword)
+        elif name == "TIE":
+            self.ties.append(read_tie(keyword))
         elif name == "SYSTEM":
             self.system = system(keyword)
         elif name in abaqus_generators.NAMES:
@@ -199,9 +203,9 @@ class _Reader:
         return found if key in self.unsorted else sorted(found)
 
     def key(self, kind, name):
-        """The key of a set among those of its kind; None if there is none."""
-        others = self.assembly.other_names(name) if self.assembly else []
-        return next((key for key in (name.upper(), *others) if key in self.sets[kind]), None)
+        """The key of a set among those of its kind, or of a surface; None if there is none."""
+        others, known = self.assembly.other_names(name) if self.assembly else [], self.sets.get(kind, self.surfaces)
+        return next((key for key in (name.upper(), *others) if key in known), None)
 
     def copy(self):
         """A reader with the same contents, to which more can be added."""
@@ -209,6 +213,7 @@ class _Reader:
         other.numbers, other.points, other.blocks, other.cell_place = dict(self.numbers), list(self.points), list(self.blocks), dict(self.cell_place)
         other.sets = {kind: {key: (name, list(entries)) for key, (name, entries) in sets.items()} for kind, sets in self.sets.items()}
         other.unsorted, other.surfaces = set(self.unsorted), dict(self.surfaces)
+        other.ties = list(self.ties)
         other.skipped, other.formulations, other.notes = dict(self.skipped), dict(self.formulations), list(self.notes)
         other.extras.join(self.extras, str, False)
         return other
@@ -279,7 +284,18 @@ class _Reader:
                     mesh.point_sets[name] = nodes
         for surface in self.surfaces.values():
             self._resolve_surface(mesh, *surface)
+        for tie in self.ties:
+            tie.pairs = [[self._tied(tie, name) for name in names] for names in tie.pairs]
+        join_ties(mesh, self.ties)
         return mesh
+
+    def _tied(self, tie, name):
+        """The name in the mesh of a surface that a tie names."""
+        key = self.key("SURFACE", name)
+        if key is None:
+            known = [each for each, _, _, _ in self.surfaces.values()]
+            raise InputError(f"{tie.where}: *TIE, NAME={tie.name}: there is no surface '{name}'{did_you_mean(name, known)}")
+        return self.surfaces[key][0]
 
     def _rows_of(self, labels, nodes):
         try:
