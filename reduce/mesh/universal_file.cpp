@@ -17,7 +17,14 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr int units = 164, nodes = 2411, systems = 2420, groups = 2467, groups_of_gmsh = 2477;
+constexpr int units = 164, nodes = 2411, elements = 2412, systems = 2420, groups = 2467, groups_of_gmsh = 2477;
+
+/// Solid cells that gmsh reads: descriptor and nodes. It drops others of the range below without a word.
+const std::map<int, int> solids = {{111, 4}, {118, 10}, {112, 6}, {113, 15}, {115, 8}, {116, 20}};
+bool is_solid(int descriptor) {
+  return (descriptor >= 111 && descriptor <= 119) || descriptor == 312 || descriptor == 313;
+}
+bool is_beam(int descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
 
 /// Reads a file line by line and keeps track of the dataset.
 class Datasets {
@@ -126,6 +133,39 @@ std::optional<double> universal_length_unit(const std::string& path) {
       return 1 / factor;
     }
   return std::nullopt;
+}
+
+std::string check_universal_elements(const std::string& path) {
+  Datasets file(path);
+  std::map<int, long> left_out;  // elements by descriptor
+  long more = 0;                 // lines of the element that follow
+  for (std::string line; file.next(line);) {
+    if (file.dataset() != elements || file.record() < 0) {
+      more = 0;
+      continue;
+    }
+    if (more > 0) {
+      --more;
+      continue;
+    }
+    const std::vector<long> head = file.numbers<long>(line, 6);
+    const int descriptor = static_cast<int>(head[1]);
+    const auto solid = solids.find(descriptor);
+    if (is_solid(descriptor) && solid == solids.end())
+      file.fail(
+          fmt::format("element {} is of type {}; solid cells of types 111 and 118 (tetrahedra), 112 and 113 "
+                      "(wedges), 115 and 116 (hexahedra) are read",
+                      head[0], descriptor));
+    if (head[5] < 1 || (solid != solids.end() && head[5] != solid->second))
+      file.fail(fmt::format("element {} of type {} has {} nodes{}", head[0], descriptor, head[5],
+                            solid == solids.end() ? "" : fmt::format(", expected {}", solid->second)));
+    more = (head[5] + 7) / 8 + (is_beam(descriptor) ? 1 : 0);
+    if (descriptor > 119) ++left_out[descriptor];
+  }
+  std::string counts;
+  for (const auto& [descriptor, count] : left_out)
+    counts += fmt::format("{}{} of type {}", counts.empty() ? "" : ", ", count, descriptor);
+  return counts.empty() ? "" : "left out: elements that have neither volume nor surface: " + counts;
 }
 
 bool adapt_universal_file(const std::string& source, const std::string& target) {
