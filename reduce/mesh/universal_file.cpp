@@ -17,6 +17,9 @@ namespace bielle::reduce {
 
 namespace {
 
+/// Physical properties are raised by this amount if there are groups: gmsh numbers the parts that groups divide the
+/// mesh into from 1 on, and takes the part with the number of a property for the members of the property.
+constexpr long property_beyond = 1000000;
 constexpr int units = 164, nodes = 2411, elements = 2412, systems = 2420, groups = 2467, groups_of_gmsh = 2477;
 
 /// Solid cells that gmsh reads: descriptor and nodes. It drops others of the range below without a word.
@@ -122,6 +125,35 @@ std::map<int, System> read_systems(const std::string& path) {
   return result;
 }
 
+bool is_group(int dataset) {
+  return dataset == 2435 || dataset == 2452 || dataset == groups || dataset == groups_of_gmsh;
+}
+
+/// Follows the lines of elements, each of which has a head and lines that belong to it.
+class Heads {
+ public:
+  /// @returns whether the line of the file is a head; count_more then says how many lines belong to it
+  bool is_head(const Datasets& file) {
+    if (file.record() == 0) more_ = 0;
+    return file.record() >= 0 && more_-- <= 0;
+  }
+  void count_more(long lines) { more_ = lines; }
+
+ private:
+  long more_ = 0;
+};
+
+long lines_of_element(const std::vector<long>& head) {
+  return (head[5] + 7) / 8 + (is_beam(static_cast<int>(head[1])) ? 1 : 0);
+}
+
+bool has_groups(const std::string& path) {
+  Datasets file(path);
+  for (std::string line; file.next(line);)
+    if (is_group(file.dataset()) && file.record() >= 0) return true;
+  return false;
+}
+
 }  // namespace
 
 std::optional<double> universal_length_unit(const std::string& path) {
@@ -138,16 +170,9 @@ std::optional<double> universal_length_unit(const std::string& path) {
 std::string check_universal_elements(const std::string& path) {
   Datasets file(path);
   std::map<int, long> left_out;  // elements by descriptor
-  long more = 0;                 // lines of the element that follow
+  Heads heads;
   for (std::string line; file.next(line);) {
-    if (file.dataset() != elements || file.record() < 0) {
-      more = 0;
-      continue;
-    }
-    if (more > 0) {
-      --more;
-      continue;
-    }
+    if (file.dataset() != elements || !heads.is_head(file)) continue;
     const std::vector<long> head = file.numbers<long>(line, 6);
     const int descriptor = static_cast<int>(head[1]);
     const auto solid = solids.find(descriptor);
@@ -159,7 +184,7 @@ std::string check_universal_elements(const std::string& path) {
     if (head[5] < 1 || (solid != solids.end() && head[5] != solid->second))
       file.fail(fmt::format("element {} of type {} has {} nodes{}", head[0], descriptor, head[5],
                             solid == solids.end() ? "" : fmt::format(", expected {}", solid->second)));
-    more = (head[5] + 7) / 8 + (is_beam(descriptor) ? 1 : 0);
+    heads.count_more(lines_of_element(head));
     if (descriptor > 119) ++left_out[descriptor];
   }
   std::string counts;
@@ -170,6 +195,8 @@ std::string check_universal_elements(const std::string& path) {
 
 bool adapt_universal_file(const std::string& source, const std::string& target) {
   const std::map<int, System> known = read_systems(source);
+  const bool grouped = has_groups(source);
+  Heads heads;
   Datasets file(source);
   std::ofstream out(target);
   bool changed = false;
@@ -177,6 +204,13 @@ bool adapt_universal_file(const std::string& source, const std::string& target) 
   for (std::string line; file.next(line); out << line << '\n') {
     if (file.dataset() == groups && file.record() == -1) {
       line = fmt::format("{:6d}", groups_of_gmsh);  // its records are the same
+      changed = true;
+    }
+    if (grouped && file.dataset() == elements && heads.is_head(file)) {
+      const std::vector<long> head = file.numbers<long>(line, 6);
+      heads.count_more(lines_of_element(head));
+      line = fmt::format("{:10d}{:10d}{:10d}{:10d}{:10d}{:10d}", head[0], head[1], head[2] + property_beyond, head[3],
+                         head[4], head[5]);
       changed = true;
     }
     if (file.dataset() != nodes || file.record() < 0) continue;

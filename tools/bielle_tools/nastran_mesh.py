@@ -87,6 +87,8 @@ class _Systems:
                     self.cards[card.integer(first)] = (card, first)
 
     def place(self, number, coordinates, card):
+        if number == 0:
+            return np.array(coordinates)
         kind, origin, axes = self.system(number, card)
         return origin + axes @ _cartesian(kind, coordinates)
 
