@@ -128,7 +128,7 @@ class Assembly:
     def told(self, number):
         """A number of a node or element in messages."""
         k, local = divmod(int(number), STRIDE)
-        return f"{local} of instance '{self.instances[k].name}'" if len(self.instances) > 1 else str(local)
+        return f"{local} of instance '{self.instances[k].name}'" if 0 <= k < len(self.instances) > 1 else str(local if k < 0 else number)
 
     # ---- joining ------------------------------------------------------------------------------------------------
     def finish(self):

@@ -46,6 +46,7 @@ FAMILIES = [
 GENERATING = ("NMAP", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE", "TRANSFORM COORDINATES", "SUBSTRUCTURE GENERATE", "IMPORT")
 CELL_SIDES = ("SPOS", "SNEG", "")  # both sides of a shell or membrane element
 LABELS = 2**31       # numbers of nodes and elements are less
+MOST = 2 * 10**7     # numbers that one line of a set generates
 SAME_PLACE = 1e-12   # distance of a node that is given twice, relative to its largest coordinate: by rounding
 
 
@@ -179,9 +180,10 @@ class _Reader:
 
     def add_elements(self, where, kind, labels, nodes):
         """@param nodes: (n,k) in VTK's order. @raises InputError, with file and line, if a number is taken or is none"""
-        if len(labels) and not 0 < labels.min() <= labels.max() < LABELS:
-            raise InputError("{}:{}: an element has the number {}, but numbers are from 1 to {}".format(
-                *where, labels.min() if labels.min() < 1 else labels.max(), LABELS - 1))
+        for told, found in (("an element has", labels), ("an element names a node of", nodes)):
+            if len(labels) and not 0 < found.min() <= found.max() < LABELS:
+                raise InputError("{}:{}: {} the number {}, but numbers are from 1 to {}".format(
+                    *where, told, found.min() if found.min() < 1 else found.max(), LABELS - 1))
         for row, label in enumerate(labels.tolist()):
             if self.cell_place.setdefault(label, (len(self.blocks), row)) != (len(self.blocks), row):
                 raise InputError("{}:{}: there is a second element {}".format(*where, label))
@@ -279,9 +281,11 @@ class _Reader:
                 mesh.cell_sets[name] = self._cells_of(key)
         for key, (name, _) in self.sets["NSET"].items():
             if not name.startswith("_"):
-                nodes = self._nodes_of(key)
+                nodes = self._nodes_of(key, mesh.notes)
                 if len(nodes):
                     mesh.point_sets[name] = nodes
+                else:
+                    mesh.notes.append(f"node set '{name}' has no nodes and is left out")
         for surface in self.surfaces.values():
             self._resolve_surface(mesh, *surface)
         for tie in self.ties:
@@ -330,20 +334,31 @@ class _Reader:
                 rows[block].append(row)
         return [np.array(r, dtype=np.int64) for r in rows]
 
-    def _nodes_of(self, key):
-        return np.unique([self.numbers[n] for n in self._resolve("NSET", key) if n in self.numbers]).astype(np.int64)
+    def _nodes_of(self, key, notes):
+        """Rows of points; numbers of no node are told, but for reference points of an assembly."""
+        labels = self._resolve("NSET", key)
+        missing = [label for label in labels if label not in self.numbers and label > 0]
+        if missing:
+            notes.append(f"node set '{key}' names {counted(len(missing), 'node')} that {'does' if len(missing) == 1 else 'do'} not exist "
+                         f"(the first: {self.assembly.told(missing[0])})")
+        return np.unique([self.numbers[n] for n in labels if n in self.numbers]).astype(np.int64)
 
     def _resolve_surface(self, mesh, name, kind, entries, where):
         if kind == "NODE":
-            nodes = [[self.numbers[entry]] if isinstance(entry, int) else self._nodes_of(entry).tolist()
-                     for entry, _ in entries]
-            mesh.point_sets.setdefault(name, np.unique(np.concatenate([np.array(n, np.int64) for n in nodes])))
+            nodes = [node for entry, _ in entries for node in ([self._node_of(entry, name, where)] if isinstance(entry, int) else
+                                                               self._nodes_of(str(entry), mesh.notes).tolist())]
+            if nodes:
+                mesh.point_sets.setdefault(name, np.unique(np.array(nodes, np.int64)))
+            else:
+                mesh.notes.append(f"surface '{name}' has no nodes and is left out")
             return
         faces = []
         for entry, side in entries:
             if entry is None:
                 raise InputError(f"{where}: surface '{name}' without elements (all exterior faces); name its faces")
-            places = ([self.cell_place[entry]] if isinstance(entry, int) and entry in self.cell_place else
+            if isinstance(entry, int) and entry not in self.cell_place:
+                raise InputError(f"{where}: surface '{name}' names element {self.assembly.told(entry)}, which is no solid or shell of this file")
+            places = ([self.cell_place[entry]] if isinstance(entry, int) else
                       [(block, row) for block, rows in enumerate(self._cells_of(str(entry))) for row in rows])
             for block, row in places:
                 kind_of_cell, cells = self.cells[block]
@@ -358,6 +373,13 @@ class _Reader:
                     raise InputError(f"{where}: surface '{name}': side '{side}' of a {cell.singular}; {known}")
         if faces:
             mesh.face_sets[name] = faces
+        else:
+            mesh.notes.append(f"surface '{name}' has no faces and is left out")
+
+    def _node_of(self, label, name, where):
+        if label not in self.numbers:
+            raise InputError(f"{where}: surface '{name}' names node {self.assembly.told(label)}, which does not exist")
+        return self.numbers[label]
 
 
 def _node(words):
@@ -382,7 +404,11 @@ def _element_table(keyword, label, count):
     if row:
         raise InputError("{}:{}: {} needs {} nodes per element: element {} has {}".format(
             *keyword.places[k], label, count, row[0], len(row) - 1))
-    return np.array(found, dtype=np.int64).reshape(-1, count + 1)
+    try:
+        return np.array(found, dtype=np.int64).reshape(-1, count + 1)
+    except OverflowError:
+        worst = max(found, key=lambda each: max(map(abs, each)))
+        raise ValueError(f"element {worst[0]} has the number {max(worst, key=abs)}, but numbers are from 1 to {LABELS - 1}") from None
 
 
 def _generated(keyword, words, shift):
@@ -391,4 +417,6 @@ def _generated(keyword, words, shift):
     first, last, step = (integer(word) for word in (words + ["1"])[:3])
     if step < 1 or last < first:
         raise ValueError(f"GENERATE makes no numbers from {first} to {last} in steps of {step}")
+    if (last - first) // step >= MOST:
+        raise ValueError(f"GENERATE makes more than {MOST} numbers from {first} to {last} in steps of {step}")
     return range(first + shift, last + shift + 1, step)

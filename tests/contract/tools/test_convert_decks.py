@@ -128,6 +128,8 @@ class Nastran(Deck):
         self.refuse(self.deck(self.grids(), "CTETRA,1,1,1,2,3,9999\n"), "grid point 9999")
         self.refuse(self.deck(self.grids(), "CTETRA,1,1,1,2,x,4\n"), "expected an integer in field 6, found 'X'")
         self.refuse(self.deck("GRID,1,,a,0.,0.\n"), "expected a number in field 4")
+        self.refuse(self.deck("GRID,2147483648,,0.,0.,0.\n"), "GRID has the number 2147483648, but numbers are from 1 to 2147483647")
+        self.refuse(self.deck(self.grids(), self.tetrahedra(), "CTETRA,1,1,1,2,3,4\n"), "there is a second element 1 (the first: CTETRA at line")
         self.refuse(self.deck("$ nothing\n"), "holds no GRID")
 
 
