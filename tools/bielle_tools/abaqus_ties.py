@@ -1,7 +1,7 @@
 """Surfaces of *TIE whose meshes coincide: their nodes become common ones.
 
-Abaqus ties each node of the first surface, the secondary one, to the second. Where the meshes coincide this is the same as
-common nodes; elsewhere Bielle has no counterpart. (Abaqus Keywords Guide, "*TIE".)
+Abaqus ties each node of the first surface, the secondary one, to the second. If the meshes coincide this is the same as
+common nodes; otherwise Bielle has no counterpart. (Abaqus Keywords Guide, "*TIE".)
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ import numpy as np
 from .cells import CELLS, SOLIDS, face_keys, solid_faces
 from .messages import InputError, counted, place, require
 
-SAME_PLACE = 1e-3  # of the shortest edge of both surfaces: files have few digits where elements are small in a large body
+SAME_PLACE = 1e-3  # largest gap / shortest edge of both surfaces: coordinates have few digits in large bodies of small elements
 NOT_READ = ("CYCLIC SYMMETRY",)
 
 
