@@ -108,6 +108,8 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
     source.folder = std::make_unique<ScratchFolder>();
     const std::string copy = (source.folder->path() / "mesh.unv").string();
     about(request.subject, [&] {
+      if (const std::string told = check_universal_elements(request.path); !told.empty())
+        progress.note(fmt::format("{}: {}", request.path, told));
       if (adapt_universal_file(request.path, copy)) source.path = copy;
     });
   }

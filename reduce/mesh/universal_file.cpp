@@ -17,7 +17,17 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr int units = 164, nodes = 2411, systems = 2420, groups = 2467, groups_of_gmsh = 2477;
+/// Physical properties are raised by this amount if there are groups: gmsh numbers the parts that groups divide the
+/// mesh into from 1 on, and takes the part with the number of a property for the members of the property.
+constexpr long property_beyond = 1000000;
+constexpr int units = 164, nodes = 2411, elements = 2412, systems = 2420, groups = 2467, groups_of_gmsh = 2477;
+
+/// Solid cells that gmsh reads: descriptor and nodes. It drops others of the range below without a word.
+const std::map<int, int> solids = {{111, 4}, {118, 10}, {112, 6}, {113, 15}, {115, 8}, {116, 20}};
+bool is_solid(int descriptor) {
+  return (descriptor >= 111 && descriptor <= 119) || descriptor == 312 || descriptor == 313;
+}
+bool is_beam(int descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
 
 /// Reads a file line by line and keeps track of the dataset.
 class Datasets {
@@ -115,6 +125,35 @@ std::map<int, System> read_systems(const std::string& path) {
   return result;
 }
 
+bool is_group(int dataset) {
+  return dataset == 2435 || dataset == 2452 || dataset == groups || dataset == groups_of_gmsh;
+}
+
+/// Follows the lines of elements, each of which has a head and lines that belong to it.
+class Heads {
+ public:
+  /// @returns whether the line of the file is a head; count_more then says how many lines belong to it
+  bool is_head(const Datasets& file) {
+    if (file.record() == 0) more_ = 0;
+    return file.record() >= 0 && more_-- <= 0;
+  }
+  void count_more(long lines) { more_ = lines; }
+
+ private:
+  long more_ = 0;
+};
+
+long lines_of_element(const std::vector<long>& head) {
+  return (head[5] + 7) / 8 + (is_beam(static_cast<int>(head[1])) ? 1 : 0);
+}
+
+bool has_groups(const std::string& path) {
+  Datasets file(path);
+  for (std::string line; file.next(line);)
+    if (is_group(file.dataset()) && file.record() >= 0) return true;
+  return false;
+}
+
 }  // namespace
 
 std::optional<double> universal_length_unit(const std::string& path) {
@@ -128,8 +167,36 @@ std::optional<double> universal_length_unit(const std::string& path) {
   return std::nullopt;
 }
 
+std::string check_universal_elements(const std::string& path) {
+  Datasets file(path);
+  std::map<int, long> left_out;  // elements by descriptor
+  Heads heads;
+  for (std::string line; file.next(line);) {
+    if (file.dataset() != elements || !heads.is_head(file)) continue;
+    const std::vector<long> head = file.numbers<long>(line, 6);
+    const int descriptor = static_cast<int>(head[1]);
+    const auto solid = solids.find(descriptor);
+    if (is_solid(descriptor) && solid == solids.end())
+      file.fail(
+          fmt::format("element {} is of type {}; solid cells of types 111 and 118 (tetrahedra), 112 and 113 "
+                      "(wedges), 115 and 116 (hexahedra) are read",
+                      head[0], descriptor));
+    if (head[5] < 1 || (solid != solids.end() && head[5] != solid->second))
+      file.fail(fmt::format("element {} of type {} has {} nodes{}", head[0], descriptor, head[5],
+                            solid == solids.end() ? "" : fmt::format(", expected {}", solid->second)));
+    heads.count_more(lines_of_element(head));
+    if (descriptor > 119) ++left_out[descriptor];
+  }
+  std::string counts;
+  for (const auto& [descriptor, count] : left_out)
+    counts += fmt::format("{}{} of type {}", counts.empty() ? "" : ", ", count, descriptor);
+  return counts.empty() ? "" : "left out: elements that have neither volume nor surface: " + counts;
+}
+
 bool adapt_universal_file(const std::string& source, const std::string& target) {
   const std::map<int, System> known = read_systems(source);
+  const bool grouped = has_groups(source);
+  Heads heads;
   Datasets file(source);
   std::ofstream out(target);
   bool changed = false;
@@ -137,6 +204,13 @@ bool adapt_universal_file(const std::string& source, const std::string& target) 
   for (std::string line; file.next(line); out << line << '\n') {
     if (file.dataset() == groups && file.record() == -1) {
       line = fmt::format("{:6d}", groups_of_gmsh);  // its records are the same
+      changed = true;
+    }
+    if (grouped && file.dataset() == elements && heads.is_head(file)) {
+      const std::vector<long> head = file.numbers<long>(line, 6);
+      heads.count_more(lines_of_element(head));
+      line = fmt::format("{:10d}{:10d}{:10d}{:10d}{:10d}{:10d}", head[0], head[1], head[2] + property_beyond, head[3],
+                         head[4], head[5]);
       changed = true;
     }
     if (file.dataset() != nodes || file.record() < 0) continue;

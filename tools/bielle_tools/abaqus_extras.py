@@ -14,7 +14,7 @@ TOLD = {
     "RIGID BODY": "an interface with `tie: rigid` stands for it", "COUPLING": "an interface stands for it: `tie: rigid` for *KINEMATIC, "
     "`tie: average` for *DISTRIBUTING", "DISTRIBUTING COUPLING": "an interface with `tie: average` stands for it",
     "KINEMATIC COUPLING": "an interface with `tie: rigid` stands for it", "MPC": "the nodes stay apart", "EQUATION": "the nodes stay apart",
-    "TIE": "the surfaces stay apart: mesh the parts with common nodes", "EMBEDDED ELEMENT": "the elements stay apart",
+    "EMBEDDED ELEMENT": "the elements stay apart",
     "SHELL TO SOLID COUPLING": "the surfaces stay apart", "CONTACT PAIR": "the surfaces stay apart", "PRE-TENSION SECTION": "there is no tension",
     "MASS": "give the mechanism a point mass there", "ROTARY INERTIA": "give the mechanism a rigid body there",
     "NONSTRUCTURAL MASS": "raise the density", "SPRING": "give the mechanism a spring there", "DASHPOT": "give the mechanism a damper there",
@@ -30,6 +30,7 @@ class Section:
     set: str
     material: str
     oriented: bool
+    turned: bool = False  # with the instance that it belongs to
 
 
 class Extras:
@@ -37,7 +38,6 @@ class Extras:
         self.told = {}       # keyword -> count
         self.materials = {}  # name -> lines of properties
         self.sections = []   # Section
-        self.instances = {}  # part -> names
         self.material = None
 
     def keyword(self, keyword, options, rows):
@@ -51,14 +51,15 @@ class Extras:
         elif keyword in TOLD:
             self.told[keyword] = self.told.get(keyword, 0) + 1
 
-    def instance(self, part, name):
-        self.instances.setdefault(part.upper(), []).append(name)
+    def join(self, other, renamed, turned):
+        """Adds the contents of a part. @param renamed: the name in the body of a set; turned: whether the part has been turned"""
+        for keyword, count in other.told.items():
+            self.told[keyword] = self.told.get(keyword, 0) + count
+        self.materials.update(other.materials)
+        self.sections += [Section(renamed(each.set), each.material, each.oriented, each.turned or turned) for each in other.sections]
 
     def notes(self):
         notes = [f"left out: {counted(count, '*' + keyword, '*' + keyword)}: {TOLD[keyword]}" for keyword, count in self.told.items()]
-        for part, names in self.instances.items():
-            if len(names) > 1:
-                notes.append(f"the part '{part}' stands in {len(names)} instances ({', '.join(names)}): it is read once, as one body")
         users = {}
         for section in self.sections:
             users.setdefault(section.material.upper(), []).append(section.set + (" (with an orientation, which is left out)" if section.oriented else ""))

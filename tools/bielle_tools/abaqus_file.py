@@ -2,23 +2,27 @@
 
 meshio reads .inp too, but drops *SURFACE, stops at the triangles CPS6 that gmsh writes, and assigns element sets to the
 wrong blocks when several *ELEMENT blocks have none or share one. This reader knows
-    *NODE, *ELEMENT (INPUT), *SYSTEM, *NSET, *ELSET (GENERATE, sets of sets), *SURFACE (TYPE=ELEMENT, NODE), *INCLUDE, and
-    one *PART, or one *INSTANCE that holds a mesh,
-It refuses keywords that generate or move nodes and elements, and reports those that have no counterpart in a
+    *NODE, *ELEMENT (INPUT), *SYSTEM, *NSET, *ELSET (GENERATE, sets of sets), *SURFACE (TYPE=ELEMENT, NODE), *INCLUDE,
+    *NGEN, *NFILL, *NCOPY, *ELGEN, *ELCOPY (abaqus_generators), *TIE (abaqus_ties), and
+    *PART and *INSTANCE, moved and turned (abaqus_assembly).
+It refuses other keywords that generate or move nodes and elements, and reports those that have no counterpart in a
 superelement (abaqus_extras). Labels are compared without regard to case, as Abaqus does. cells.py has the faces S1, S2,
 .. of each type.
 """
 
-import os
 import re
 
 import numpy as np
 
+from . import abaqus_generators
+from .abaqus_assembly import STRIDE, Assembly
 from .abaqus_extras import Extras
+from .abaqus_lines import integer, numbers, read_keywords
+from .abaqus_systems import kind_of_coordinates, of_cylinder, system
+from .abaqus_ties import join_ties, read_tie
 from .cells import CELLS, FLATS, SIDES, permutation
-from .messages import InputError, counted
+from .messages import InputError, counted, did_you_mean
 from .solid_mesh import RawMesh
-from .text_lines import lines_of
 
 # Element families of the two programs: label pattern, meshio type (None: points, lines and couplings, left out), nodes.
 FAMILIES = [
@@ -39,215 +43,233 @@ FAMILIES = [
     (r"(MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|DCOUP3D|CONN3D2|GAPUNI|B[23][123]|T[23]D[23]|FRAME3D)[A-Z]*", None, None),
 ]
 # Keywords that generate or move nodes and elements, which this reader does not support.
-GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE", "TRANSFORM COORDINATES")
+GENERATING = ("NMAP", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE", "TRANSFORM COORDINATES", "SUBSTRUCTURE GENERATE", "IMPORT")
 CELL_SIDES = ("SPOS", "SNEG", "")  # both sides of a shell or membrane element
+LABELS = 2**31       # numbers of nodes and elements are less
+MOST = 2 * 10**7     # numbers that one line of a set generates
+SAME_PLACE = 1e-12   # distance of a node that is given twice, relative to its largest coordinate: by rounding
 
 
 def read_abaqus(path):
     """@returns RawMesh. @raises InputError with file and line."""
-    reader = _Reader()
-    reader.read(path)
-    return reader.raw_mesh(path)
+    return read_contents(path).raw_mesh(path)
 
 
 def read_sections(path):
     """The materials and *SOLID SECTIONs of a file, as Extras; sets have the names that they get as groups."""
-    reader = _Reader()
-    reader.read(path)
+    reader = read_contents(path)
     for section in reader.extras.sections:
-        if section.set.upper() not in reader.sets["ELSET"]:
+        key = reader.key("ELSET", section.set)
+        if key is None:
             raise InputError(f"'{path}': *SOLID SECTION: there is no element set '{section.set}'")
-        section.set = reader.sets["ELSET"][section.set.upper()][0]
+        section.set = reader.sets["ELSET"][key][0]
     return reader.extras
 
 
+def read_contents(path):
+    """Nodes, elements, sets and surfaces of the body, with their numbers. @raises InputError with file and line."""
+    reader = _Reader()
+    assembly = Assembly(reader, _Reader)
+    for keyword in read_keywords(path):
+        assembly.keyword(keyword)
+    assembly.finish()
+    return reader
+
+
 class _Reader:
+    """The contents of a file, of a part or of an instance."""
+
     def __init__(self):
         self.numbers = {}  # node label -> row of points
         self.points = []
         self.blocks = []   # (type, labels, connectivity)
+        self.cell_place = {}  # element label -> (block, row)
         self.sets = {"NSET": {}, "ELSET": {}}  # upper-case name -> (name, entries)
+        self.unsorted = set()  # upper-case names of node sets in the order of the file
         self.surfaces = {}  # upper-case name -> (name, kind, entries, where)
+        self.ties = []  # Tie
         self.skipped = {}  # element type -> count
         self.formulations = {}  # element type with a letter for its formulation -> count
-        self.parts = 0
-        self.in_assembly = self.in_instance = False
-        self.instance = self.meshed_instance = None  # names of the one in hand, and of the one that holds the mesh
         self.system = None  # origin and axes (columns) that *NODE is given in
+        self.assembly = None  # the one that names entries of sets and surfaces, where several instances stand
         self.notes = []
         self.extras = Extras()
 
     # ---- reading ------------------------------------------------------------------------------------------------
-    def read(self, path):
-        lines = lines_of(path)
-        index = 0
-        while index < len(lines):
-            line = lines[index].strip()
-            if not line.startswith("*") or line.startswith("**"):
-                index += 1
-                continue
-            first = index
-            while line.endswith(",") and index + 1 < len(lines):  # a keyword line may go on
-                index += 1
-                line += lines[index].strip()
-            index += 1
-            data = index
-            while index < len(lines) and (not lines[index].lstrip().startswith("*") or lines[index].lstrip().startswith("**")):
-                index += 1
-            rows = [text.strip() for text in lines[data:index] if text.strip() and not text.lstrip().startswith("**")]
-            self._keyword(path, f"{path}:{first + 1}", line, rows)
-
-    def _keyword(self, path, where, line, rows):
-        words = [word.strip() for word in line[1:].split(",")]
-        keyword = re.sub(r"\s+", " ", words[0]).upper()
-        options = {}
-        for word in words[1:]:
-            key, _, value = word.partition("=")
-            options[key.strip().upper()] = value.strip().strip('"')
+    def keyword(self, keyword):
         try:
-            if keyword == "NODE":
-                self._nodes(where, options, self._rows(path, where, options, rows))
-            elif keyword == "ELEMENT":
-                self._elements(where, options, self._rows(path, where, options, rows))
-            elif keyword in ("NSET", "ELSET"):
-                self._set(where, keyword, options, rows)
-            elif keyword == "SURFACE":
-                self._surface(where, options, rows)
-            elif keyword == "INCLUDE":
-                self.read(os.path.join(os.path.dirname(path), options.get("INPUT", "")))
-            elif keyword == "SYSTEM":
-                self.system = _system(where, rows)
-            elif keyword in ("PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE"):
-                self._structure(where, keyword, options, rows)
-            elif keyword in GENERATING:
-                raise InputError(f"{where}: *{keyword} makes or moves nodes or elements, which Bielle does not do: write the mesh out in full "
-                                 "(a preprocessor that reads the file exports it so)")
-            else:
-                self.extras.keyword(keyword, options, rows)
+            self._keyword(keyword)
         except ValueError as error:
-            raise InputError(f"{where}: *{keyword}: {error}") from None
+            raise InputError(f"{keyword.where}: *{keyword.name}: {error}") from None
 
-    def _structure(self, where, keyword, options, rows):
-        self.in_assembly = keyword in ("ASSEMBLY", "INSTANCE", "END INSTANCE")
-        self.in_instance = keyword == "INSTANCE"
-        if keyword == "PART":
-            self.parts += 1
-            if self.parts > 1:
-                raise InputError(f"{where}: the file holds several parts; Bielle reduces one body at a time: export one part")
-        if keyword == "INSTANCE":
-            if rows:
-                raise InputError(f"{where}: the instance is moved or turned; export the part where it was meshed")
-            self.instance = options.get("NAME", "?")
-            self.extras.instance(options.get("PART", ""), options.get("NAME", ""))
+    def _keyword(self, keyword):
+        name = keyword.name
+        if name == "NODE":
+            self._nodes(keyword)
+        elif name == "ELEMENT":
+            self._elements(keyword)
+        elif name in ("NSET", "ELSET"):
+            self._set(keyword)
+        elif name == "SURFACE":
+            self._surface(keyword)
+        elif name == "TIE":
+            self.ties.append(read_tie(keyword))
+        elif name == "SYSTEM":
+            self.system = system(keyword)
+        elif name in abaqus_generators.NAMES:
+            abaqus_generators.generate(self, keyword)
+        elif name in GENERATING:
+            raise InputError(f"{keyword.where}: *{name} makes or moves nodes or elements, which Bielle does not do: write the mesh out in full "
+                             "(a preprocessor that reads the file exports it so)")
+        else:
+            self.extras.keyword(name, keyword.options, keyword.rows)
 
-    def _rows(self, path, where, options, rows):
-        """Data lines, with those of the file that INPUT names."""
-        if "INPUT" not in options:
-            return rows
-        name = os.path.join(os.path.dirname(path), options["INPUT"])
-        lines = [line.strip() for line in lines_of(name, f"{where}: ")]
-        return rows + [line for line in lines if line and not line.startswith("*")]
-
-    def _nodes(self, where, options, rows):
-        if options.get("SYSTEM", "R").upper() != "R":
-            raise InputError(f"{where}: nodes in cylindrical or spherical coordinates; write them in Cartesian ones")
-        if self.in_assembly and not self.in_instance:
-            self.notes.append(f"{len(rows)} reference points of the assembly are left out")
-            return
-        if self.in_instance:
-            if self.points and self.meshed_instance != self.instance:
-                raise InputError(f"{where}: the instance '{self.instance}' holds a mesh as well as what stands before it; Bielle reduces one "
-                                 "body at a time: export one instance")
-            self.meshed_instance = self.instance
-        labels = []
-        for row in rows:
-            values = [word for word in row.split(",")]
-            label = int(values[0])
-            xyz = [float(re.sub("[dD]", "e", word)) if word.strip() else 0.0 for word in values[1:4]]
-            xyz += [0.0] * (3 - len(xyz))
-            if self.system:
-                xyz = (self.system[0] + self.system[1] @ np.array(xyz)).tolist()
-            if label in self.numbers and self.points[self.numbers[label]] != xyz:
-                raise InputError(f"{where}: there is a second node {label}, in another place")
-            self.numbers[label] = len(self.points)
-            self.points.append(xyz)
+    def _nodes(self, keyword):
+        cylindrical = kind_of_coordinates(keyword)
+        labels, points = [], []
+        for label, x in keyword.table(_node):
             labels.append(label)
-        if "NSET" in options:
-            self._extend("NSET", options["NSET"], labels)
+            points.append(of_cylinder(x) if cylindrical else x)
+        if self.system and points:
+            points = self.system[0] + np.array(points) @ self.system[1].T
+        self.add_nodes(keyword.places, labels, points)
+        if "NSET" in keyword.options:
+            self.extend("NSET", keyword.options["NSET"], labels)
 
-    def _elements(self, where, options, rows):
-        label = options.get("TYPE", "").upper()
+    def add_nodes(self, places, labels, points):
+        """@param places: file and line of each, or of all. @raises InputError if a number is taken by a node in another
+        place, or is none"""
+        points = np.asarray(points, float).reshape(-1, 3).tolist()
+        for k, (label, x) in enumerate(zip(labels, points)):
+            if self.numbers.setdefault(label, len(self.points)) == len(self.points):
+                self.points.append(x)
+                if 0 < label < LABELS:
+                    continue
+                told = f"a node has the number {label}, but numbers are from 1 to {LABELS - 1}"
+            elif np.abs(np.subtract(self.points[self.numbers[label]], x)).max() <= SAME_PLACE * np.abs(x).max():
+                continue
+            else:
+                told = f"there is a second node {label}, in another place"
+            raise InputError("{}:{}: {}".format(*(places if isinstance(places, tuple) else places[k]), told))
+
+    def place(self, where, label):
+        """Coordinates of a node. @raises InputError if there is none; where: file and line for it"""
+        if label not in self.numbers:
+            raise InputError("{}:{}: there is no node {} before this line".format(*where, label))
+        return np.array(self.points[self.numbers[label]])
+
+    def _elements(self, keyword):
+        label = keyword.options.get("TYPE", "").upper()
         for pattern, kind, count in FAMILIES:
             found = re.fullmatch(pattern, label)
             if found:
                 break
         else:
-            raise InputError(f"{where}: elements of type '{label}': Bielle reduces solid cells (C3D4, C3D10, C3D8, C3D20, C3D27, C3D6, C3D15, "
-                             "C3D5) and reads shells (S3, S4, S8R, CPS6, ...) as surfaces; remesh the body with these")
+            raise InputError(f"{keyword.where}: elements of type '{label}': Bielle reduces solid cells (C3D4, C3D10, C3D8, C3D20, C3D27, C3D6, "
+                             "C3D15, C3D5) and reads shells (S3, S4, S8R, CPS6, ...) as surfaces; remesh the body with these")
         if kind is None:
-            self.skipped[label] = self.skipped.get(label, 0) + len(rows)
+            self.skipped[label] = self.skipped.get(label, 0) + len(keyword.rows)
             return
-        numbers = [int(word) for row in rows for word in row.split(",") if word.strip()]
-        if len(numbers) % (count + 1):
-            raise InputError(f"{where}: {label} needs {count} nodes per element: {counted(len(numbers), 'number')} cannot be "
-                             f"divided into rows of {count + 1}")
-        table = np.array(numbers, dtype=np.int64).reshape(-1, count + 1)
+        table = _element_table(keyword, label, count)
         if CELLS[kind].dimension == 3 and found.group(2):
             self.formulations[label] = self.formulations.get(label, 0) + len(table)
-        self.blocks.append((kind, table[:, 0], table[:, 1:][:, permutation(kind, "abaqus", "vtk")]))
-        if "ELSET" in options:
-            self._extend("ELSET", options["ELSET"], table[:, 0].tolist())
+        if len(table):
+            self.add_elements((keyword.path, keyword.line), kind, table[:, 0], table[:, 1:][:, permutation(kind, "abaqus", "vtk")])
+        if "ELSET" in keyword.options:
+            self.extend("ELSET", keyword.options["ELSET"], table[:, 0].tolist())
 
-    def _set(self, where, keyword, options, rows):
-        name = options.get(keyword)
+    def add_elements(self, where, kind, labels, nodes):
+        """@param nodes: (n,k) in VTK's order. @raises InputError, with file and line, if a number is taken or is none"""
+        for told, found in (("an element has", labels), ("an element names a node of", nodes)):
+            if len(labels) and not 0 < found.min() <= found.max() < LABELS:
+                raise InputError("{}:{}: {} the number {}, but numbers are from 1 to {}".format(
+                    *where, told, found.min() if found.min() < 1 else found.max(), LABELS - 1))
+        for row, label in enumerate(labels.tolist()):
+            if self.cell_place.setdefault(label, (len(self.blocks), row)) != (len(self.blocks), row):
+                raise InputError("{}:{}: there is a second element {}".format(*where, label))
+        self.blocks.append((kind, labels, nodes))
+
+    def element(self, where, label):
+        """Type and nodes, in VTK's order. @raises InputError if there is none; where: file and line for it"""
+        if label not in self.cell_place:
+            raise InputError("{}:{}: there is no element {} before this line".format(*where, label))
+        block, row = self.cell_place[label]
+        return self.blocks[block][0], self.blocks[block][2][row]
+
+    def members(self, kind, name, where):
+        """Numbers of a set as it is before a keyword, each once. @raises InputError if there is no set"""
+        key = self.key(kind, name)
+        if key is None:
+            raise InputError("{}:{}: there is no *{} '{}' before this line".format(*where, kind, name))
+        found = list(dict.fromkeys(self._resolve(kind, key)))
+        return found if key in self.unsorted else sorted(found)
+
+    def key(self, kind, name):
+        """The key of a set among those of its kind, or of a surface; None if there is none."""
+        others, known = self.assembly.other_names(name) if self.assembly else [], self.sets.get(kind, self.surfaces)
+        return next((key for key in (name.upper(), *others) if key in known), None)
+
+    def copy(self):
+        """A reader with the same contents, to which more can be added."""
+        other = _Reader()
+        other.numbers, other.points, other.blocks, other.cell_place = dict(self.numbers), list(self.points), list(self.blocks), dict(self.cell_place)
+        other.sets = {kind: {key: (name, list(entries)) for key, (name, entries) in sets.items()} for kind, sets in self.sets.items()}
+        other.unsorted, other.surfaces = set(self.unsorted), dict(self.surfaces)
+        other.ties = list(self.ties)
+        other.skipped, other.formulations, other.notes = dict(self.skipped), dict(self.formulations), list(self.notes)
+        other.extras.join(self.extras, str, False)
+        return other
+
+    def _set(self, keyword):
+        name = keyword.options.get(keyword.name)
         if not name:
-            raise ValueError(f"no name ({keyword}=...)")
+            raise ValueError(f"no name ({keyword.name}=...)")
+        shift = self.assembly.shift(keyword) if self.assembly else 0
         entries = []
-        for row in rows:
-            words = [word.strip() for word in row.split(",") if word.strip()]
-            if "GENERATE" in options:
-                first, last, step = (int(word) for word in (words + ["1"])[:3])
-                entries.extend(range(first, last + 1, step))
+        for words in keyword.table(lambda words: [word for word in words if word]):
+            if "GENERATE" in keyword.options:
+                entries.extend(_generated(keyword, words, shift))
             else:
-                entries.extend(self._label(word) for word in words)
-        if keyword == "NSET" and "ELSET" in options:
-            entries.append(("nodes of", options["ELSET"]))
-        self._extend(keyword, name, entries)
+                entries.extend(self._entry(word, shift) for word in words)
+        if keyword.name == "NSET" and "ELSET" in keyword.options:
+            entries.append(("nodes of", keyword.options["ELSET"]))
+        if "UNSORTED" in keyword.options:
+            self.unsorted.add(name.upper())
+        if "INSTANCE" in keyword.options:
+            entries = [entry if isinstance(entry, int) else f"{keyword.options['INSTANCE']}.{entry}" for entry in entries]
+        self.extend(keyword.name, name, entries)
 
-    def _extend(self, keyword, name, entries):
-        self.sets[keyword].setdefault(name.upper(), (name, []))[1].extend(entries)
+    def extend(self, kind, name, entries):
+        self.sets[kind].setdefault(name.upper(), (name, []))[1].extend(entries)
 
-    def _surface(self, where, options, rows):
-        name = options.get("NAME")
+    def _surface(self, keyword):
+        name = keyword.options.get("NAME")
         if not name:
             raise ValueError("no name (NAME=...)")
-        kind = options.get("TYPE", "ELEMENT").upper()
+        kind = keyword.options.get("TYPE", "ELEMENT").upper()
         if kind not in ("ELEMENT", "NODE"):
             self.notes.append(f"surface '{name}' of type {kind} is left out")
             return
-        entries = []
-        for row in rows:
-            words = [word.strip() for word in row.split(",")]
-            entries.append((self._label(words[0]) if words[0] else None, words[1].upper() if len(words) > 1 else ""))
-        self.surfaces[name.upper()] = (name, kind, entries, where)
+        shift = self.assembly.shift(keyword) if self.assembly else 0
+        entries = [(self._entry(words[0], shift) if words[0] else None, words[1].upper() if len(words) > 1 else "")
+                   for words in keyword.table(lambda words: words)]
+        if "COMBINE" in keyword.options:
+            raise ValueError("surfaces that are combined are not read; name the faces")
+        self.surfaces[name.upper()] = (name, kind, entries, keyword.where)
 
-    @staticmethod
-    def _label(word):
+    def _entry(self, word, shift):
         """A number, or the name of a set; `Part-1-1.12` is number 12 of an instance."""
         word = word.strip('"')
-        last = word.rpartition(".")[2]
-        return int(last) if last.lstrip("+-").isdigit() else last
+        if word.lstrip("+-").isdigit():
+            return int(word) + shift
+        return self.assembly.entry(word) if self.assembly else word
 
     # ---- result -------------------------------------------------------------------------------------------------
     def raw_mesh(self, path):
         if not self.points:
             raise InputError(f"'{path}' holds no *NODE: it is no Abaqus or CalculiX mesh")
         self.cells = [(kind, self._rows_of(labels, nodes)) for kind, labels, nodes in self.blocks]
-        self.cell_place = {}
-        for block, (_, labels, _) in enumerate(self.blocks):
-            for row, label in enumerate(labels.tolist()):
-                self.cell_place[label] = (block, row)
-        mesh = RawMesh(np.array(self.points), self.cells, notes=self.notes, labels=[labels for _, labels, _ in self.blocks])
+        mesh = RawMesh(np.array(self.points), self.cells, notes=self.notes, labels=[labels % STRIDE for _, labels, _ in self.blocks])
         mesh.notes += self.extras.notes()
         if self.formulations:
             counts = ", ".join(f"{count} {label}" for label, count in self.formulations.items())
@@ -259,33 +281,48 @@ class _Reader:
                 mesh.cell_sets[name] = self._cells_of(key)
         for key, (name, _) in self.sets["NSET"].items():
             if not name.startswith("_"):
-                nodes = self._nodes_of(key)
+                nodes = self._nodes_of(key, mesh.notes)
                 if len(nodes):
                     mesh.point_sets[name] = nodes
+                else:
+                    mesh.notes.append(f"node set '{name}' has no nodes and is left out")
         for surface in self.surfaces.values():
             self._resolve_surface(mesh, *surface)
+        for tie in self.ties:
+            tie.pairs = [[self._tied(tie, name) for name in names] for names in tie.pairs]
+        join_ties(mesh, self.ties)
         return mesh
+
+    def _tied(self, tie, name):
+        """The name in the mesh of a surface that a tie names."""
+        key = self.key("SURFACE", name)
+        if key is None:
+            known = [each for each, _, _, _ in self.surfaces.values()]
+            raise InputError(f"{tie.where}: *TIE, NAME={tie.name}: there is no surface '{name}'{did_you_mean(name, known)}")
+        return self.surfaces[key][0]
 
     def _rows_of(self, labels, nodes):
         try:
             return np.array([[self.numbers[n] for n in row] for row in nodes.tolist()], dtype=np.int64).reshape(nodes.shape)
         except KeyError as error:
             row = int(np.argmax((nodes == error.args[0]).any(axis=1)))
-            raise InputError(f"element {labels[row]} names node {error.args[0]}, which is not defined") from None
+            told = self.assembly.told
+            raise InputError(f"element {told(labels[row])} names node {told(error.args[0])}, which is not defined") from None
 
     def _resolve(self, keyword, key, seen=()):
         """Labels of a set, including those of the sets that it names."""
-        if key not in self.sets[keyword] or key in seen:
-            raise InputError(f"set '{key}' is named but not defined" if key not in seen else f"set '{key}' contains itself")
-        labels = []
+        known = self.key(keyword, key)
+        if known is None or known in seen:
+            raise InputError(f"set '{key}' is named but not defined" if known is None else f"set '{key}' contains itself")
+        key, labels = known, []
         for entry in self.sets[keyword][key][1]:
             if isinstance(entry, int):
                 labels.append(entry)
             elif isinstance(entry, tuple):
-                for block, rows in enumerate(self._cells_of(entry[1].upper())):
+                for block, rows in enumerate(self._cells_of(entry[1])):
                     labels.extend(np.unique(self.blocks[block][2][rows]).tolist())
             else:
-                labels.extend(self._resolve(keyword, entry.upper(), seen + (key,)))
+                labels.extend(self._resolve(keyword, entry, seen + (key,)))
         return labels
 
     def _cells_of(self, key):
@@ -297,21 +334,32 @@ class _Reader:
                 rows[block].append(row)
         return [np.array(r, dtype=np.int64) for r in rows]
 
-    def _nodes_of(self, key):
-        return np.unique([self.numbers[n] for n in self._resolve("NSET", key) if n in self.numbers]).astype(np.int64)
+    def _nodes_of(self, key, notes):
+        """Rows of points; numbers of no node are told, but for reference points of an assembly."""
+        labels = self._resolve("NSET", key)
+        missing = [label for label in labels if label not in self.numbers and label > 0]
+        if missing:
+            notes.append(f"node set '{key}' names {counted(len(missing), 'node')} that {'does' if len(missing) == 1 else 'do'} not exist "
+                         f"(the first: {self.assembly.told(missing[0])})")
+        return np.unique([self.numbers[n] for n in labels if n in self.numbers]).astype(np.int64)
 
     def _resolve_surface(self, mesh, name, kind, entries, where):
         if kind == "NODE":
-            nodes = [[self.numbers[entry]] if isinstance(entry, int) else self._nodes_of(entry.upper()).tolist()
-                     for entry, _ in entries]
-            mesh.point_sets.setdefault(name, np.unique(np.concatenate([np.array(n, np.int64) for n in nodes])))
+            nodes = [node for entry, _ in entries for node in ([self._node_of(entry, name, where)] if isinstance(entry, int) else
+                                                               self._nodes_of(str(entry), mesh.notes).tolist())]
+            if nodes:
+                mesh.point_sets.setdefault(name, np.unique(np.array(nodes, np.int64)))
+            else:
+                mesh.notes.append(f"surface '{name}' has no nodes and is left out")
             return
         faces = []
         for entry, side in entries:
             if entry is None:
                 raise InputError(f"{where}: surface '{name}' without elements (all exterior faces); name its faces")
-            places = ([self.cell_place[entry]] if isinstance(entry, int) and entry in self.cell_place else
-                      [(block, row) for block, rows in enumerate(self._cells_of(str(entry).upper())) for row in rows])
+            if isinstance(entry, int) and entry not in self.cell_place:
+                raise InputError(f"{where}: surface '{name}' names element {self.assembly.told(entry)}, which is no solid or shell of this file")
+            places = ([self.cell_place[entry]] if isinstance(entry, int) else
+                      [(block, row) for block, rows in enumerate(self._cells_of(str(entry))) for row in rows])
             for block, row in places:
                 kind_of_cell, cells = self.cells[block]
                 cell = CELLS[kind_of_cell]
@@ -325,29 +373,50 @@ class _Reader:
                     raise InputError(f"{where}: surface '{name}': side '{side}' of a {cell.singular}; {known}")
         if faces:
             mesh.face_sets[name] = faces
+        else:
+            mesh.notes.append(f"surface '{name}' has no faces and is left out")
+
+    def _node_of(self, label, name, where):
+        if label not in self.numbers:
+            raise InputError(f"{where}: surface '{name}' names node {self.assembly.told(label)}, which does not exist")
+        return self.numbers[label]
 
 
-def _system(where, rows):
-    """Origin a and axes of *SYSTEM: b on the first axis, c in the plane of the first two; None if it ends a system.
-    (Abaqus Keywords Guide, "*SYSTEM".)"""
-    words = [word.strip() for row in rows for word in row.rstrip(",").split(",")]
-    values = [float(word) if word else 0.0 for word in words]
-    if not values:
-        return None
-    values += [0.0] * (-len(values) % 3)
-    points = np.array(values).reshape(-1, 3)
-    if len(points) > 3:
-        raise ValueError(f"expected three points at most, found {counted(len(values), 'number')}")
-    if len(points) == 1:
-        return points[0], np.eye(3)
-    x = points[1] - points[0]
-    if len(points) == 2:
-        if x[2] != 0:
-            raise ValueError("without a third point the first axis must stand in the plane of x and y")
-        z = np.array([0.0, 0.0, 1.0])
-    else:
-        z = np.cross(x, points[2] - points[0])
-    if np.linalg.norm(x) == 0 or np.linalg.norm(z) <= 1e-12 * np.linalg.norm(x) * max(np.linalg.norm(points[-1] - points[0]), 1e-300):
-        raise InputError(f"{where}: *SYSTEM: the points stand in one line")
-    x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
-    return points[0], np.column_stack([x, np.cross(z, x), z])
+def _node(words):
+    """Label and coordinates of a data line; direction cosines after them are not needed."""
+    return integer(words[0]), numbers(words[1:4], 3)
+
+
+def _element_table(keyword, label, count):
+    """(n, count + 1) numbers and nodes of elements, each of which may stand in several lines and ends with one."""
+    found, row = [], []
+    for k, text in enumerate(keyword.rows):
+        try:
+            row += [int(word) for word in text.split(",") if word and not word.isspace()]
+        except ValueError:
+            word = next(word.strip() for word in text.split(",") if not re.fullmatch(r"\s*([+-]?\d+)?\s*", word))
+            raise InputError("{}:{}: *ELEMENT: expected an integer, found '{}'".format(*keyword.places[k], word)) from None
+        if len(row) > count:
+            if len(row) > count + 1:
+                break
+            found.append(row)
+            row = []
+    if row:
+        raise InputError("{}:{}: {} needs {} nodes per element: element {} has {}".format(
+            *keyword.places[k], label, count, row[0], len(row) - 1))
+    try:
+        return np.array(found, dtype=np.int64).reshape(-1, count + 1)
+    except OverflowError:
+        worst = max(found, key=lambda each: max(map(abs, each)))
+        raise ValueError(f"element {worst[0]} has the number {max(worst, key=abs)}, but numbers are from 1 to {LABELS - 1}") from None
+
+
+def _generated(keyword, words, shift):
+    if not 2 <= len(words) <= 3:
+        raise ValueError(f"GENERATE needs the first number, the last one and the step, found {counted(len(words), 'word')}")
+    first, last, step = (integer(word) for word in (words + ["1"])[:3])
+    if step < 1 or last < first:
+        raise ValueError(f"GENERATE makes no numbers from {first} to {last} in steps of {step}")
+    if (last - first) // step >= MOST:
+        raise ValueError(f"GENERATE makes more than {MOST} numbers from {first} to {last} in steps of {step}")
+    return range(first + shift, last + shift + 1, step)

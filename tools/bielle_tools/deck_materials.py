@@ -114,6 +114,9 @@ def _of_abaqus(path):
         if section.oriented and "young" not in found.materials[name]:
             raise InputError(f"'{path}': *SOLID SECTION, ELSET={section.set} has an orientation; write `materials` with `axes` in the body "
                              "file")
+        if section.turned and "young" not in found.materials[name]:
+            raise InputError(f"'{path}': *SOLID SECTION, ELSET={section.set}: its instance is turned, and the directions of its material with it; "
+                             "write `materials` with `axes` in the body file")
         found.regions[section.set] = name
     return found
 

@@ -11,6 +11,9 @@ from .messages import InputError
 from .text_lines import lines_of
 
 DEEPEST = 20  # files that include each other
+INTEGER = re.compile(r"[+-]?\d+").fullmatch
+SHORT_EXPONENT = re.compile(r"(?<=[\d.])([+-]\d+)$")  # 7.85-9 is 7.85e-9
+INCLUDE = re.compile(r"\s*INCLUDE\b", re.IGNORECASE).match
 
 
 def young_and_poisson(card):
@@ -31,21 +34,26 @@ class Card:
         return [k for k in range(first, len(self.fields)) if self.fields[k]]
 
     def is_integer(self, k):
-        return k < len(self.fields) and re.fullmatch(r"[+-]?\d+", self.fields[k]) is not None
+        return k < len(self.fields) and INTEGER(self.fields[k]) is not None
 
     def integer(self, k, default=None):
-        if default is not None and (k >= len(self.fields) or not self.fields[k]):
+        text = self.fields[k] if k < len(self.fields) else ""
+        if default is not None and not text:
             return default
-        if self.is_integer(k):
-            return int(self.fields[k])
+        if INTEGER(text):
+            return int(text)
         self.fail(k, "an integer")
 
     def number(self, k, default):
         if k >= len(self.fields) or not self.fields[k]:
             return default
-        text = re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", self.fields[k].replace("D", "E"))  # 7.85-9 is 7.85e-9
+        text = self.fields[k]
         try:
             return float(text)
+        except ValueError:
+            pass
+        try:
+            return float(SHORT_EXPONENT.sub(r"e\1", text.replace("D", "E")))
         except ValueError:
             self.fail(k, "a number")
 
@@ -85,7 +93,7 @@ def _lines(path, depth):
     while k < len(lines):
         number, line = k + 1, lines[k].split("$")[0].rstrip()
         k += 1
-        if re.match(r"\s*INCLUDE\b", line, re.IGNORECASE):
+        if INCLUDE(line):
             while line.count("'") == 1 and k < len(lines):  # a name in quotes may go on
                 line += lines[k].strip()
                 k += 1

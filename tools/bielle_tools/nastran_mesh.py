@@ -14,6 +14,7 @@ SHAPES = {
     "CQUAD4": ("quad", 4, 4), "CQUADR": ("quad", 4, 4), "CQUAD8": ("quad", 4, 8),
 }
 SOLID_SHAPES = ("tetra", "hexahedron", "wedge", "pyramid")
+NUMBERS = 2**31
 KINDS = {"R": "rectangular", "C": "cylindrical", "S": "spherical"}
 
 
@@ -21,8 +22,13 @@ def read_mesh(cards):
     """@returns RawMesh, and the row of each grid point by its number. @raises InputError with file and line."""
     points, rows = _points(cards)
     blocks = {}  # (type, property) -> cards, rows of nodes
+    known = {}   # element number -> card
     for card in cards:
         if card.name in SHAPES:
+            first = known.setdefault(_number(card), card)
+            if first is not card:
+                raise InputError(f"'{card.path}': line {card.line}: there is a second element {card.integer(1)} (the first: {first.name} at line "
+                                 f"{first.line})")
             nodes, kind = _nodes(card, rows)
             block = blocks.setdefault((kind, card.integer(2, card.integer(1))), ([], []))
             block[0].append(card)
@@ -36,6 +42,14 @@ def read_mesh(cards):
         raw.cell_sets[f"property_{number}"] = [np.arange(len(nodes)) if which == number else np.zeros(0, np.int64)
                                                for (_, which), (_, nodes) in blocks.items()]
     return raw, rows
+
+
+def _number(card):
+    """The number of a grid point or an element."""
+    number = card.integer(1)
+    if not 0 < number < NUMBERS:
+        raise InputError(f"'{card.path}': line {card.line}: {card.name} has the number {number}, but numbers are from 1 to {NUMBERS - 1}")
+    return number
 
 
 def _nodes(card, rows):
@@ -63,7 +77,7 @@ def _points(cards):
     grids, rows = [], {}
     for card in cards:
         if card.name == "GRID":
-            number = card.integer(1)
+            number = _number(card)
             if number in rows:
                 raise InputError(f"'{card.path}': line {card.line}: there is a second GRID {number} (the first: line "
                                  f"{grids[rows[number]].line}); parts with numbers of their own must be renumbered")
@@ -87,6 +101,8 @@ class _Systems:
                     self.cards[card.integer(first)] = (card, first)
 
     def place(self, number, coordinates, card):
+        if number == 0:
+            return np.array(coordinates)
         kind, origin, axes = self.system(number, card)
         return origin + axes @ _cartesian(kind, coordinates)
 

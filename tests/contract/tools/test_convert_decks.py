@@ -128,6 +128,8 @@ class Nastran(Deck):
         self.refuse(self.deck(self.grids(), "CTETRA,1,1,1,2,3,9999\n"), "grid point 9999")
         self.refuse(self.deck(self.grids(), "CTETRA,1,1,1,2,x,4\n"), "expected an integer in field 6, found 'X'")
         self.refuse(self.deck("GRID,1,,a,0.,0.\n"), "expected a number in field 4")
+        self.refuse(self.deck("GRID,2147483648,,0.,0.,0.\n"), "GRID has the number 2147483648, but numbers are from 1 to 2147483647")
+        self.refuse(self.deck(self.grids(), self.tetrahedra(), "CTETRA,1,1,1,2,3,4\n"), "there is a second element 1 (the first: CTETRA at line")
         self.refuse(self.deck("$ nothing\n"), "holds no GRID")
 
 
@@ -176,27 +178,15 @@ class Abaqus(Deck):
         np.testing.assert_allclose(self.corners(mesh), [[0, 0, 0], SIZE], atol=1e-9)
         self.refuse(self.deck(f"*SYSTEM\n0., 0., 0., 1., 0., 0.\n2., 0., 0.\n{self.whole()}"), "bar.inp:1", "one line")
 
-    def test_what_generates_nodes_or_elements_is_refused_by_name(self):
-        for keyword in ("*NCOPY, CHANGE NUMBER=1000, OLD SET=N1, SHIFT\n1., 0., 0.\n", "*ELGEN, ELSET=E\n1, 5, 10, 10\n", "*NGEN\n1, 11, 1\n",
-                        "*ELCOPY, ELEMENT SHIFT=1000, OLD SET=E, SHIFT NODES=1000\n", "*NFILL\nA, B, 3, 10\n", "*NMAP, NSET=N\n0.,0.,0.\n"):
+    def test_what_moves_nodes_is_refused_by_name(self):
+        for keyword in ("*NMAP, NSET=N\n0.,0.,0.\n", "*SYMMETRIC MODEL GENERATION, REVOLVE\n"):
             self.refuse(self.deck(self.whole() + keyword), keyword.split(",")[0].split("\n")[0], "write the mesh out in full")
-
-    def test_a_mesh_inside_an_instance(self):
-        text = f"*Part, name=b\n*End Part\n*Assembly, name=A\n*Instance, name=b-1, part=b\n{self.whole()}*End Instance\n"
-        self.convert(self.deck(text + "*Node\n1, 5., 5., 5.\n*End Assembly\n"))
-        self.assertIn("1 reference points of the assembly", self.notes)
-        self.refuse(self.deck(text + f"*Instance, name=b-2, part=b\n{self.whole()}*End Instance\n*End Assembly\n"), "instance 'b-2'")
-
-    def test_one_part_in_two_instances_is_told(self):
-        self.convert(self.deck(f"*PART, NAME=A\n{self.whole()}*END PART\n*ASSEMBLY, NAME=S\n*INSTANCE, NAME=A-1, PART=A\n*END INSTANCE\n"
-                               "*INSTANCE, NAME=A-2, PART=A\n*END INSTANCE\n*END ASSEMBLY\n"))
-        self.assertIn("the part 'A' stands in 2 instances (A-1, A-2)", self.notes)
 
     def test_couplings_and_constraints_are_told(self):
         self.convert(self.deck(self.whole() + "*NODE\n9001, 0., .1, .1\n*NSET, NSET=LEFT\n1, 2\n*RIGID BODY, NSET=LEFT, REF NODE=9001\n"
                                "*SURFACE, NAME=S, TYPE=NODE\nLEFT\n*COUPLING, REF NODE=9001, SURFACE=S, CONSTRAINT NAME=C\n*DISTRIBUTING\n"
-                               "*ELEMENT, TYPE=MASS, ELSET=M\n9001, 9001\n*MASS, ELSET=M\n2.5\n*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n*TIE, NAME=T\nS, S\n"))
-        for word in ("1 *RIGID BODY", "1 *COUPLING", "1 *MASS", "1 *EQUATION", "1 *TIE", "`tie: rigid`"):
+                               "*ELEMENT, TYPE=MASS, ELSET=M\n9001, 9001\n*MASS, ELSET=M\n2.5\n*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n"))
+        for word in ("1 *RIGID BODY", "1 *COUPLING", "1 *MASS", "1 *EQUATION", "`tie: rigid`"):
             self.assertIn(word, self.notes)
 
     def test_materials_and_orientations_are_told(self):
