@@ -181,7 +181,7 @@ void inspect(const std::string& path) {
 
 /// @param path  a geometry, a mesh, or a body file that names one and its unit
 void list(const std::string& path, std::optional<std::string> length_unit, bool system_calls) {
-  GeometryFile geometry{path, length_unit};
+  GeometryFile geometry{path, length_unit, {}};
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".yaml" || ending == ".yml") {
     if (length_unit) {
@@ -190,7 +190,7 @@ void list(const std::string& path, std::optional<std::string> length_unit, bool 
     geometry = read_geometry_of(path);
   }
   Progress progress(true);
-  fmt::print("{}", describe_geometry(geometry.path, geometry.length_unit, progress, system_calls));
+  fmt::print("{}", describe_geometry(geometry.path, geometry.length_unit, progress, system_calls, geometry.densities));
 }
 
 int body(int argc, char** argv) {

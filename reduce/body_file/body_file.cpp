@@ -26,8 +26,18 @@ const KeyTable& mesh_keys() {
       "Elements into which a geometry is meshed; a file that contains a mesh needs no `mesh`.",
       {{"size", number("m").positive(), optional,
         "Length of edges at which the mesh aims. A `.geo` may do without, other geometries may not."},
+       {"cells", word({"tetrahedra", "hexahedra"}, "a kind of cells"), otherwise("tetrahedra"),
+        "Kind of elements. Blocks of six faces are meshed by grids of hexahedra; in other geometries tetrahedra of "
+        "twice the size are divided into four hexahedra each."},
        {"order", integer().between(1, 2), otherwise("2"),
-        "Order of the tetrahedra: 1 for 4 nodes, 2 for 10. Order 1 is far too stiff in bending."},
+        "Order of the elements: 1 for tetrahedra with 4 nodes or hexahedra with 8, 2 for 10 or 20. Tetrahedra of "
+        "order 1 are far too stiff in bending."},
+       {"curvature", integer().between(3, 360), optional,
+        "Number of edges on a full circle of curved surfaces, at least; edges that follow from it are not shorter "
+        "than a twentieth of `size`."},
+       {"heal", boolean(), otherwise("false"),
+        "Edges and faces smaller than a hundredth of `size` are removed, and faces are sewn together, before the "
+        "geometry is meshed; it must have no physical surfaces."},
        {"sizes", entries("physical group, interface, load, point or mass", {number("m").positive()}), optional,
         "Other sizes on physical groups, or on the surfaces of interfaces, loads, points and masses; they fade into "
         "`size` "
@@ -76,6 +86,25 @@ const KeyTable& recovery_keys() {
   return table;
 }
 
+SolidSelection read_solid(const YamlValue& value) {
+  if (!value.is_scalar() || value.is_null()) value.fail("expected a volume, by its number or its name");
+  return {value.text(), value.path()};
+}
+
+void read_solids(const YamlValue& root, MeshRequest& request) {
+  const auto volume = root.find("volume"), volumes = root.find("volumes");
+  if (volume && volumes) volume->fail("expected either volume, or volumes");
+  if (volume) request.solids.push_back(read_solid(*volume));
+  if (volumes) {
+    for (const YamlValue& item : volumes->items()) request.solids.push_back(read_solid(item));
+    if (request.solids.empty()) volumes->fail("expected at least one volume, by its number or its name");
+  }
+  if (const auto glue = root.find("glue")) {
+    request.glue = glue->boolean();
+    request.glue_subject = glue->path();
+  }
+}
+
 void read_mesh(const YamlValue& root, MeshRequest& request) {
   const YamlValue geometry = root.at("geometry");
   request.path = geometry.file_path();
@@ -84,11 +113,18 @@ void read_mesh(const YamlValue& root, MeshRequest& request) {
     request.length_unit = unit->word();
     request.length_unit_subject = unit->path();
   }
+  read_solids(root, request);
   const auto mesh = root.find("mesh");
   if (!mesh) return;
   request.mesh_subject = mesh->path();
   if (const auto size = mesh->find("size")) request.size = size->number();
   if (const auto order = mesh->find("order")) request.order = order->integer();
+  if (const auto cells = mesh->find("cells")) request.hexahedra = cells->word() == "hexahedra";
+  if (const auto curvature = mesh->find("curvature")) request.curvature = curvature->integer();
+  if (const auto heal = mesh->find("heal")) {
+    request.heal = heal->boolean();
+    request.heal_subject = heal->path();
+  }
   if (const auto sizes = mesh->find("sizes"))
     for (const auto& [name, size] : sizes->entries()) request.sizes[name] = {size.number(), size.path()};
 }
@@ -255,6 +291,15 @@ const KeyTable& body_file_keys() {
        {"length_unit", word({"m", "mm", "cm", "um", "km", "in", "ft"}, "a unit of length"),
         computed("the unit that the geometry declares, otherwise m"),
         "Unit of a geometry that declares none. It scales the geometry alone, no other value of this file."},
+       {"volume",
+        {integer().positive(), name_of("solid")},
+        optional,
+        "The solid of an assembly that is the body, by its number in `--list`, or by the name of a solid, part or "
+        "physical volume. Without `volume` and `volumes` the body consists of all solids."},
+       {"volumes", list_of({integer().positive(), name_of("solid")}).items_at_least(1), optional,
+        "Several solids, each named as for `volume`; a name selects all solids that have it."},
+       {"glue", boolean(), otherwise("false"),
+        "Solids that touch are glued: they get common faces, through which the mesh is connected."},
        {"mesh", nested(mesh_keys), optional, "The mesh of a geometry."},
        {"materials",
         {entries("material", material_forms()), word({"from_file"}, "a source of materials")},
@@ -269,7 +314,8 @@ const KeyTable& body_file_keys() {
         "with 6, which then lock in bending, as C3D8 and C3D6 of other programs; `reduced` takes 2 x 2 x 2 points in "
         "hexahedra with 20 nodes, as C3D20R, and warns of hourglass modes."},
        {"regions", entries("physical volume", {name_of("material")}), computed("those of the file, with `from_file`"),
-        "Materials of the physical volumes; `all` is the whole body."},
+        "Materials of the physical volumes, or of the solids by their names if there are none; `all` is the whole "
+        "body."},
        {"interfaces", entries("interface", {nested(interface_keys)}), required,
         "Interfaces by their names, at least one."},
        {"modes", nested(modes_keys), required, "Fixed-boundary modes to keep."},
@@ -298,8 +344,13 @@ BodyFile parse_body_file(const std::string& text, const std::string& name) {
 
 GeometryFile read_geometry_of(const std::string& body_path) {
   const YamlValue root = YamlValue::load(body_path);
-  const auto unit = root.find("length_unit");
-  return {root.at("geometry").file_path(), unit ? std::optional(unit->text()) : std::nullopt};
+  const auto unit = root.find("length_unit"), materials = root.find("materials"), regions = root.find("regions");
+  GeometryFile result{root.at("geometry").file_path(), unit ? std::optional(unit->text()) : std::nullopt, {}};
+  if (!materials || !regions || !materials->is_map() || !regions->is_map()) return result;
+  read_parameters(root);
+  for (const auto& [region, material] : regions->entries())
+    if (const auto found = materials->find(material.text())) result.densities[region] = read_material(*found).density;
+  return result;
 }
 
 }  // namespace bielle::reduce

@@ -1,6 +1,7 @@
 // The body file: a YAML file that describes a body and how it is to be reduced (format: reduce/README.md).
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,9 +40,10 @@ BodyFile parse_body_file(const std::string& text, const std::string& name);
 struct GeometryFile {
   std::string path;
   std::optional<std::string> length_unit;
+  std::map<std::string, double> densities;  ///< densities of regions whose material the file has [kg/m^3]
 };
 
-/// @throws InputError when the file is no YAML or names no geometry
+/// @throws InputError when the file is no YAML, names no geometry, or has a wrong material
 GeometryFile read_geometry_of(const std::string& body_path);
 
 }  // namespace bielle::reduce

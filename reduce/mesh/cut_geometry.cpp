@@ -1,50 +1,15 @@
 #include "reduce/mesh/cut_geometry.hpp"
 
-#include <algorithm>
-#include <map>
-#include <set>
-
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <gmsh.h>
 
 #include "reduce/common/progress.hpp"
+#include "reduce/mesh/fragments.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-using Entity = std::pair<int, int>;  // dimension, tag
-
-// A physical group with its number in gmsh.
-struct NumberedGroup {
-  Entity group;
-  std::string name;
-  std::vector<int> entities;
-};
-
-std::vector<NumberedGroup> numbered_groups() {
-  std::vector<NumberedGroup> groups;
-  for (const int dimension : {2, 3}) {
-    gmsh::vectorpair pairs;
-    gmsh::model::getPhysicalGroups(pairs, dimension);
-    for (const Entity& pair : pairs) {
-      NumberedGroup group{pair, {}, {}};
-      gmsh::model::getPhysicalName(dimension, pair.second, group.name);
-      gmsh::model::getEntitiesForPhysicalGroup(dimension, pair.second, group.entities);
-      groups.push_back(group);
-    }
-  }
-  return groups;
-}
-
-bool is_open_cascade() {
-  gmsh::vectorpair volumes, known;
-  gmsh::model::getEntities(volumes, 3);
-  gmsh::model::occ::getEntities(known, 3);
-  const std::set<Entity> solids(known.begin(), known.end());
-  return std::all_of(volumes.begin(), volumes.end(), [&](const Entity& volume) { return solids.contains(volume); });
-}
 
 // Adds a square in the plane that extends beyond the body on all sides; lengths in the unit of the model.
 Entity add_square(const CutPlane& plane, double metres) {
@@ -63,56 +28,6 @@ Entity add_square(const CutPlane& plane, double metres) {
   return {2, gmsh::model::occ::addPlaneSurface({gmsh::model::occ::addCurveLoop(lines)})};
 }
 
-// Removes the divided volumes and every face that bounds no volume: those of divided volumes, and the parts of the
-// squares outside the body.
-void remove_leftovers(const std::map<Entity, gmsh::vectorpair>& parts_of) {
-  gmsh::vectorpair divided;
-  for (const auto& [entity, parts] : parts_of)
-    if (entity.first == 3 && parts != gmsh::vectorpair{entity}) divided.push_back(entity);
-  gmsh::model::occ::remove(divided);
-  gmsh::model::occ::synchronize();
-  gmsh::vectorpair faces, loose;
-  gmsh::model::getEntities(faces, 2);
-  for (const Entity& face : faces) {
-    std::vector<int> volumes, curves;
-    gmsh::model::getAdjacencies(2, face.second, volumes, curves);
-    if (volumes.empty()) loose.push_back(face);
-  }
-  gmsh::model::occ::remove(loose, true);
-  gmsh::model::occ::synchronize();
-}
-
-// Maps the volumes and surfaces before the cuts to their parts.
-std::map<Entity, gmsh::vectorpair> divide(const std::vector<CutPlane>& planes, double metres) {
-  gmsh::vectorpair body, surfaces, squares, result;
-  gmsh::model::getEntities(body, 3);
-  gmsh::model::getEntities(surfaces, 2);
-  body.insert(body.end(), surfaces.begin(), surfaces.end());  // to learn what becomes of them
-  for (const CutPlane& plane : planes) squares.push_back(add_square(plane, metres));
-  std::vector<gmsh::vectorpair> parts;
-  // gmsh 4.8 returns wrong parts if the same call removes the divided entities.
-  gmsh::model::occ::fragment(body, squares, result, parts, -1, false, false);
-  gmsh::model::occ::synchronize();
-  std::map<Entity, gmsh::vectorpair> parts_of;
-  for (std::size_t k = 0; k < body.size(); ++k) parts_of[body[k]] = parts[k];
-  remove_leftovers(parts_of);
-  return parts_of;
-}
-
-void restore_groups(const std::vector<NumberedGroup>& groups, const std::map<Entity, gmsh::vectorpair>& parts_of) {
-  gmsh::model::removePhysicalGroups();
-  for (const NumberedGroup& group : groups) {
-    const int dimension = group.group.first;
-    std::set<int> entities;
-    for (const int entity : group.entities)
-      if (const auto parts = parts_of.find({dimension, std::abs(entity)}); parts != parts_of.end())
-        for (const Entity& part : parts->second)
-          if (part.first == dimension) entities.insert(part.second);
-    gmsh::model::addPhysicalGroup(dimension, {entities.begin(), entities.end()}, group.group.second);
-    if (!group.name.empty()) gmsh::model::setPhysicalName(dimension, group.group.second, group.name);
-  }
-}
-
 }  // namespace
 
 std::vector<PhysicalGroup> cut_geometry(GmshSession& session, const MeshRequest& request, const SourceFile& source,
@@ -121,7 +36,9 @@ std::vector<PhysicalGroup> cut_geometry(GmshSession& session, const MeshRequest&
   session.read(fmt::format("'{}' cannot be cut", source.name), [&] {
     if (is_open_cascade()) {
       const std::vector<NumberedGroup> numbered = numbered_groups();
-      restore_groups(numbered, divide(request.cuts, source.metres));
+      std::vector<Entity> squares;
+      for (const CutPlane& plane : request.cuts) squares.push_back(add_square(plane, source.metres));
+      restore_groups(numbered, divide_volumes(squares));
     } else {
       progress.note(
           fmt::format("'{}' is a geometry of gmsh's own kernel, which cannot be cut: the cuts follow faces of "

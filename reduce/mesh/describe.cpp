@@ -13,6 +13,7 @@
 #include "reduce/common/process/child_process.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/checks.hpp"
+#include "reduce/mesh/describe_solids.hpp"
 #include "reduce/mesh/gmsh_model.hpp"
 #include "reduce/mesh/gmsh_session.hpp"
 #include "reduce/mesh/length_unit.hpp"
@@ -161,7 +162,7 @@ void measure_surface(int tag, double metres, SurfaceEntry& entry) {
     entry.shape = recognise_shape(points.x, points.n, 1e-5 * entry.box.diagonal().norm());
 }
 
-std::string geometry_text(double metres) {
+std::string geometry_text(double metres, const std::map<std::string, double>& densities) {
   const std::vector<PhysicalGroup> groups = physical_groups();
   gmsh::vectorpair exact;  // entities of the OpenCASCADE kernel: these know their size
   gmsh::model::occ::getEntities(exact);
@@ -185,31 +186,19 @@ std::string geometry_text(double metres) {
     entry.centre = metres * centre;
   }
 
-  std::string text = "volumes\n";
-  for (const auto& [dim, tag] : entities(3)) {
-    gmsh::vectorpair sides;
-    gmsh::model::getBoundary({{dim, tag}}, sides, false, false, false);
-    AlignedBox3d box;
-    for (const auto& [two, side] : sides) box.extend(surfaces.at(side).box);
-    double volume = 0;
-    if (is_exact({dim, tag})) gmsh::model::occ::getMass(3, tag, volume);
-    const std::string names = groups_of(groups, 3, tag);
-    text += fmt::format("  volume {}: {}from {} to {}{}\n", tag,
-                        volume > 0 ? fmt::format("{:.6g} m^3, ", volume * metres * metres * metres) : "",
-                        place_name(box.min()), place_name(box.max()), names.empty() ? "" : "; in " + names);
-  }
-  if (entities(3).empty()) text += "  none: this geometry has surfaces only and is no body\n";
-
   AlignedBox3d body;
+  std::map<int, AlignedBox3d> boxes;
   std::vector<SurfaceEntry> sorted;
   for (const auto& [tag, entry] : surfaces) {
     body.extend(entry.box);
+    boxes[tag] = entry.box;
     sorted.push_back(entry);
   }
   std::stable_sort(sorted.begin(), sorted.end(), [](const SurfaceEntry& a, const SurfaceEntry& b) {
     return a.area.value_or(0) > b.area.value_or(0);
   });
-  return text + "surfaces\n" + surfaces_text(sorted, body.diagonal().norm());
+  return "volumes\n" + solids_text(boxes, metres, densities) + "surfaces\n" +
+         surfaces_text(sorted, body.diagonal().norm());
 }
 
 std::string mesh_text(GmshSession& session, const SourceFile& source) {
@@ -271,7 +260,8 @@ std::string groups_text() {
   return text;
 }
 
-std::string describe_source(const std::string& path, const SourceFile& source) {
+std::string describe_source(const std::string& path, const SourceFile& source,
+                            const std::map<std::string, double>& densities) {
   GmshSession session;
   open_model(session, source);
   const double extent = model_extent(session);
@@ -282,7 +272,7 @@ std::string describe_source(const std::string& path, const SourceFile& source) {
     if (const std::string warning = implausible_length(source.metres * extent); !warning.empty())
       text += warning + "\n";
     text += groups_text();
-    text += mesh ? mesh_text(session, source) : geometry_text(source.metres);
+    text += mesh ? mesh_text(session, source) : geometry_text(source.metres, densities);
   });
   return text;
 }
@@ -290,14 +280,14 @@ std::string describe_source(const std::string& path, const SourceFile& source) {
 }  // namespace
 
 std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,
-                              Progress& progress, bool system_calls) {
+                              Progress& progress, bool system_calls, const std::map<std::string, double>& densities) {
   MeshRequest request;
   request.path = path;
   request.length_unit = length_unit;
   const SourceFile source = prepare_source(request, progress);
   return in_child_process(loss_of(source), {}, [&] {
     if (!system_calls) forbid_system_calls(source);
-    return describe_source(path, source);
+    return describe_source(path, source, densities);
   });
 }
 

@@ -1,6 +1,7 @@
 // The description of a geometry or mesh that `bielle-reduce --list` prints.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -18,8 +19,10 @@ namespace bielle::reduce {
 /// normal turns by more than 40 degrees.
 /// @param length_unit   unit of a file that declares none; absent: m
 /// @param system_calls  whether a script (.geo) may run shell commands
+/// @param densities     densities of regions [kg/m^3], from which the masses of solids follow; see `solids_text`
 /// @throws InputError when the file cannot be read
 std::string describe_geometry(const std::string& path, const std::optional<std::string>& length_unit,
-                              Progress& progress, bool system_calls = false);
+                              Progress& progress, bool system_calls = false,
+                              const std::map<std::string, double>& densities = {});
 
 }  // namespace bielle::reduce

@@ -9,6 +9,7 @@
 #include "reduce/common/files/packing.hpp"
 #include "reduce/common/process/child_process.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/mesh/assembly.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/conforming.hpp"
 #include "reduce/mesh/cut_geometry.hpp"
@@ -51,6 +52,21 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
                                                place_name(quality.worst_place), quality.least_scaled_jacobian));
 }
 
+// @throws InputError for keys that a mesh cannot have
+void refuse_keys_of_geometries(const MeshRequest& request) {
+  if (!request.solids.empty())
+    throw InputError(request.solids.front().subject,
+                     fmt::format("'{}' is a mesh, of which no solids can be selected: remove this key, and the other "
+                                 "cells from the mesh",
+                                 request.path));
+  if (request.glue)
+    throw InputError(request.glue_subject, fmt::format("'{}' is a mesh, whose parts cannot be glued: remove this key, "
+                                                       "and merge the nodes of the mesh where its parts touch",
+                                                       request.path));
+  if (request.size || request.order || !request.sizes.empty() || request.hexahedra || request.curvature || request.heal)
+    throw InputError(request.mesh_subject, fmt::format("'{}' is a mesh already: remove this key", request.path));
+}
+
 Mesh import_source(const MeshRequest& request, const SourceFile& source, Progress& progress) {
   GmshSession session;
   about(request.subject, [&] { open_model(session, source); });
@@ -62,19 +78,27 @@ Mesh import_source(const MeshRequest& request, const SourceFile& source, Progres
     if (geometry && !model_has_volumes())
       throw InputError(request.subject, fmt::format("'{}' holds no volume: a body is a solid", source.name));
   });
+  if (geometry) groups = assemble_solids(session, request, source, progress);
   check_groups(request, groups);
   if (geometry) {
     if (!request.cuts.empty()) groups = cut_geometry(session, request, source, progress);
     mesh_geometry(session, request, source, groups, progress);
-  } else if (request.size || request.order || !request.sizes.empty()) {
-    throw InputError(request.mesh_subject, fmt::format("'{}' is a mesh already: remove this key", request.path));
+  } else {
+    refuse_keys_of_geometries(request);
   }
 
   ExtractedModel model = about(request.subject, [&] { return extract_model(session, source.name, source.metres); });
   Mesh mesh;
   mesh.points = std::move(model.points);
   mesh.blocks = std::move(model.solids);
-  about(request.subject, [&] { check_elements(mesh, geometry ? std::vector<std::size_t>{} : model.cell_tags); });
+  about(request.subject, [&] {
+    try {
+      check_elements(mesh, geometry ? std::vector<std::size_t>{} : model.cell_tags);
+    } catch (const InputError& error) {
+      if (!request.hexahedra.value_or(false)) throw;
+      throw InputError(fmt::format("{}; a smaller mesh.size, or tetrahedra, avoid it", error.what()));
+    }
+  });
   const FaceTable faces = about(request.subject, [&] { return FaceTable(mesh); });
   about(request.subject, [&] { check_conforming(mesh, faces); });
   about(request.subject, [&] { check_mesh(request, model, faces, mesh, progress); });

@@ -9,6 +9,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/groups.hpp"
+#include "reduce/mesh/hexahedra.hpp"
 #include "reduce/mesh/meshing.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/mesh/selectors.hpp"
@@ -129,15 +130,20 @@ void mesh_geometry(GmshSession& session, const MeshRequest& request, const Sourc
   progress.start("meshing " + path.filename().string());
   MeshSizes sizes;
   if (request.size) sizes.largest = *request.size / source.metres;
+  sizes.per_turn = request.curvature;
   check_cell_count(session, request, source, sizes, progress);
   warn_of_sizes(session, request, source, progress);
   sizes.on_entities = entity_sizes(session, request, source, groups, sizes);
   if (!sizes.on_entities.empty()) check_cell_count(session, request, source, sizes, progress);
   about(request.subject, [&] { mesh_surfaces(session, source.name, sizes); });
   check_selections(session, request, source, groups);
+  const bool hexahedra = request.hexahedra.value_or(false);
   about(request.subject, [&] {
-    mesh_volumes(session, source.name, sizes);
-    if (request.order.value_or(2) == 2) make_second_order(session, source.name);
+    if (hexahedra)
+      progress.note(describe(mesh_hexahedra(session, source.name, sizes)));
+    else
+      mesh_volumes(session, source.name, sizes);
+    if (request.order.value_or(2) == 2) make_second_order(session, source.name, !hexahedra);
   });
 }
 

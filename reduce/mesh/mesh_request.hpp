@@ -61,6 +61,12 @@ struct VolumeSelection {
   std::string subject;  ///< "regions.rod"
 };
 
+/// One or several solids of a geometry that holds more.
+struct SolidSelection {
+  std::string name;     ///< number of a volume as `--list` prints it, name of a solid or part, or physical volume
+  std::string subject;  ///< "volumes[1]"
+};
+
 /// Edge length on one group of a geometry that differs from the general one.
 struct GroupSize {
   double size = 0;      ///< [m]
@@ -84,11 +90,18 @@ struct MeshRequest {
   std::optional<double> size;              ///< largest edge of the elements [m]; absent: the geometry's own
   std::optional<int> order;                ///< 1 or 2; absent: 2 for a geometry, as it is for a mesh
   std::map<std::string, GroupSize> sizes;  ///< by physical group or by the `group` of a selection
+  std::optional<bool> hexahedra;           ///< whether a geometry is meshed into hexahedra; absent: tetrahedra
+  bool heal = false;                       ///< whether tiny edges and faces of a geometry are removed
+  std::string heal_subject;                ///< "mesh.heal"
+  std::optional<int> curvature;            ///< edges on a full circle of a curved surface, at least
   std::string mesh_subject;                ///< "mesh"
   std::vector<SurfaceSelection> surfaces;
   std::vector<VolumeSelection> volumes;
-  bool system_calls = false;   ///< whether a file that is a script (.geo) may run shell commands
-  std::vector<CutPlane> cuts;  ///< planes in which faces of the elements shall lie if the geometry can be cut
+  std::vector<SolidSelection> solids;  ///< solids of the geometry that make the body; empty: all
+  bool glue = false;                   ///< whether solids that touch get common faces
+  std::string glue_subject;            ///< "glue"
+  bool system_calls = false;           ///< whether a file that is a script (.geo) may run shell commands
+  std::vector<CutPlane> cuts;          ///< planes in which faces of the elements shall lie if the geometry can be cut
 };
 
 }  // namespace bielle::reduce

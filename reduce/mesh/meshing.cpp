@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -33,20 +34,6 @@ std::map<std::pair<int, int>, double> sizes_of_closures(const std::vector<Entity
   return size_of;
 }
 
-// gmsh may leave a volume without cells and report it only in its log.
-void check_volumes_meshed(const std::string& name) {
-  gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, 3);
-  for (const auto& [dim, volume] : volumes) {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> elements, nodes;
-    gmsh::model::mesh::getElements(types, elements, nodes, dim, volume);
-    if (types.empty())
-      throw ComputationError(
-          fmt::format("'{}': gmsh could not mesh volume {}; another mesh.size may help", name, volume));
-  }
-}
-
 // Edge lengths by place, set until the end of a scope, since gmsh would keep them beyond its own finalisation.
 struct SizeCallback {
   explicit SizeCallback(std::function<double(int, int, double, double, double)> size) {
@@ -61,23 +48,6 @@ struct SizeCallback {
   SizeCallback(const SizeCallback&) = delete;
   SizeCallback& operator=(const SizeCallback&) = delete;
 };
-
-void generate(int dimension, const MeshSizes& sizes) {
-  const std::map<std::pair<int, int>, double> size_of = sizes_of_closures(sizes.on_entities);
-  double largest = sizes.largest.value_or(0);
-  for (const auto& [entity, wish] : size_of) largest = std::max(largest, wish);
-  if (sizes.largest) gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
-  std::optional<SizeCallback> callback;
-  if (!size_of.empty())
-    callback.emplace([size_of, size = sizes.largest](int dim, int tag, double, double, double) {
-      const auto found = size_of.find({dim, tag});
-      return found != size_of.end() ? found->second : size.value_or(1e22);
-    });
-  // The geometry may request order 2 itself: the order is raised later, when the straight cells are known to be valid.
-  gmsh::option::setNumber("Mesh.ElementOrder", 1);
-  gmsh::option::setNumber("Mesh.RecombineAll", 0);
-  gmsh::model::mesh::generate(dimension);
-}
 
 // Volumes and areas of the geometry, if its kernel computes them.
 class Measures {
@@ -118,6 +88,43 @@ constexpr double cells_per_cube = 8, cells_per_fine_square = 10, cells_per_squar
 
 }  // namespace
 
+void check_volumes_meshed(const std::string& name) {
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  for (const auto& [dim, volume] : volumes) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> elements, nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, dim, volume);
+    if (types.empty())
+      throw ComputationError(
+          fmt::format("'{}': gmsh could not mesh volume {}; another mesh.size may help", name, volume));
+  }
+}
+
+void with_sizes(const MeshSizes& sizes, const std::function<void()>& work) {
+  const std::map<std::pair<int, int>, double> size_of = sizes_of_closures(sizes.on_entities);
+  double largest = sizes.largest.value_or(0), least = largest / most_refinement;
+  for (const auto& [entity, wish] : size_of) {
+    largest = std::max(largest, wish);
+    least = std::min(least, wish);
+  }
+  if (sizes.largest) gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
+  if (sizes.per_turn) {
+    gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", *sizes.per_turn);
+    gmsh::option::setNumber("Mesh.MeshSizeMin", least);
+  }
+  std::optional<SizeCallback> callback;
+  if (!size_of.empty())
+    callback.emplace([size_of, size = sizes.largest](int dim, int tag, double, double, double) {
+      const auto found = size_of.find({dim, tag});
+      return found != size_of.end() ? found->second : size.value_or(1e22);
+    });
+  // The geometry may request order 2 itself: the order is raised later, when the straight cells are known to be valid.
+  gmsh::option::setNumber("Mesh.ElementOrder", 1);
+  gmsh::option::setNumber("Mesh.RecombineAll", 0);
+  work();
+}
+
 double expected_cells(GmshSession& session, const std::string& name, const MeshSizes& sizes) {
   double cells = 0;
   session.read(fmt::format("'{}' cannot be measured", name), [&] {
@@ -136,23 +143,23 @@ double expected_cells(GmshSession& session, const std::string& name, const MeshS
 void mesh_surfaces(GmshSession& session, const std::string& name, const MeshSizes& sizes) {
   session.compute(fmt::format("'{}' cannot be meshed", name), [&] {
     gmsh::model::mesh::clear();
-    generate(2, sizes);
+    with_sizes(sizes, [] { gmsh::model::mesh::generate(2); });
   });
 }
 
 void mesh_volumes(GmshSession& session, const std::string& name, const MeshSizes& sizes) {
   session.compute(fmt::format("'{}' cannot be meshed", name), [&] {
-    generate(3, sizes);
+    with_sizes(sizes, [] { gmsh::model::mesh::generate(3); });
     check_volumes_meshed(name);
   });
 }
 
-void make_second_order(GmshSession& session, const std::string& name) {
+void make_second_order(GmshSession& session, const std::string& name, bool middle_nodes) {
   session.compute(fmt::format("'{}' cannot be meshed with second-order elements", name), [&] {
     // gmsh's own repair of curved elements throws on real parts (4.8); straighten.cpp repairs them later.
     gmsh::option::setNumber("Mesh.HighOrderOptimize", 0);
     gmsh::option::setNumber("Mesh.SecondOrderLinear", 0);
-    gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
+    gmsh::option::setNumber("Mesh.SecondOrderIncomplete", middle_nodes ? 0 : 1);
     gmsh::model::mesh::setOrder(2);
   });
 }

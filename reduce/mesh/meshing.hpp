@@ -1,6 +1,7 @@
 // Meshing of the geometry that gmsh has open: surfaces, then volumes, then mid-side nodes.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,18 @@ struct EntitySize {
 struct MeshSizes {
   std::optional<double> largest;        ///< absent: as the geometry says
   std::vector<EntitySize> on_entities;  ///< fade into `largest` away from them
+  std::optional<int> per_turn;          ///< edges on a full circle of a curved surface, at least
 };
+
+/// Edges that follow from `per_turn` are not smaller than `largest` divided by this number.
+constexpr double most_refinement = 20;
+
+/// Calls `work` with gmsh's options set to these sizes. gmsh's exceptions are not translated.
+void with_sizes(const MeshSizes& sizes, const std::function<void()>& work);
+
+/// gmsh may leave a volume without cells and report it only in its log. gmsh's exceptions are not translated.
+/// @throws ComputationError about such a volume
+void check_volumes_meshed(const std::string& name);
 
 /// Expected number of cells in the volumes of a mesh of the open geometry: 8 per cube of the edge length, and 10 per
 /// square on surfaces that are meshed finer than the rest. The estimate is correct within a factor of two for compact
@@ -38,6 +50,7 @@ void mesh_surfaces(GmshSession& session, const std::string& name, const MeshSize
 void mesh_volumes(GmshSession& session, const std::string& name, const MeshSizes& sizes);
 
 /// Puts mid-side nodes on the edges of a meshed geometry, on its curves and surfaces.
-void make_second_order(GmshSession& session, const std::string& name);
+/// @param middle_nodes  whether quadrilateral faces and hexahedra get nodes in their middle, too
+void make_second_order(GmshSession& session, const std::string& name, bool middle_nodes);
 
 }  // namespace bielle::reduce

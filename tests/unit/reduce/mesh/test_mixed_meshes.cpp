@@ -79,7 +79,7 @@ TEST_CASE("a box of several types of cells has its volume, its faces and their o
     CHECK(coincident_nodes(mesh, faces).pairs == 0);
     double divergence = 0, area = 0;  // Gauss: 3 V = sum of x . n dA over plane faces
     for (const int face : faces.boundary()) {
-      const Eigen::Vector3d normal = reduce::area_vector(mesh.points, faces.corners(face));
+      const Eigen::Vector3d normal = bielle::reduce::area_vector(mesh.points, faces.corners(face));
       divergence += mesh.points.col(faces.corners(face)[0]).dot(normal);
       area += normal.norm();
       CHECK(faces.nodes(face).size() == node_count(faces.type(face)));

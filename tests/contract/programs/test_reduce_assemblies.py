@@ -1,0 +1,158 @@
+"""bielle-reduce on geometries of several solids, and on their meshes of hexahedra: stiffness and frequencies in closed form."""
+
+import math
+import unittest
+
+import h5py
+import numpy as np
+
+from command import CommandTest
+
+# Two bars in a row, and a third one apart.
+BARS = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 60, 10, 10}; Box(2) = {60, 0, 0, 40, 10, 10}; Box(3) = {200, 0, 0, 40, 10, 10};
+"""
+BAR = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 100, 10, 10};
+"""
+ENDS = """\
+interfaces:
+  left: {surface: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}}
+  right: {surface: {plane: {point: [0.1, 0, 0], normal: [1, 0, 0]}}}
+modes: {count: 6}
+"""
+MATERIALS = """\
+materials:
+  steel: {young: 210e9, poisson: 0, density: 7850}
+  light: {young: 70e9, poisson: 0, density: 2700}
+"""
+AREA = 1e-4
+
+
+class Assemblies(CommandTest):
+    program = "bielle-reduce"
+
+    def body(self, geometry, mesh, more, interfaces=ENDS):
+        self.write("bar.geo", geometry)
+        self.write("body.yaml", f"body: bar\ngeometry: bar.geo\nlength_unit: mm\nmesh: {mesh}\n{MATERIALS}{more}\n{interfaces}")
+
+    def reduce(self, *arguments, **named):
+        """@returns the standard error; the results are in mass, stiffness, frequencies."""
+        self.body(*arguments, **named)
+        done = self.run_program("body.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("FAILED", done.stdout)
+        with h5py.File(self.path("body.h5")) as file:
+            self.mass = file["mass_properties/mass"][()]
+            self.stiffness = file["reduced/stiffness"][()]
+            self.frequencies = file["modes/frequencies"][()]
+        self.said = done.stdout
+        return done.stderr
+
+    def test_two_glued_bars_are_one(self):
+        self.reduce(BAR, "{size: 5e-3}", "regions: {all: steel}")
+        stiffness, frequencies = self.stiffness, self.frequencies
+        self.reduce(BARS, "{size: 5e-3}", "volumes: [1, 2]\nglue: true\nregions: {all: steel}")
+        self.assertAlmostEqual(self.mass / (7850 * AREA * 0.1), 1, delta=1e-9)
+        # Without contraction of the section a pulled bar is strained evenly, which elements represent exactly.
+        for pulled in (stiffness, self.stiffness):
+            self.assertAlmostEqual(pulled[0, 0] / (210e9 * AREA / 0.1), 1, delta=1e-8)
+        # Both meshes have two elements across, and errors of the frequencies below 1 %.
+        np.testing.assert_allclose(self.frequencies, frequencies, rtol=0.01)
+
+    def test_bars_of_two_materials_are_springs_in_a_row(self):
+        for cells in ("tetrahedra", "hexahedra"):
+            with self.subTest(cells):
+                self.reduce(BARS, f"{{size: 5e-3, cells: {cells}}}",
+                            "volumes: [1, 2]\nglue: true\nregions: {volume_1: steel, volume_2: light}")
+                self.assertAlmostEqual(self.mass / (AREA * (7850 * 0.06 + 2700 * 0.04)), 1, delta=1e-9)
+                stiffness = AREA / (0.06 / 210e9 + 0.04 / 70e9)
+                self.assertAlmostEqual(self.stiffness[0, 0] / stiffness, 1, delta=1e-8)
+
+    def test_a_cantilever_of_tetrahedra_and_of_hexahedra_vibrates_as_a_beam(self):
+        clamped = "interfaces:\n  left: {surface: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}}\nmodes: {count: 2}\n"
+        # Euler and Bernoulli's first frequency of a cantilever; shear and rotary inertia lower it by about 0.5 % here
+        # (h / L = 0.1, Timoshenko's equations).
+        euler = 1.8751040687**2 / (2 * math.pi) * math.sqrt(210e9 * 0.01**2 / (12 * 7850)) / 0.1**2
+        found = {}
+        for cells, says in (("tetrahedra", ""), ("hexahedra", "hexahedra: in grids")):
+            said = self.reduce(BAR, f"{{size: 5e-3, cells: {cells}}}", "regions: {all: steel}", interfaces=clamped)
+            self.assertIn(says, said)
+            self.assertEqual("hex20" in self.said, cells == "hexahedra")
+            found[cells] = self.frequencies
+            np.testing.assert_allclose(self.frequencies, timoshenko(euler), rtol=2e-3)
+        np.testing.assert_allclose(found["hexahedra"], found["tetrahedra"], rtol=2e-3)
+
+    def test_hexahedra_from_tetrahedra_are_reported(self):
+        said = self.reduce('SetFactory("OpenCASCADE"); Cylinder(1) = {0, 5, 5, 100, 0, 0, 5};\n',
+                           "{size: 2.5e-3, cells: hexahedra}", "regions: {all: steel}")
+        self.assertIn("tetrahedra of twice the size are divided into four each", said)
+        self.assertIn("hex20", self.said)
+        # Mid-side nodes of elements that were inside out are on straight edges: the section of the mesh is smaller there. The
+        # stiffness follows from its mean, up to the variation along the bar.
+        area = self.mass / (7850 * 0.1)
+        self.assertAlmostEqual(area / (math.pi * 0.005**2), 1, delta=5e-3)
+        self.assertAlmostEqual(self.stiffness[0, 0] / (210e9 * area / 0.1), 1, delta=5e-4)
+
+    def test_healing_is_reported(self):
+        said = self.reduce(BAR, "{size: 5e-3, heal: true}", "regions: {all: steel}")
+        self.assertIn("heal: 12 edges and 6 faces became 12 edges and 6 faces without those below 0.05 mm", said)
+
+    def test_wrong_keys(self):
+        regions = "regions: {all: steel}"
+        for mesh, more, says in (
+                ("{size: 5e-3}", regions, ["body.yaml:2: geometry", "in 3 pieces", "`glue: true`", "`volume: "]),
+                ("{size: 5e-3}", regions + "\nvolume: 4", ["body.yaml:9: volume", "there is no volume 4", "'1', '2', '3'"]),
+                ("{size: 5e-3}", regions + "\nvolume: -1", ["there is no volume -1", "'1', '2', '3'"]),
+                ("{size: 5e-3}", regions + "\nvolume: 1.5", ["there is no volume 1.5", "'1', '2', '3'"]),
+                ("{size: 5e-3}", regions + "\nvolume: [1]", ["body.yaml:9: volume: expected a volume, by its number or its name"]),
+                ("{size: 5e-3}", regions + "\nvolume: {a: 1}", ["expected a volume, by its number or its name"]),
+                ("{size: 5e-3}", regions + "\nvolume:", ["expected a volume, by its number or its name"]),
+                ("{size: 5e-3}", regions + "\nvolumes: 1", ["body.yaml:9: volumes: expected a list"]),
+                ("{size: 5e-3}", regions + "\nvolumes: []", ["body.yaml:9: volumes: expected at least one volume"]),
+                ("{size: 5e-3}", regions + "\nvolumes: [1, volume_1]", ["volumes[2]: volume 1 is selected twice"]),
+                ("{size: 5e-3}", regions + "\nvolumes: [1, 2]\nvolume: 1", ["expected either volume, or volumes"]),
+                ("{size: 5e-3}", regions + "\nglue: 3", ["body.yaml:9: glue: expected true or false"]),
+                ("{size: 5e-3}", "glue: true\nvolumes: [1, 2]\nregions: {volume_1: steel, volume_3: light}",
+                 ["regions.volume_3", "'volume_3' is not a physical volume"]),
+                ("{size: 5e-3, cells: hexaedra}", regions, ["body.yaml:4: mesh.cells", "did you mean 'hexahedra'"]),
+                ("{size: 5e-3, cells: 1}", regions, ["mesh.cells", "'tetrahedra', 'hexahedra'"]),
+                ("{size: 5e-3, curvature: 2}", regions, ["mesh.curvature: expected", "between 3 and 360"]),
+                ("{size: 5e-3, curvature: -12}", regions, ["mesh.curvature: expected", "between 3 and 360"]),
+                ("{size: 5e-3, curvature: 1e9}", regions, ["mesh.curvature: expected"]),
+                ("{size: 5e-3, curvature: 12.5}", regions, ["mesh.curvature: expected"]),
+                ("{size: 5e-3, heal: 1e-3}", regions, ["mesh.heal: expected true or false"])):
+            with self.subTest(mesh=mesh, more=more):
+                self.body(BARS, mesh, more)
+                self.expect_refusal(1, "body.yaml", says=says)
+
+
+def timoshenko(euler):
+    """The first frequency of the cantilever of the test by Timoshenko's equations with the shear factor 5/6 of Cowper for a
+    Poisson's ratio of 0, from its characteristic determinant; between 0.9 and 1 times Euler and Bernoulli's."""
+    length, height, young, density = 0.1, 0.01, 210e9, 7850
+    area, inertia, shear = height**2, height**4 / 12, young / 2 * 5 / 6
+
+    def determinant(frequency):
+        # The state (w, psi, M, Q) grows along the bar by a matrix exponential; w = psi = 0 here, M = Q = 0 there.
+        square = (2 * math.pi * frequency)**2
+        rate = np.zeros((4, 4))
+        rate[0, 1], rate[0, 3] = 1, 1 / (shear * area)
+        rate[1, 2] = 1 / (young * inertia)
+        rate[2, 1], rate[2, 3] = -density * inertia * square, -1
+        rate[3, 0] = -density * area * square
+        scale = np.diag([1, 1 / length, young * inertia / length**2, young * inertia / length**3])
+        values, vectors = np.linalg.eig(np.linalg.solve(scale, rate @ scale) * length)
+        whole = (vectors * np.exp(values)) @ np.linalg.inv(vectors)
+        return np.linalg.det(whole[2:, 2:].real)
+
+    low, high = 0.9 * euler, euler
+    assert determinant(low) * determinant(high) < 0
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (middle, high) if determinant(low) * determinant(middle) > 0 else (low, middle)
+    return low
+
+
+if __name__ == "__main__":
+    unittest.main()
