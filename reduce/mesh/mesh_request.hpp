@@ -55,6 +55,14 @@ struct SurfaceSelection {
   std::string subject;                     ///< "interfaces.big_end.surface"
 };
 
+/// Nodes of the file that become a group of the mesh.
+struct NodeSelection {
+  std::string group;              ///< name of the new group
+  std::vector<std::size_t> tags;  ///< the (converted) file's numbers of the nodes, each once
+  std::vector<double> weights;    ///< one for each node
+  std::string subject;            ///< "interfaces.hub.from"
+};
+
 /// A volume group that must exist.
 struct VolumeSelection {
   std::string group;    ///< physical volume, or "all"
@@ -86,6 +94,7 @@ struct MeshRequest {
   std::map<std::string, GroupSize> sizes;  ///< by physical group or by the `group` of a selection
   std::string mesh_subject;                ///< "mesh"
   std::vector<SurfaceSelection> surfaces;
+  std::vector<NodeSelection> nodes;
   std::vector<VolumeSelection> volumes;
   bool system_calls = false;   ///< whether a file that is a script (.geo) may run shell commands
   std::vector<CutPlane> cuts;  ///< planes in which faces of the elements shall lie if the geometry can be cut
