@@ -14,7 +14,9 @@ import re
 
 import numpy as np
 
+from .abaqus_constraints import Constraints, Keyword
 from .abaqus_extras import Extras
+from .abaqus_ties import read_abaqus_ties, tie_notes
 from .cells import CELLS, FLATS, SIDES, permutation
 from .messages import InputError, counted
 from .solid_mesh import RawMesh
@@ -43,17 +45,24 @@ GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRIC MO
 CELL_SIDES = ("SPOS", "SNEG", "")  # both sides of a shell or membrane element
 
 
+def read_deck(path):
+    """@returns Deck. @raises InputError with file and line."""
+    deck = Deck()
+    deck.read(path)
+    return deck
+
+
 def read_abaqus(path):
-    """@returns RawMesh. @raises InputError with file and line."""
-    reader = _Reader()
-    reader.read(path)
-    return reader.raw_mesh(path)
+    """@returns RawMesh, with notes on ties. @raises InputError with file and line."""
+    deck = read_deck(path)
+    mesh = deck.raw_mesh(path)
+    mesh.notes += tie_notes(read_abaqus_ties(deck))
+    return mesh
 
 
 def read_sections(path):
     """The materials and *SOLID SECTIONs of a file, as Extras; sets have the names that they get as groups."""
-    reader = _Reader()
-    reader.read(path)
+    reader = read_deck(path)
     for section in reader.extras.sections:
         if section.set.upper() not in reader.sets["ELSET"]:
             raise InputError(f"'{path}': *SOLID SECTION: there is no element set '{section.set}'")
@@ -61,7 +70,9 @@ def read_sections(path):
     return reader.extras
 
 
-class _Reader:
+class Deck:
+    """The contents of a file. Labels of nodes and names of sets are resolved when all of it has been read."""
+
     def __init__(self):
         self.numbers = {}  # node label -> row of points
         self.points = []
@@ -76,6 +87,9 @@ class _Reader:
         self.system = None  # origin and axes (columns) that *NODE is given in
         self.notes = []
         self.extras = Extras()
+        self.constraints = Constraints()
+        self.reference_points = {}  # label -> place, of an assembly's own nodes
+        self.single_nodes = {}      # label of an element with one node -> (type, node)
 
     # ---- reading ------------------------------------------------------------------------------------------------
     def read(self, path):
@@ -124,6 +138,7 @@ class _Reader:
                                  "(a preprocessor that reads the file exports it so)")
             else:
                 self.extras.keyword(keyword, options, rows)
+                self.constraints.keyword(Keyword(where, keyword, options, rows, self.in_assembly and not self.in_instance))
         except ValueError as error:
             raise InputError(f"{where}: *{keyword}: {error}") from None
 
@@ -152,7 +167,12 @@ class _Reader:
         if options.get("SYSTEM", "R").upper() != "R":
             raise InputError(f"{where}: nodes in cylindrical or spherical coordinates; write them in Cartesian ones")
         if self.in_assembly and not self.in_instance:
-            self.notes.append(f"{len(rows)} reference points of the assembly are left out")
+            self.notes.append(f"{len(rows)} reference points of the assembly are left out of the mesh")
+            for row in rows:
+                label, place = self._node(row)
+                self.reference_points[label] = place
+            if "NSET" in options:
+                self._extend("NSET", options["NSET"], [("reference point", self._node(row)[0]) for row in rows])
             return
         if self.in_instance:
             if self.points and self.meshed_instance != self.instance:
@@ -161,12 +181,7 @@ class _Reader:
             self.meshed_instance = self.instance
         labels = []
         for row in rows:
-            values = [word for word in row.split(",")]
-            label = int(values[0])
-            xyz = [float(re.sub("[dD]", "e", word)) if word.strip() else 0.0 for word in values[1:4]]
-            xyz += [0.0] * (3 - len(xyz))
-            if self.system:
-                xyz = (self.system[0] + self.system[1] @ np.array(xyz)).tolist()
+            label, xyz = self._node(row)
             if label in self.numbers and self.points[self.numbers[label]] != xyz:
                 raise InputError(f"{where}: there is a second node {label}, in another place")
             self.numbers[label] = len(self.points)
@@ -174,6 +189,15 @@ class _Reader:
             labels.append(label)
         if "NSET" in options:
             self._extend("NSET", options["NSET"], labels)
+
+    def _node(self, row):
+        """Label and place of a node."""
+        values = row.split(",")
+        xyz = [float(re.sub("[dD]", "e", word)) if word.strip() else 0.0 for word in values[1:4]]
+        xyz += [0.0] * (3 - len(xyz))
+        if self.system:
+            xyz = (self.system[0] + self.system[1] @ np.array(xyz)).tolist()
+        return int(values[0]), xyz
 
     def _elements(self, where, options, rows):
         label = options.get("TYPE", "").upper()
@@ -186,6 +210,7 @@ class _Reader:
                              "C3D5) and reads shells (S3, S4, S8R, CPS6, ...) as surfaces; remesh the body with these")
         if kind is None:
             self.skipped[label] = self.skipped.get(label, 0) + len(rows)
+            self._keep_single_nodes(label, options, rows)
             return
         numbers = [int(word) for row in rows for word in row.split(",") if word.strip()]
         if len(numbers) % (count + 1):
@@ -198,6 +223,26 @@ class _Reader:
         if "ELSET" in options:
             self._extend("ELSET", options["ELSET"], table[:, 0].tolist())
 
+    def _keep_single_nodes(self, kind, options, rows):
+        """Remembers point masses and distributing couplings, which stand at one node."""
+        if not kind.startswith(("MASS", "ROTARYI", "DCOUP3D")):
+            return
+        labels = []
+        for row in rows:
+            words = [word.strip() for word in row.split(",") if word.strip()]
+            if len(words) != 2:
+                raise ValueError(f"an element of type {kind} has one node: expected two numbers, found '{row}'")
+            labels.append(int(words[0]))
+            self.single_nodes[labels[-1]] = (kind, self._own_label(options, words[1]))
+        if "ELSET" in options:
+            self._extend("ELSET", options["ELSET"], labels)
+
+    def _own_label(self, options, word):
+        """A label as `_label`; of a reference point where an assembly means its own nodes."""
+        label = self.label(word)
+        own = self.in_assembly and not self.in_instance and "INSTANCE" not in options and "." not in word
+        return ("reference point", label) if own and label in self.reference_points else label
+
     def _set(self, where, keyword, options, rows):
         name = options.get(keyword)
         if not name:
@@ -209,7 +254,7 @@ class _Reader:
                 first, last, step = (int(word) for word in (words + ["1"])[:3])
                 entries.extend(range(first, last + 1, step))
             else:
-                entries.extend(self._label(word) for word in words)
+                entries.extend(self._own_label(options, word) if keyword == "NSET" else self.label(word) for word in words)
         if keyword == "NSET" and "ELSET" in options:
             entries.append(("nodes of", options["ELSET"]))
         self._extend(keyword, name, entries)
@@ -228,11 +273,11 @@ class _Reader:
         entries = []
         for row in rows:
             words = [word.strip() for word in row.split(",")]
-            entries.append((self._label(words[0]) if words[0] else None, words[1].upper() if len(words) > 1 else ""))
+            entries.append((self.label(words[0]) if words[0] else None, words[1].upper() if len(words) > 1 else ""))
         self.surfaces[name.upper()] = (name, kind, entries, where)
 
     @staticmethod
-    def _label(word):
+    def label(word):
         """A number, or the name of a set; `Part-1-1.12` is number 12 of an instance."""
         word = word.strip('"')
         last = word.rpartition(".")[2]
@@ -256,10 +301,10 @@ class _Reader:
             mesh.notes.append(f"left out: {counted(count, 'element')} of type {kind}, which has neither volume nor surface")
         for key, (name, _) in self.sets["ELSET"].items():
             if not name.startswith("_"):  # Abaqus' own helpers of surfaces
-                mesh.cell_sets[name] = self._cells_of(key)
+                mesh.cell_sets[name] = self.cells_of(key)
         for key, (name, _) in self.sets["NSET"].items():
             if not name.startswith("_"):
-                nodes = self._nodes_of(key)
+                nodes = self.nodes_of(key)
                 if len(nodes):
                     mesh.point_sets[name] = nodes
         for surface in self.surfaces.values():
@@ -273,7 +318,7 @@ class _Reader:
             row = int(np.argmax((nodes == error.args[0]).any(axis=1)))
             raise InputError(f"element {labels[row]} names node {error.args[0]}, which is not defined") from None
 
-    def _resolve(self, keyword, key, seen=()):
+    def labels_of(self, keyword, key, seen=()):
         """Labels of a set, including those of the sets that it names."""
         if key not in self.sets[keyword] or key in seen:
             raise InputError(f"set '{key}' is named but not defined" if key not in seen else f"set '{key}' contains itself")
@@ -281,28 +326,30 @@ class _Reader:
         for entry in self.sets[keyword][key][1]:
             if isinstance(entry, int):
                 labels.append(entry)
+            elif isinstance(entry, tuple) and entry[0] == "reference point":
+                labels.append(entry)
             elif isinstance(entry, tuple):
-                for block, rows in enumerate(self._cells_of(entry[1].upper())):
+                for block, rows in enumerate(self.cells_of(entry[1].upper())):
                     labels.extend(np.unique(self.blocks[block][2][rows]).tolist())
             else:
-                labels.extend(self._resolve(keyword, entry.upper(), seen + (key,)))
+                labels.extend(self.labels_of(keyword, entry.upper(), seen + (key,)))
         return labels
 
-    def _cells_of(self, key):
+    def cells_of(self, key):
         """Rows per block; omitted elements are skipped."""
         rows = [[] for _ in self.blocks]
-        for label in self._resolve("ELSET", key):
+        for label in self.labels_of("ELSET", key):
             if label in self.cell_place:
                 block, row = self.cell_place[label]
                 rows[block].append(row)
         return [np.array(r, dtype=np.int64) for r in rows]
 
-    def _nodes_of(self, key):
-        return np.unique([self.numbers[n] for n in self._resolve("NSET", key) if n in self.numbers]).astype(np.int64)
+    def nodes_of(self, key):
+        return np.unique([self.numbers[n] for n in self.labels_of("NSET", key) if n in self.numbers]).astype(np.int64)
 
     def _resolve_surface(self, mesh, name, kind, entries, where):
         if kind == "NODE":
-            nodes = [[self.numbers[entry]] if isinstance(entry, int) else self._nodes_of(entry.upper()).tolist()
+            nodes = [[self.numbers[entry]] if isinstance(entry, int) else self.nodes_of(entry.upper()).tolist()
                      for entry, _ in entries]
             mesh.point_sets.setdefault(name, np.unique(np.concatenate([np.array(n, np.int64) for n in nodes])))
             return
@@ -311,7 +358,7 @@ class _Reader:
             if entry is None:
                 raise InputError(f"{where}: surface '{name}' without elements (all exterior faces); name its faces")
             places = ([self.cell_place[entry]] if isinstance(entry, int) and entry in self.cell_place else
-                      [(block, row) for block, rows in enumerate(self._cells_of(str(entry).upper())) for row in rows])
+                      [(block, row) for block, rows in enumerate(self.cells_of(str(entry).upper())) for row in rows])
             for block, row in places:
                 kind_of_cell, cells = self.cells[block]
                 cell = CELLS[kind_of_cell]

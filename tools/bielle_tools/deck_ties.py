@@ -10,12 +10,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .abaqus_file import read_deck as read_abaqus_deck
-from .abaqus_ties import read_abaqus_ties
+from .abaqus_ties import read_abaqus_masses, read_abaqus_ties
 from .cells import SOLIDS
 from .foreign_mesh import MANY_PROGRAMS, NASTRAN, is_nastran, with_path
-from .messages import InputError, counted
+from .messages import InputError
 from .nastran_cards import read_cards
-from .nastran_file import read_extras
 from .nastran_masses import read_masses
 from .nastran_mesh import read_mesh
 from .nastran_ties import read_nastran_ties
@@ -41,12 +40,11 @@ def read_ties(path):
         cards = read_cards(path)
         raw, grids = read_mesh(cards)
         ties, masses = read_nastran_ties(cards, grids), read_masses(cards, grids)
-        raw.point_sets.update(read_extras(cards, grids).point_sets)
         labels = {row: number for number, row in grids.rows.items()}
     elif extension == ".inp" or extension in MANY_PROGRAMS:
         deck = read_abaqus_deck(path)
         raw = deck.raw_mesh(path)
-        ties, masses = read_abaqus_ties(deck)
+        ties, masses = read_abaqus_ties(deck), read_abaqus_masses(deck)
         labels = {row: number for number, row in deck.numbers.items()}
     else:
         return DeckTies()
@@ -127,8 +125,3 @@ class _Numbering:
         group = self.mesh.surfaces[self.mesh.surface_of[tie.surface]]
         if node is not None and not any((self.mesh.cells[kind][cells] == node).any() for kind, cells in group.items()):
             raise TieRefusal(f"its reference node {self.labels[tie.reference]} is a node of the solid outside of its surface")
-
-
-def tied_count(tie):
-    """The number of nodes of a tie, or its surface, in words."""
-    return f"surface '{tie.surface}'" if tie.surface else counted(len(tie.weights), "node")

@@ -4,8 +4,13 @@ from .messages import InputError
 from .tie_model import Tie, TieRefusal, check_translations, check_weight, direction_words
 
 
+class _MissingNode(InputError):
+    """An error of the deck, which concerns its mesh, too."""
+
+
 def read_nastran_ties(cards, grids):
-    """All RBE2 and RBE3; a wrong one is delivered with the reason. @returns list of Tie"""
+    """All RBE2 and RBE3; one that can be no interface is delivered with the reason. @returns list of Tie @raises InputError for
+    a grid point that does not exist"""
     return [_tie(card, grids) for card in cards if card.name in _READERS]
 
 
@@ -16,20 +21,17 @@ def _tie(card, grids):
             card.fail(1, "a positive number")
         tie.name = f"{card.name} {card.integer(1)}"
         _READERS[card.name](card, grids, tie)
+    except _MissingNode:
+        raise
     except (InputError, TieRefusal) as reason:
         tie.refused = str(reason)
     return tie
 
 
-def members(card):
-    """The numbers of the grid points that an RBE2 or RBE3 ties to its own. @raises InputError"""
-    return [number for _, _, numbers in groups(card) for number in numbers]
-
-
-def groups(card):
+def _groups(card):
     """Triples of weight, components and grid points. @raises InputError for fields that are neither"""
     if card.name == "RBE2":
-        return [(1.0, components(card, 3), _numbers(card, [k for k in card.filled(4) if _is_entry(card, k)]))]
+        return [(1.0, _components(card, 3), _numbers(card, [k for k in card.filled(4) if _is_entry(card, k)]))]
     found, k, end = [], 5, _end(card)
     while k < end:
         if not card.fields[k]:
@@ -37,7 +39,7 @@ def groups(card):
             continue
         if card.is_integer(k) or card.fields[k] == "THRU":
             card.fail(k, "a weight with a decimal point")
-        weight, taken, k = card.number(k, 0.0), components(card, k + 1), k + 2
+        weight, taken, k = card.number(k, 0.0), _components(card, k + 1), k + 2
         first = k
         while k < end and (not card.fields[k] or card.is_integer(k) or card.fields[k] == "THRU"):
             k += 1
@@ -57,7 +59,7 @@ def _is_entry(card, k):
     return False
 
 
-def components(card, k):
+def _components(card, k):
     """A set of components 1 to 6. @raises InputError"""
     text = card.fields[k] if k < len(card.fields) else ""
     if not text or not set(text) <= set("123456"):
@@ -83,16 +85,16 @@ def _numbers(card, fields):
     return found
 
 
-def check_exist(card, numbers, rows):
-    """@raises InputError for the first grid point that does not exist"""
+def _check_exist(card, numbers, rows):
+    """@raises _MissingNode for the first grid point that does not exist"""
     missing = next((number for number in numbers if number not in rows), None)
     if missing is not None:
-        raise InputError(f"'{card.path}': line {card.line}: {card.name} {card.integer(1)} names the node {missing}, which does not exist")
+        raise _MissingNode(f"'{card.path}': line {card.line}: {card.name} {card.integer(1)} names the node {missing}, which does not exist")
 
 
 def _reference(card, k, grids, tie):
     number = card.integer(k)
-    check_exist(card, [number], grids.rows)
+    _check_exist(card, [number], grids.rows)
     tie.reference = grids.rows[number]
     tie.position, tie.axes = grids.points[tie.reference], grids.axes(number)
 
@@ -100,20 +102,20 @@ def _reference(card, k, grids, tie):
 def _rbe2(card, grids, tie):
     _reference(card, 2, grids, tie)
     tie.kind = "rigid"
-    ((_, taken, numbers),) = groups(card)
+    ((_, taken, numbers),) = _groups(card)
     check_translations(taken, "its nodes")
-    check_exist(card, numbers, grids.rows)
+    _check_exist(card, numbers, grids.rows)
     tie.weights = {grids.rows[number]: 1.0 for number in numbers}
 
 
 def _rbe3(card, grids, tie):
     _reference(card, 3, grids, tie)
     tie.kind = "average"
-    tie.directions = direction_words(components(card, 4))
+    tie.directions = direction_words(_components(card, 4))
     if "UM" in card.fields[5:]:
         raise TieRefusal("it makes nodes of its mean dependent (UM), which an interface does not")
-    for weight, taken, numbers in groups(card):
-        check_exist(card, numbers, grids.rows)
+    for weight, taken, numbers in _groups(card):
+        _check_exist(card, numbers, grids.rows)
         check_translations(taken, f"the node {numbers[0]}" if len(numbers) == 1 else f"{len(numbers)} nodes")
         for number in numbers:
             check_weight(weight, number)
