@@ -28,7 +28,9 @@ DeckTie read_deck_tie(const YamlValue& value, double metres) {
   tie.tie = value.at("tie").text() == "average" ? Tie::average : Tie::rigid;
   tie.position = metres * value.at("position").vector3();
   for (int k = 0; k < 3; ++k) tie.rotation.col(k) = value.at("axes").at(k).vector3();
-  tie.kept = read_directions(value.at("directions"));
+  const std::vector<std::string> words = direction_names({true, true, true, true, true, true});
+  for (const YamlValue& direction : value.at("directions").items())
+    for (std::size_t k = 0; k < words.size(); ++k) tie.kept[k] |= direction.text() == words[k];
   if (const auto surface = value.find("surface")) {
     tie.surface = surface->text();
     return tie;

@@ -23,7 +23,7 @@ struct DeckTie {
   std::string name;     ///< "RBE3 6002", "coupling END"
   std::string refusal;  ///< the reason why it can be no interface; empty: it can, and the members below are set
   Tie tie = Tie::rigid;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< of its reference node [m]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< position of its reference node [m]
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< axes of its reference node
   std::array<bool, 6> kept = {};                           ///< directions that it ties
   std::string surface;                                     ///< the surface group that it ties; empty: nodes

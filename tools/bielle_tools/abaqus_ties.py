@@ -76,10 +76,11 @@ class _Reader:
             tie.directions = direction_words(self._components(detail.words()))
         if keyword.options.get("ORIENTATION"):
             tie.axes = self.deck.constraints.oriented_axes(keyword.options["ORIENTATION"])
-        name = keyword.options.get("SURFACE", "")
-        if name.upper() not in self.deck.surfaces:
-            raise TieRefusal(f"there is no *SURFACE, NAME={name}")
-        name, kind, entries, _ = self.deck.surfaces[name.upper()]
+        wanted = keyword.options.get("SURFACE", "")
+        found = self.deck.surfaces.get(wanted.upper()) or self.deck.surfaces.get(wanted.upper().rpartition(".")[2])  # P-1.S of an instance
+        if not found:
+            raise TieRefusal(f"there is no *SURFACE, NAME={wanted}")
+        name, kind, entries, _ = found
         if kind == "ELEMENT":
             tie.surface = name
             return
