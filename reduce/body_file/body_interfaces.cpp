@@ -61,7 +61,7 @@ const KeyTable& interface_keys() {
         "A tie of the Nastran, Abaqus or CalculiX file that is the geometry, in place of `surface`: `RBE2 12`, `RBE3 "
         "6002`, `coupling END`. Its nodes, their weights, the position and the axes of the node are those of the "
         "file."},
-       {"surface", surface_forms(), optional,
+       {"surface", surface_forms(), computed("required without `from`"),
         "The surface: a physical surface by its name, a shape, or a list of both, which is their union. Surfaces of "
         "different interfaces must not touch."},
        {"tie", tie_form(), otherwise("rigid"),
