@@ -143,9 +143,11 @@ class _Reader:
         where = f"{keyword.where}: *{keyword.name}"
         try:
             values = [self._number(word, "a mass or an inertia") for words in keyword.words() for word in words]
+            if not values:
+                raise TieRefusal("it has no numbers")
             inertia, mass = np.zeros((3, 3)), 0.0
             if keyword.name == "MASS":
-                mass = values[0] if values else 0.0
+                mass = values[0]
             else:
                 i11, i22, i33, i12, i13, i23 = (values + [0.0] * 6)[:6]
                 inertia = np.array([[i11, i12, i13], [i12, i22, i23], [i13, i23, i33]])  # I12 = - int x1 x2 dm
@@ -157,7 +159,7 @@ class _Reader:
                 row, place = self._place(self.deck.single_nodes[label][1])
                 found.append(PointMass(f"{keyword.name.lower()} {label}", mass, place, inertia, row))
             return found
-        except TieRefusal as reason:
+        except (TieRefusal, InputError) as reason:
             raise InputError(f"{where}: {reason}") from None
 
     # ---- nodes --------------------------------------------------------------------------------------------------------
@@ -177,8 +179,7 @@ class _Reader:
     def _stand(self, tie, label):
         tie.reference, tie.position = self._place(label)
         for transform in self.deck.constraints.transforms:
-            name = transform.options.get("NSET", "").upper()
-            if label in self.deck.labels_of("NSET", name):
+            if label in self._set(transform, "NSET"):
                 tie.axes = self.deck.constraints.transformed_axes(transform)
 
     def _place(self, label):
@@ -208,8 +209,13 @@ class _Reader:
 
     def _elements(self, keyword, kind):
         """Labels of the elements of one node in the set of a keyword."""
-        labels = self.deck.labels_of("ELSET", keyword.options.get("ELSET", "").upper())
-        return [label for label in labels if self.deck.single_nodes.get(label, ("",))[0].startswith(kind)]
+        return [label for label in self._set(keyword, "ELSET") if self.deck.single_nodes.get(label, ("",))[0].startswith(kind)]
+
+    def _set(self, keyword, key):
+        """The labels of the set that an option names."""
+        if not keyword.options.get(key):
+            raise TieRefusal(f"no {key} is named by *{keyword.name}")
+        return self.deck.labels_of(key, keyword.options[key].upper())
 
     # ---- numbers ------------------------------------------------------------------------------------------------------
     @staticmethod

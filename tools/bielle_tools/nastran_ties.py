@@ -28,10 +28,10 @@ def _tie(card, grids):
     return tie
 
 
-def _groups(card):
+def _groups(card, rows):
     """Triples of weight, components and grid points. @raises InputError for fields that are neither"""
     if card.name == "RBE2":
-        return [(1.0, _components(card, 3), _numbers(card, [k for k in card.filled(4) if _is_entry(card, k)]))]
+        return [(1.0, _components(card, 3), _numbers(card, rows, [k for k in card.filled(4) if _is_entry(card, k)]))]
     found, k, end = [], 5, _end(card)
     while k < end:
         if not card.fields[k]:
@@ -43,7 +43,7 @@ def _groups(card):
         first = k
         while k < end and (not card.fields[k] or card.is_integer(k) or card.fields[k] == "THRU"):
             k += 1
-        found.append((weight, taken, _numbers(card, [i for i in range(first, k) if card.fields[i]])))
+        found.append((weight, taken, _numbers(card, rows, [i for i in range(first, k) if card.fields[i]])))
     return found
 
 
@@ -67,8 +67,8 @@ def _components(card, k):
     return {int(digit) for digit in text}
 
 
-def _numbers(card, fields):
-    """Grid points in the given fields, with ranges `a THRU b`."""
+def _numbers(card, rows, fields):
+    """Grid points in the given fields, with ranges `a THRU b`, all of which exist."""
     found, i = [], 0
     while i < len(fields):
         if card.fields[fields[i]] == "THRU":
@@ -77,10 +77,12 @@ def _numbers(card, fields):
             first, last = found[-1], card.integer(fields[i + 1])
             if last < first:
                 card.fail(fields[i + 1], f"a grid point from {first} on")
+            _check_exist(card, range(first + 1, last + 1), rows)  # before a list is made of a range that may be large
             found += range(first + 1, last + 1)
             i += 2
         else:
             found.append(card.integer(fields[i]))
+            _check_exist(card, found[-1:], rows)
             i += 1
     return found
 
@@ -102,9 +104,8 @@ def _reference(card, k, grids, tie):
 def _rbe2(card, grids, tie):
     _reference(card, 2, grids, tie)
     tie.kind = "rigid"
-    ((_, taken, numbers),) = _groups(card)
+    ((_, taken, numbers),) = _groups(card, grids.rows)
     check_translations(taken, "its nodes")
-    _check_exist(card, numbers, grids.rows)
     tie.weights = {grids.rows[number]: 1.0 for number in numbers}
 
 
@@ -114,8 +115,7 @@ def _rbe3(card, grids, tie):
     tie.directions = direction_words(_components(card, 4))
     if "UM" in card.fields[5:]:
         raise TieRefusal("it makes nodes of its mean dependent (UM), which an interface does not")
-    for weight, taken, numbers in _groups(card):
-        _check_exist(card, numbers, grids.rows)
+    for weight, taken, numbers in _groups(card, grids.rows):
         check_translations(taken, f"the node {numbers[0]}" if len(numbers) == 1 else f"{len(numbers)} nodes")
         for number in numbers:
             check_weight(weight, number)

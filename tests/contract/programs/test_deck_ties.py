@@ -265,12 +265,17 @@ class DeckTies(CommandTest):
                  (rbe3([(0, 123, self.left)]), "it ties no nodes"), (rbe3([(1, 123, [0, 9000])]), "it ties the node 9001"),
                  (rbe3([(1, 123, self.left[:3])]), "stand in one line along"), (rbe3([(1, 123, self.left[:2])]), "ties 2 nodes"),
                  (good.replace("1.0", "1"), "a weight with a decimal point in field 6"), (rbe3([(1, 127, self.left)]), "components out of 1 to 6"),
-                 (good.replace("6002", "0"), None))
+                 (NODE.replace("9001", "9002") + rbe2(self.left[:3], number=6002).replace("RBE2", "RBE3"), "in field 6"),
+                 ("RBE3,6002,,9001,123,1.,123,1,THRU\n", "a grid point before and after THRU in field 9"),
+                 ("RBE3,6002,,9001,123,1.,123,1\n", "ties 1 node of the solid"), ("RBE3,6002,,9001,123,nan,123,1,2,4\n", "weight nan"),
+                 ("RBE3,6002\n", "an integer in field 4, found nothing"), (good.replace("6002", "0"), None))
         for text, says in cards:
             self.nastran(NODE + text)
             self.refuse(*([says] if says else ["RBE3 6002", "did you mean 'RBE3 0'"]))
         self.nastran(NODE + rbe3([(1, 123, [777776])]))
         self.refuse("RBE3 6002 names the node 777777, which does not exist")
+        self.nastran(NODE + "RBE2,12,9001,123456,1,THRU,700000000\n")  # no list of that length is made
+        self.refuse("RBE2 12 names the node 37, which does not exist")
         self.nastran("GRID,9001,,0.,0.,0.,77\n" + good)
         self.refuse("coordinate system 77")
         self.nastran("")
@@ -292,7 +297,11 @@ class DeckTies(CommandTest):
                                  ("*MPC\nTIE, LEFT, 9001\n", "mpc tie 9001", "does not tie nodes as a rigid body"),
                                  ("*KINEMATIC COUPLING, REF NODE=9001\nLEFT, 1, 2\n", "kinematic coupling 9001", "components 12 of the node 1"),
                                  ("*RIGID BODY, REF NODE=9001, NSET=NONE\n", "rigid body 9001", "set 'NONE'"),
-                                 ("*RIGID BODY, REF NODE=9001\n", "rigid body 9001", "ties no nodes")):
+                                 ("*RIGID BODY, REF NODE=9001\n", "rigid body 9001", "ties no nodes"),
+                                 ("*DISTRIBUTING COUPLING\n1, 1.\n", "distributing coupling ?", "no ELSET is named by *DISTRIBUTING COUPLING"),
+                                 ("*RIGID BODY, REF NODE=9001, NSET=LEFT\n*TRANSFORM\n1., 0., 0., 0., 1., 0.\n", "rigid body 9001", "no NSET is named"),
+                                 ("*MPC\nBEAM, LEFT\n", "mpc beam ?", "BEAM has two nodes"),
+                                 ("*ELEMENT, TYPE=MASS, ELSET=M\n5, 9001\n*MASS, ELSET=M\n\n", "rigid body 9001", "*MASS: it has no numbers")):
             self.abaqus(nset + text)
             self.refuse("left.from", says, text=body(f"{{from: {name}}}", "inp"))
 
