@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import unittest
@@ -214,6 +215,24 @@ class DeckTies(CommandTest):
         told = self.reduced(body(f"{{surface: S, position: {AT}}}", "inp"))
         self.expect_equal(self.reduced(body("{from: coupling E}", "inp")), told, 1e-12)
 
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (Debian package calculix-ccx)")
+    def test_calculix_moves_a_rigid_body_alike(self):
+        box = cell_decks.Box(("hexahedron",) * 3, 2)
+        box.nastran()  # makes the mid-side nodes
+        sides = "".join(f"*NSET, NSET={name}\n" + "".join(f"{k}\n" for k, x in enumerate(box.points, 1) if abs(x[0] - at) < 1e-9)
+                        for name, at in (("LEFT", 0), ("RIGHT", 0.6)))
+        force = np.array([3e3, 2e3, -1e3])
+        self.abaqus(sides + "*NSET, NSET=REF\n9001\n*NODE\n9002, 0., 0., 0.\n*RIGID BODY, NSET=LEFT, REF NODE=9001, ROT NODE=9002\n"
+                    "*MATERIAL, NAME=S\n*ELASTIC\n210e9, 0.3\n*DENSITY\n7850.\n*SOLID SECTION, ELSET=BODY, MATERIAL=S\n"
+                    "*STEP\n*STATIC\n*BOUNDARY\nRIGHT, 1, 3\n*CLOAD\n" + "".join(f"9001, {i}, {f}\n" for i, f in enumerate(force, 1))
+                    + "*NODE PRINT, NSET=REF\nU\n*END STEP\n", box)
+        subprocess.run(["ccx", "-i", "bar"], cwd=self.folder, check=True, capture_output=True, timeout=300)
+        with open(self.path("bar.dat"), encoding="utf-8") as file:
+            moved = next(np.array(line.split()[1:], float) for line in file if line.split()[:1] == ["9001"])
+        stiffness, _ = self.reduced(body("{from: rigid body 9001}", "inp"))
+        u = np.linalg.solve(stiffness[:6, :6], np.concatenate([force, np.zeros(3)]))[:3]
+        self.assertLess(np.linalg.norm(u - moved) / np.linalg.norm(u), 1e-6)  # seven digits in the file of CalculiX
+
     # ---- other cases ----------------------------------------------------------------------------------------------------
     def test_a_reference_node_that_is_a_node_of_the_solid(self):
         first, rest = self.left[0], self.left[1:]
@@ -265,7 +284,6 @@ class DeckTies(CommandTest):
                  (rbe3([(0, 123, self.left)]), "it ties no nodes"), (rbe3([(1, 123, [0, 9000])]), "it ties the node 9001"),
                  (rbe3([(1, 123, self.left[:3])]), "stand in one line along"), (rbe3([(1, 123, self.left[:2])]), "ties 2 nodes"),
                  (good.replace("1.0", "1"), "a weight with a decimal point in field 6"), (rbe3([(1, 127, self.left)]), "components out of 1 to 6"),
-                 (NODE.replace("9001", "9002") + rbe2(self.left[:3], number=6002).replace("RBE2", "RBE3"), "in field 6"),
                  ("RBE3,6002,,9001,123,1.,123,1,THRU\n", "a grid point before and after THRU in field 9"),
                  ("RBE3,6002,,9001,123,1.,123,1\n", "ties 1 node of the solid"), ("RBE3,6002,,9001,123,nan,123,1,2,4\n", "weight nan"),
                  ("RBE3,6002\n", "an integer in field 4, found nothing"), (good.replace("6002", "0"), None))
