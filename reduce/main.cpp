@@ -12,6 +12,7 @@
 #include <sys/prctl.h>
 
 #include "reduce/body_file/body_file.hpp"
+#include "reduce/body_file/deck_ties.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/files/file_checks.hpp"
@@ -191,6 +192,8 @@ void list(const std::string& path, std::optional<std::string> length_unit, bool 
   }
   Progress progress(true);
   fmt::print("{}", describe_geometry(geometry.path, geometry.length_unit, progress, system_calls, geometry.densities));
+  std::vector<std::string> notes;
+  fmt::print("{}", describe(deck_ties(geometry.path, geometry.length_unit, notes)));
 }
 
 int body(int argc, char** argv) {

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """convert_mesh.py INPUT OUTPUT.msh: a mesh of solid cells of another program becomes gmsh's MSH 4.1.
 convert_mesh.py --materials INPUT OUTPUT.json: its materials, in its own units, and the groups that have them.
+convert_mesh.py --ties INPUT OUTPUT.json: its ties to one node (RBE2, RBE3, couplings) and its point masses, with the numbers
+of their nodes in OUTPUT.msh.
 
 Reads .inp (Abaqus, CalculiX), .bdf .nas (Nastran), .med (Salome), .vtu .vtk .mesh and all other formats of meshio;
 keeps coordinates unchanged, and named sets as physical groups (node sets: the boundary faces whose nodes are all in the
@@ -13,28 +15,34 @@ from bielle_tools import messages
 
 messages.require("numpy", "meshio")
 
-from bielle_tools import deck_materials, foreign_mesh, msh_file, solid_mesh  # noqa: E402
+from bielle_tools import deck_materials, deck_ties, foreign_mesh, msh_file, solid_mesh  # noqa: E402
+
+
+def write_json(option, source, target):
+    """Writes the materials or the ties and point masses of a deck."""
+    if option == "--materials":
+        found = deck_materials.read_materials(source)
+        contents = {"materials": found.materials, "regions": found.regions}
+    else:
+        found = deck_ties.read_ties(source)
+        contents = {"ties": found.ties, "masses": found.masses}
+    with open(target, "w", encoding="utf-8") as file:
+        json.dump(contents, file, indent=1)
+    for text in found.notes:
+        messages.note(f"{source}: {text}")
 
 
 def main(arguments):
     if arguments in (["-h"], ["--help"]):
         print(__doc__.strip())
         return
-    if len(arguments) == 3 and arguments[0] == "--materials":
-        found = deck_materials.read_materials(arguments[1])
-        with open(arguments[2], "w", encoding="utf-8") as file:
-            json.dump({"materials": found.materials, "regions": found.regions}, file, indent=1)
-        for text in found.notes:
-            messages.note(f"{arguments[1]}: {text}")
+    if len(arguments) == 3 and arguments[0] in ("--materials", "--ties"):
+        write_json(*arguments)
         return
     if len(arguments) != 2 or not arguments[1].endswith(".msh"):
         raise messages.InputError("two arguments are needed: INPUT OUTPUT.msh")
     source, target = arguments
-    try:
-        mesh = solid_mesh.solid_mesh(foreign_mesh.read_foreign(source))
-    except messages.InputError as error:
-        text = str(error)
-        raise messages.InputError(text if source in text else f"'{source}' {text}") from None
+    mesh = foreign_mesh.with_path(source, lambda: solid_mesh.solid_mesh(foreign_mesh.read_foreign(source)))
     msh_file.write_msh(mesh, target)
     for text in mesh.notes:
         messages.note(f"{source}: {text}")

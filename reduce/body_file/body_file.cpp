@@ -12,6 +12,7 @@
 #include "reduce/body_file/body_pieces.hpp"
 #include "reduce/body_file/body_points.hpp"
 #include "reduce/body_file/deck_materials.hpp"
+#include "reduce/body_file/deck_ties.hpp"
 #include "reduce/common/input/plausible.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
@@ -256,8 +257,10 @@ BodyFile read(const YamlValue& file) {
                              : integration == "reduced" ? Integration::reduced
                                                         : Integration::standard;
   const YamlValue interfaces = root.at("interfaces");
+  DeckTieReader deck(body.mesh);
   for (const auto& [name, value] : interfaces.entries())
-    body.options.interfaces.push_back(read_interface(name, value, body.mesh));
+    body.options.interfaces.push_back(read_interface(name, value, body.mesh, deck));
+  body.warnings.insert(body.warnings.end(), deck.notes().begin(), deck.notes().end());
   if (body.options.interfaces.empty())
     interfaces.fail(
         "expected at least one: a mechanism moves a body by its interfaces, and one with 'tie: average' on "
@@ -273,7 +276,7 @@ BodyFile read(const YamlValue& file) {
   if (const auto recovery = root.find("recovery")) read_recovery(*recovery, body.options);
   if (const auto pieces = root.find("pieces")) body.pieces = read_pieces(*pieces, body.mesh.cuts);
   resolve_sizes(root, body.options, body.mesh);
-  body.warnings = root.warnings();
+  body.warnings.insert(body.warnings.end(), root.warnings().begin(), root.warnings().end());
   return body;
 }
 

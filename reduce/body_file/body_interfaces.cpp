@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "reduce/body_file/body_axes.hpp"
 #include "reduce/body_file/body_surfaces.hpp"
+#include "reduce/body_file/deck_ties.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::reduce {
@@ -43,12 +45,23 @@ std::array<bool, 6> read_directions(const YamlValue& value, Tie tie) {
   return kept;
 }
 
+std::vector<std::string> direction_names(const std::array<bool, 6>& directions) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < directions.size(); ++k)
+    if (directions[k]) names.push_back(direction_words[k]);
+  return names;
+}
+
 const KeyTable& interface_keys() {
   using namespace keys;
   static const KeyTable table{
       "an interface",
-      "A surface by which a mechanism moves the body; it becomes a node of the superelement.",
-      {{"surface", surface_forms(), required,
+      "A surface, or a tie of a deck, by which a mechanism moves the body; it becomes a node of the superelement.",
+      {{"from", text(), optional,
+        "A tie of the Nastran, Abaqus or CalculiX file that is the geometry, in place of `surface`: `RBE2 12`, `RBE3 "
+        "6002`, `coupling END`. Its nodes, their weights, the position and the axes of the node are those of the "
+        "file."},
+       {"surface", surface_forms(), computed("required without `from`"),
         "The surface: a physical surface by its name, a shape, or a list of both, which is their union. Surfaces of "
         "different interfaces must not touch."},
        {"tie", tie_form(), otherwise("rigid"),
@@ -65,11 +78,38 @@ const KeyTable& interface_keys() {
   return table;
 }
 
-InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh) {
+namespace {
+
+/// Reads an interface that is a tie of the deck; `directions` may choose among those that it ties.
+void read_from_deck(const YamlValue& value, const YamlValue& from, DeckTieReader& deck, InterfaceRequest& interface) {
+  for (const char* key : {"surface", "tie", "position", "axes", "rotation_vector"})
+    if (value.has(key))
+      value.at(key).fail(
+          fmt::format("the file gives it, as the interface is '{}' of the file: remove this key", from.text()));
+  deck.read(from, interface);
+  const auto directions = value.find("directions");
+  if (!directions) return;
+  const std::array<bool, 6> tied = interface.kept;
+  interface.kept = read_directions(*directions, interface.tie);
+  for (std::size_t k = 0; k < tied.size(); ++k)
+    if (interface.kept[k] && !tied[k])
+      directions->fail(fmt::format("'{}' does not tie '{}', but {}", from.text(), direction_words[k],
+                                   fmt::join(direction_names(tied), ", ")));
+}
+
+}  // namespace
+
+InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh,
+                                DeckTieReader& deck) {
   check_name(name, value);
   InterfaceRequest interface;
   interface.name = name;
   interface.subject = value.path();
+  if (const auto from = value.find("from")) {
+    read_from_deck(value, *from, deck, interface);
+    return interface;
+  }
+  if (!value.has("surface")) value.fail("the key 'surface' is missing; or 'from' takes a tie of a deck");
   interface.group = read_surface(value, "surface", mesh);
   interface.tie = read_tie(value.at("tie"));
   if (interface.tie == Tie::free) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "reduce/common/input/key_table.hpp"
 #include "reduce/mesh/mesh_request.hpp"
@@ -13,6 +14,8 @@ class YamlValue;
 }
 
 namespace bielle::reduce {
+
+class DeckTieReader;
 
 /// Checks a name that becomes a path in the superelement file. @throws InputError
 void check_name(const std::string& name, const YamlValue& value);
@@ -29,10 +32,15 @@ Tie read_tie(const YamlValue& value);
 /// A list of x, y, z, rx, ry, rz. @param tie  nodes of free ones have no rotations
 std::array<bool, 6> read_directions(const YamlValue& value, Tie tie = Tie::rigid);
 
+/// The words of directions: x, y, z, rx, ry, rz.
+std::vector<std::string> direction_names(const std::array<bool, 6>& directions);
+
 /// Returns the keys of an interface.
 const KeyTable& interface_keys();
 
-/// @param mesh  gets the surface. @throws InputError `file:line: key: what was expected`
-InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh);
+/// @param mesh  gets the surface @param deck  the ties of its file, for `from`
+/// @throws InputError `file:line: key: what was expected`
+InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh,
+                                DeckTieReader& deck);
 
 }  // namespace bielle::reduce

@@ -149,10 +149,20 @@ int renumber(std::vector<int>& pieces) {
   return static_cast<int>(numbers.size());
 }
 
-// A cell at a surface group.
+// A cell with a node; the first one if there is none.
+int cell_with(const Mesh& mesh, int node) {
+  const SolidCells cells(mesh);
+  for (int cell = 0; cell < cells.size(); ++cell)
+    if ((cells.nodes(cell).array() == node).any()) return cell;
+  return 0;
+}
+
+// A cell at a group of surfaces or nodes.
 int cell_at(const Mesh& mesh, const FaceTable& faces, const std::string& group) {
   const auto found = mesh.groups.find(group);
-  if (found == mesh.groups.end() || found->second.parts.empty()) return 0;
+  if (found == mesh.groups.end()) return 0;
+  if (found->second.dimension == 0) return cell_with(mesh, found->second.nodes.front());
+  if (found->second.parts.empty()) return 0;
   const GroupPart& part = found->second.parts.front();
   const Eigen::MatrixXi& nodes = mesh.block(part.type)->nodes;
   const auto face = faces.find(corners_of(part.type, nodes.col(part.cells[0])));
@@ -244,6 +254,7 @@ CutMesh cut_mesh(const Mesh& mesh, const std::vector<CutPlane>& planes, const st
   for (int piece = 0; piece < count; ++piece) {
     MeshExtraction extraction(mesh, pieces, piece);
     extraction.add_volumes();
+    extraction.add_nodes();
     extraction.add_surfaces(faces, of_groups, of_cuts);
     result.pieces.push_back(extraction.take());
   }

@@ -29,8 +29,8 @@ struct CutMesh {
   std::vector<MeshCut> cuts;     ///< in the order of the planes
 };
 
-/// @param first  surface group at which the numbering of the pieces starts; if it is empty or in no cell, the start is
-/// arbitrary
+/// @param first  group of a surface or of nodes at which the numbering of the pieces starts; if it is empty or in no
+/// cell, the start is arbitrary
 /// @throws InputError for a plane that does not cut the body, and for planes that intersect inside the body
 CutMesh cut_mesh(const Mesh& mesh, const std::vector<CutPlane>& planes, const std::string& first);
 

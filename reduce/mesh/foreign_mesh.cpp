@@ -95,6 +95,15 @@ std::vector<std::string> converted(const std::vector<std::string>& arguments, co
   return notes;
 }
 
+// The JSON that the converter writes with an option. @param notes  gets its notes
+std::string json_of(const std::string& option, const std::string& source, std::vector<std::string>& notes) {
+  const ScratchFolder folder;
+  const std::string target = (folder.path() / "deck.json").string();
+  for (const std::string& note : converted({option, source, target}, source)) notes.push_back(note);
+  std::ifstream file(target);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 }  // namespace
 
 ScratchFolder::ScratchFolder() {
@@ -124,11 +133,11 @@ void convert_mesh(const std::string& source, const std::string& target, Progress
 }
 
 std::string materials_of_mesh(const std::string& source, std::vector<std::string>& notes) {
-  const ScratchFolder folder;
-  const std::string target = (folder.path() / "materials.json").string();
-  for (const std::string& note : converted({"--materials", source, target}, source)) notes.push_back(note);
-  std::ifstream file(target);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return json_of("--materials", source, notes);
+}
+
+std::string ties_of_mesh(const std::string& source, std::vector<std::string>& notes) {
+  return json_of("--ties", source, notes);
 }
 
 }  // namespace bielle::reduce

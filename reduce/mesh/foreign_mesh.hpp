@@ -36,4 +36,9 @@ void convert_mesh(const std::string& source, const std::string& target, Progress
 /// @param notes  gets the converter's notes @throws as convert_mesh
 std::string materials_of_mesh(const std::string& source, std::vector<std::string>& notes);
 
+/// Ties and point masses of a foreign file in its own units: JSON with `ties` and `masses`, which are empty if the file
+/// is no deck. Nodes have their numbers in the converted mesh.
+/// @param notes  gets the converter's notes @throws as convert_mesh
+std::string ties_of_mesh(const std::string& source, std::vector<std::string>& notes);
+
 }  // namespace bielle::reduce

@@ -208,8 +208,8 @@ void read_solids(const Nodes& nodes, const std::string& name, ExtractedModel& mo
 }
 
 // Renumbers so that exactly the nodes of solid cells remain, in their original order.
-void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
-  std::vector<int> number(points.cols(), -1);
+void drop_unused_nodes(const Nodes& nodes, ExtractedModel& model) {
+  std::vector<int> number(nodes.points.cols(), -1);
   for (const CellBlock& block : model.solids)
     for (const int node : block.nodes.reshaped()) number[node] = 0;
   int used = 0;
@@ -218,7 +218,10 @@ void drop_unused_nodes(const Eigen::Matrix3Xd& points, ExtractedModel& model) {
   model.dropped_nodes = number.size() - used;
   model.points.resize(3, used);
   for (std::size_t i = 0; i < number.size(); ++i)
-    if (number[i] >= 0) model.points.col(number[i]) = points.col(i);
+    if (number[i] >= 0) model.points.col(number[i]) = nodes.points.col(i);
+  model.node_tags.resize(used);
+  for (const auto& [tag, i] : nodes.number)
+    if (number[i] >= 0) model.node_tags[number[i]] = tag;
   for (CellBlock& block : model.solids)
     for (int& node : block.nodes.reshaped()) node = number[node];
   for (auto& [entity, cells] : model.surfaces)
@@ -294,7 +297,7 @@ ExtractedModel extract_model(GmshSession& session, const std::string& name, doub
     read_solids(nodes, name, model);
     model.surfaces = read_surfaces(nodes, name);
     model.groups = physical_groups();
-    drop_unused_nodes(nodes.points, model);
+    drop_unused_nodes(nodes, model);
   });
   return model;
 }

@@ -27,6 +27,7 @@ struct ExtractedModel {
   Eigen::Matrix3Xd points;                       ///< [m]
   std::vector<CellBlock> solids;                 ///< cells of each type; numbered block after block
   std::vector<std::size_t> cell_tags;            ///< gmsh's (the file's) number of each solid cell
+  std::vector<std::size_t> node_tags;            ///< gmsh's (the file's) number of each node
   std::map<int, std::vector<int>> volumes;       ///< entity -> its cells
   std::map<int, std::vector<Corners>> surfaces;  ///< entity -> its surface cells; nodes of none of the solids: -1
   std::vector<PhysicalGroup> groups;

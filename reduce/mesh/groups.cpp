@@ -131,6 +131,27 @@ void add_volume_groups(const ExtractedModel& model, Mesh& mesh) {
   mesh.groups["all"] = solids.group_of(all);
 }
 
+void add_node_groups(const MeshRequest& request, const ExtractedModel& model, Mesh& mesh) {
+  if (request.nodes.empty()) return;
+  std::map<std::size_t, int> number;
+  for (std::size_t i = 0; i < model.node_tags.size(); ++i) number.emplace(model.node_tags[i], static_cast<int>(i));
+  for (const NodeSelection& selection : request.nodes) {
+    std::map<int, double> weights;
+    for (std::size_t k = 0; k < selection.tags.size(); ++k) {
+      const auto found = number.find(selection.tags[k]);
+      if (found == number.end())
+        throw InputError(selection.subject, fmt::format("node {} belongs to no solid cell", selection.tags[k]));
+      weights[found->second] += selection.weights[k];
+    }
+    Group group;
+    for (const auto& [node, weight] : weights) {
+      group.nodes.push_back(node);
+      group.weights.push_back(weight);
+    }
+    mesh.groups[selection.group] = std::move(group);
+  }
+}
+
 void add_surface_groups(const MeshRequest& request, const ExtractedModel& model, bool geometry, const FaceTable& faces,
                         Mesh& mesh) {
   add_surface_cells(surface_groups(request, model, mesh, faces, geometry), faces, mesh);
@@ -154,7 +175,7 @@ void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, co
     if (members.empty()) continue;
     std::map<CellType, std::vector<int>> cells;
     for (int face : members) cells[faces.type(face)].push_back(cells_of.at(faces.type(face)).at(face));
-    Group group{2, {}, {}};
+    Group group{2};
     for (auto& [type, of_type] : cells) add_part(group, blocks.at(type), std::move(of_type));
     mesh.groups[name] = std::move(group);
   }

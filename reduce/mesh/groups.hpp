@@ -28,6 +28,9 @@ void add_volume_groups(const ExtractedModel& model, Mesh& mesh);
 /// Gives the mesh surface groups: each is made of faces, which may belong to several. Empty groups are left out.
 void add_surface_cells(const std::map<std::string, std::vector<int>>& groups, const FaceTable& faces, Mesh& mesh);
 
+/// Adds the groups of nodes that the user selects. @throws InputError about the selection if a node is in no solid cell
+void add_node_groups(const MeshRequest& request, const ExtractedModel& model, Mesh& mesh);
+
 /// Adds the surface groups of the model and those that the user selects, and their surface cells.
 /// @param geometry  whether the model's surfaces are those of a geometry, which shapes then select as a whole
 /// @throws InputError when a group is empty, holds loose surface cells, or no surface lies on a shape

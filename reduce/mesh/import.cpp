@@ -104,6 +104,7 @@ Mesh import_source(const MeshRequest& request, const SourceFile& source, Progres
   about(request.subject, [&] { check_mesh(request, model, faces, mesh, progress); });
   add_volume_groups(model, mesh);
   add_surface_groups(request, model, geometry, faces, mesh);
+  add_node_groups(request, model, mesh);
   return mesh;
 }
 

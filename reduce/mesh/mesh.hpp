@@ -23,11 +23,12 @@ struct GroupPart {
   std::vector<int> cells;  ///< columns of the block of that type
 };
 
-/// A physical group: a named surface (dimension 2) or volume (dimension 3).
+/// A named surface (dimension 2) or volume (dimension 3), which is a physical group; or nodes alone (dimension 0).
 struct Group {
   int dimension = 0;
-  std::vector<GroupPart> parts;
-  std::vector<int> nodes;  ///< nodes of all its cells, ascending, each once
+  std::vector<GroupPart> parts = {};
+  std::vector<int> nodes = {};       ///< nodes of all its cells, ascending, each once
+  std::vector<double> weights = {};  ///< weights of the nodes if these are alone
 };
 
 /// Points and cells in SI. Each CellType occurs in at most one block.

@@ -31,6 +31,7 @@ inline void exchange(Packing& packing, Group& group) {
   packing(group.dimension);
   packing(group.parts);
   packing(group.nodes);
+  packing(group.weights);
 }
 
 inline void exchange(Packing& packing, Mesh& mesh) {

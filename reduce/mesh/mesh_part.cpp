@@ -47,6 +47,18 @@ void MeshExtraction::add_volumes() {
   }
 }
 
+void MeshExtraction::add_nodes() {
+  for (const auto& [name, group] : whole_.groups) {
+    if (group.dimension != 0) continue;
+    Group own;
+    for (const int node : group.nodes)
+      if (number_in_part_[node] >= 0) own.nodes.push_back(number_in_part_[node]);
+    if (own.nodes.size() != group.nodes.size()) continue;
+    own.weights = group.weights;
+    part_.mesh.groups[name] = std::move(own);
+  }
+}
+
 void MeshExtraction::add_surfaces(const FaceTable& faces, const SurfaceFaces& surfaces, const SurfaceFaces& cuts) {
   const FaceTable own(part_.mesh);
   SurfaceFaces groups;

@@ -29,6 +29,8 @@ class MeshExtraction {
   MeshExtraction(const Mesh& whole, const std::vector<int>& parts, int part);
 
   void add_volumes();
+  /// Adds the groups of nodes all of which the part contains.
+  void add_nodes();
   /// @param faces  faces of the whole mesh
   /// @param surfaces  each face goes to the part of its (first) cell
   /// @param cuts  each face goes to the parts on both sides

@@ -55,6 +55,14 @@ struct SurfaceSelection {
   std::string subject;                     ///< "interfaces.big_end.surface"
 };
 
+/// Nodes of the file that become a group of the mesh.
+struct NodeSelection {
+  std::string group;              ///< name of the new group
+  std::vector<std::size_t> tags;  ///< the (converted) file's numbers of the nodes, each once
+  std::vector<double> weights;    ///< one for each node
+  std::string subject;            ///< "interfaces.hub.from"
+};
+
 /// A volume group that must exist.
 struct VolumeSelection {
   std::string group;    ///< physical volume, or "all"
@@ -96,6 +104,7 @@ struct MeshRequest {
   std::optional<int> curvature;            ///< edges on a full circle of a curved surface, at least
   std::string mesh_subject;                ///< "mesh"
   std::vector<SurfaceSelection> surfaces;
+  std::vector<NodeSelection> nodes;
   std::vector<VolumeSelection> volumes;
   std::vector<SolidSelection> solids;  ///< solids of the geometry that make the body; empty: all
   bool glue = false;                   ///< whether solids that touch get common faces

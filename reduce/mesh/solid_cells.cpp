@@ -46,7 +46,7 @@ std::vector<int> SolidCells::members(const Group& group) const {
 
 Group SolidCells::group_of(std::vector<int> cells) const {
   sort_unique(cells);
-  Group group{3, {}, {}};
+  Group group{3};
   for (const Range& range : ranges_) {
     GroupPart part{range.type, {}};
     for (const int cell : cells)

@@ -25,7 +25,7 @@ enum class Tie {
 
 struct InterfaceRequest {
   std::string name;
-  std::string group;  ///< surface group of the mesh
+  std::string group;  ///< surface group of the mesh, or a group of nodes with weights
   Tie tie = Tie::rigid;
   std::optional<Eigen::Vector3d> position;  ///< [m]; default: centroid of the surface (area-weighted)
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();

@@ -6,16 +6,17 @@
 #include <fmt/ranges.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/fe/surface.hpp"
+#include "reduce/fe/weighted_nodes.hpp"
 #include "reduce/superelement/point_weights.hpp"
 
 namespace bielle::reduce {
 
 namespace {
 
+/// Tells whether the mesh has a surface or nodes of that name.
 bool has_surface(const Mesh& mesh, const std::string& group) {
   const auto found = mesh.groups.find(group);
-  return found != mesh.groups.end() && found->second.dimension == 2;
+  return found != mesh.groups.end() && found->second.dimension != 3;
 }
 
 std::vector<std::size_t> pieces_with(const CutMesh& cut, const std::string& group) {
@@ -38,8 +39,11 @@ void check_unlike_cuts(const CutMesh& cut, const InterfaceRequest& request) {
 std::size_t piece_of_surface(const Mesh& whole, const CutMesh& cut, const std::string& group,
                              const std::string& subject, const std::string& rule) {
   const std::vector<std::size_t> pieces = pieces_with(cut, group);
-  if (pieces.empty()) about(subject, [&] { return integrate_surface(whole, group); });  // says why
-  if (pieces.size() <= 1) return pieces.at(0);
+  if (pieces.empty()) {
+    about(subject, [&] { return integrate_tied(whole, group); });  // says why, but of nodes
+    throw InputError(subject, fmt::format("its nodes lie in several pieces: {}", rule));
+  }
+  if (pieces.size() == 1) return pieces.front();
   std::vector<std::string> through;
   for (const MeshCut& surface : cut.cuts) {
     const bool between = std::all_of(surface.pieces.begin(), surface.pieces.end(), [&](int piece) {

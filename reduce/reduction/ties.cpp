@@ -8,6 +8,7 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/fe/weighted_nodes.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
@@ -197,7 +198,7 @@ Ties make_ties(const Solid& solid, const std::vector<InterfaceRequest>& requests
   for (std::size_t k = 0; k < requests.size(); ++k) {
     const InterfaceRequest& request = requests[k];
     const SurfaceIntegrals surface = about(request.subject, [&] {
-      SurfaceIntegrals integrals = integrate_surface(solid.mesh, request.group);
+      SurfaceIntegrals integrals = integrate_tied(solid.mesh, request.group);
       check_position(request.position, integrals, solid.mesh);
       return integrals;
     });

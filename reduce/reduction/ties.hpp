@@ -9,6 +9,9 @@
 //          on the interface is distributed over the surface by C^T.
 // free     every node of the surface is an interface of its own with its three translations.
 //
+// A surface may also be nodes with weights, as decks tie them: integrals are then weighted sums over the nodes
+// (fe/weighted_nodes.hpp), so that an average tie is an RBE3 whose independent components are the translations.
+//
 // R: interface's axes to body axes, X: interface node. The kept directions of the interfaces are the boundary degrees
 // of freedom. Directions that are not kept do not hold the body: for a rigid tie they are interior unknowns
 // ("released"), for an average tie they are ignored.
@@ -35,7 +38,7 @@ struct Direction {
   int axis;
 };
 
-/// The surface that is tied to one interface node.
+/// The surface, or the nodes with weights, tied to one interface node.
 struct TiedSurface {
   Tie tie;
   std::vector<int> nodes;

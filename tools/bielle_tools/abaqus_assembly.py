@@ -9,11 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .abaqus_constraints import Scope
+from .abaqus_contents import STRIDE
 from .abaqus_systems import motion
-from .abaqus_ties import Tie
-from .messages import InputError, counted, did_you_mean
+from .abaqus_tied_surfaces import Tie
+from .messages import InputError, did_you_mean
 
-STRIDE = 2**31  # more than any number of a node or element
 ENDS = {"END PART": "PART", "END INSTANCE": "INSTANCE", "END ASSEMBLY": "ASSEMBLY"}
 
 
@@ -55,10 +56,7 @@ class Assembly:
         elif self.contents is not None:
             self.contents.keyword(keyword)
         elif self.open and name == "NODE":
-            count = len(keyword.rows)
-            self.reader.notes.append(f"{counted(count, 'reference point')} of the assembly {'is' if count == 1 else 'are'} left out")
-            if "NSET" in keyword.options:
-                self.reader.extend("NSET", keyword.options["NSET"], [])
+            self.reader.add_reference_points(keyword)
         else:
             self.reader.keyword(keyword)
 
@@ -93,15 +91,20 @@ class Assembly:
 
     # ---- names --------------------------------------------------------------------------------------------------
     def shift(self, keyword):
-        """The amount by which numbers in a set or surface are raised."""
+        """The amount by which numbers in a set or surface are raised; None if they are those of `own`."""
         name = keyword.options.get("INSTANCE")
         if name is None:
-            return -STRIDE if len(self.instances) > 1 else 0  # reference points have such numbers; they are left out
+            return None
         number = self._number(self._local(name))
         if number is None:
             raise InputError(f"{keyword.where}: *{keyword.name}: there is no instance '{name}'"
                              f"{did_you_mean(name, [each.name for each in self.instances])}")
         return number * STRIDE
+
+    def own(self, label, kind):
+        """The number of a node (kind NSET) or element (ELSET) that is named outside of parts and instances."""
+        lowered = label - STRIDE
+        return lowered if len(self.instances) > 1 or (kind == "NSET" and lowered in self.reader.reference_points) else label
 
     def entry(self, word):
         """An entry of a set: the raised number of `instance.12`, or a name."""
@@ -188,5 +191,7 @@ class Assembly:
         for counts, others in ((target.skipped, source.skipped), (target.formulations, source.formulations)):
             for name, count in others.items():
                 counts[name] = counts.get(name, 0) + count
+        target.single_nodes.update((label + raised, (kind, node + raised)) for label, (kind, node) in source.single_nodes.items())
+        target.constraints.join(source.constraints, lambda _: Scope(prefix, raised, instance.turn, prefix if several else ""))
         target.notes += [note for note in source.notes if note not in target.notes]
         target.extras.join(source.extras, lambda name: shown(name, target.sets["ELSET"]), instance.is_turned())

@@ -1,8 +1,7 @@
 """Functions that report the contents of an Abaqus or CalculiX file besides its mesh.
 
 A superelement takes its materials and interfaces from the body file. No part of the input is ignored without a message:
-materials are reported as lines of a body file, ties and couplings as interfaces to define, masses and orientations as
-left out.
+materials are reported as lines of a body file, masses and orientations as left out. (abaqus_ties reports couplings.)
 """
 
 from dataclasses import dataclass
@@ -11,9 +10,7 @@ from .messages import InputError, counted
 
 # Keywords of constraints and of stiffness or mass, with their names in messages.
 TOLD = {
-    "RIGID BODY": "an interface with `tie: rigid` stands for it", "COUPLING": "an interface stands for it: `tie: rigid` for *KINEMATIC, "
-    "`tie: average` for *DISTRIBUTING", "DISTRIBUTING COUPLING": "an interface with `tie: average` stands for it",
-    "KINEMATIC COUPLING": "an interface with `tie: rigid` stands for it", "MPC": "the nodes stay apart", "EQUATION": "the nodes stay apart",
+    "EQUATION": "the nodes stay apart",
     "EMBEDDED ELEMENT": "the elements stay apart",
     "SHELL TO SOLID COUPLING": "the surfaces stay apart", "CONTACT PAIR": "the surfaces stay apart", "PRE-TENSION SECTION": "there is no tension",
     "MASS": "give the mechanism a point mass there", "ROTARY INERTIA": "give the mechanism a rigid body there",

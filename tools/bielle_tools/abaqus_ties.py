@@ -1,149 +1,252 @@
-"""Surfaces of *TIE whose meshes coincide: their nodes become common ones.
+"""Couplings, rigid bodies and MPCs of Abaqus and CalculiX files as ties, and their point masses.
 
-Abaqus ties each node of the first surface, the secondary one, to the second. If the meshes coincide this is the same as
-common nodes; otherwise Bielle has no counterpart. (Abaqus Keywords Guide, "*TIE".)
+(Abaqus Keywords Guide, "*COUPLING" and the other keywords; Abaqus Theory Guide, "Distributing coupling elements": the
+mean of nodes with weights is that of an average tie.)
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 
-from .cells import CELLS, SOLIDS, face_keys, solid_faces
-from .messages import InputError, counted, place, require
+from .abaqus_constraints import TIES
+from .messages import InputError, counted
+from .tie_model import PointMass, Tie, TieRefusal, check_translations, check_weight, direction_words
 
-SAME_PLACE = 1e-3  # largest gap / shortest edge of both surfaces: coordinates have few digits in large bodies of small elements
-NOT_READ = ("CYCLIC SYMMETRY",)
-
-
-@dataclass
-class Tie:
-    name: str
-    where: str
-    pairs: list  # names of the secondary and the main surface
+ALL = {1, 2, 3, 4, 5, 6}
 
 
-def read_tie(keyword):
-    """@raises InputError with the line"""
-    for option in NOT_READ:
-        if option in keyword.options:
-            raise InputError(f"{keyword.where}: *TIE, {option}: sectors are not read; write the whole body out")
-    pairs = keyword.table(lambda words: [word.strip('"') for word in words if word][:2])
-    for pair, (path, line) in zip(pairs, keyword.places):
-        if len(pair) < 2:
-            raise InputError(f"{path}:{line}: *TIE: expected the names of two surfaces, found {counted(len(pair), 'name')}")
-    return Tie(keyword.options.get("NAME", "?"), keyword.where, pairs)
+def read_abaqus_ties(deck):
+    """The ties of a deck (abaqus_contents) whose mesh has been made; one that can be no interface is delivered with the reason.
+    @returns list of Tie"""
+    reader = _Reader(deck)
+    ties = []
+    for keyword in deck.constraints.ties:
+        ties += reader.mpcs(keyword) if keyword.name == "MPC" else [reader.tie(keyword)]
+    return ties
 
 
-def join_ties(mesh, ties):
-    """Gives tied surfaces common nodes, in place. @param mesh: RawMesh; its face sets and point sets have the names of the ties.
-    @raises InputError for surfaces whose meshes do not coincide"""
-    pairs = [_coinciding(mesh, f"{tie.where}: *TIE, NAME={tie.name}", names) for tie in ties for names in tie.pairs]
-    if pairs:
-        _renumber(mesh, _main_nodes(len(mesh.points), np.concatenate(pairs)))
-        _drop_inner(mesh, {name for tie in ties for names in tie.pairs for name in names})
+def read_abaqus_masses(deck):
+    """@returns list of PointMass @raises InputError"""
+    reader = _Reader(deck)
+    return [mass for keyword in deck.constraints.masses for mass in reader.masses(keyword)]
 
 
-class _Surface:
-    """faces: sets of all nodes of each face, of none for a surface of nodes; nodes: rows of points; edge: its shortest one."""
-
-    def __init__(self, mesh, name, told):
-        self.faces, self.edge = [], np.inf
-        if name not in mesh.face_sets:
-            self.nodes = mesh.point_sets.get(name, np.zeros(0, np.int64))
+def tie_notes(ties):
+    """A sentence for each tie."""
+    notes = []
+    for tie in ties:
+        if tie.refused:
+            notes.append(f"left out: {tie.name}: {tie.refused}")
         else:
-            self._take_faces(mesh, {_key(corners) for corners in mesh.face_sets[name]})
-            self.nodes = np.unique([node for face in self.faces for node in face]).astype(np.int64)
-        if not len(self.nodes):
-            raise InputError(f"{told}: the surface '{name}' has no faces of solid cells, and no nodes")
-
-    def _take_faces(self, mesh, wanted):
-        for flat, block in solid_faces(_solids(mesh)).items():
-            inside = np.array([key in wanted for key in map(tuple, face_keys(flat, block).tolist())], bool)
-            self.faces += [frozenset(face) for face in block[inside].tolist()]
-            ends = mesh.points[block[inside][:, :CELLS[flat].corners]]
-            if len(ends):
-                self.edge = min(self.edge, np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).min())
+            tied = f"surface '{tie.surface}'" if tie.surface else counted(len(tie.weights), "node")
+            notes.append(f"{tie.name} ({tied}): the interface {{from: {tie.name}}} stands for it")
+    return notes
 
 
-def _solids(mesh):
-    found = {}
-    for kind, cells in mesh.cells:
-        if kind in SOLIDS:
-            found.setdefault(kind, []).append(cells)
-    return {kind: np.concatenate(blocks) for kind, blocks in found.items()}
+class _Reader:
+    def __init__(self, deck):
+        self.deck = deck
+        self.label_of = {row: label for label, row in deck.numbers.items()}
 
+    def tie(self, keyword):
+        """The tie of a keyword of TIES."""
+        options = keyword.options
+        named = options.get("CONSTRAINT NAME") if keyword.name == "COUPLING" else options.get("ELSET") if keyword.name == TIES[2] else None
+        shown = keyword.scope.shown if keyword.scope else ""
+        tie = Tie(f"{keyword.name.lower()} {shown}{named or options.get('REF NODE', '?')}")
+        try:
+            {"COUPLING": self._coupling, "KINEMATIC COUPLING": self._kinematic_coupling, "DISTRIBUTING COUPLING": self._distributing_coupling,
+             "RIGID BODY": self._rigid_body}[keyword.name](keyword, tie)
+        except (InputError, TieRefusal) as reason:
+            tie.refused = str(reason)
+        return tie
 
-def _coinciding(mesh, told, names):
-    """(n,2) nodes of the secondary surface and of the main one."""
-    require("scipy")
-    from scipy.spatial import cKDTree
-    one, other = (_Surface(mesh, name, told) for name in names)
-    edge = min(one.edge, other.edge)
-    gaps, nearest = cKDTree(mesh.points[other.nodes]).query(mesh.points[one.nodes])
-    apart = gaps > (SAME_PLACE * edge if np.isfinite(edge) else 0.0)
-    if apart.any():
-        worst = int(np.argmax(gaps))
-        raise InputError(f"{told}: {int(apart.sum())} of {len(one.nodes)} nodes of '{names[0]}' do not coincide with nodes of "
-                         f"'{names[1]}' (the largest gap is {gaps[worst]:.4g}, at {place(mesh.points[one.nodes[worst]])}): mesh both "
-                         "surfaces alike, or the parts in one")
-    mains = other.nodes[nearest]
-    if len(np.unique(mains)) < len(mains):
-        raise InputError(f"{told}: several nodes of '{names[0]}' coincide with one of '{names[1]}'")
-    _check_faces(mesh, told, names, one, other, dict(zip(one.nodes.tolist(), mains.tolist())))
-    mesh.notes.append(f"*TIE, NAME={told.rpartition('=')[2]}: {counted(len(mains), 'node')} of '{names[0]}' and '{names[1]}' "
-                      f"{'has become a common one' if len(mains) == 1 else 'have become common ones'} (the largest gap was {gaps.max():.3g})")
-    return np.column_stack([one.nodes, mains])
+    # ---- keywords -----------------------------------------------------------------------------------------------------
+    def _coupling(self, keyword, tie):
+        self._refer(keyword, tie, keyword.options.get("REF NODE", ""))
+        if keyword.detail is None:
+            raise TieRefusal("it has neither *KINEMATIC nor *DISTRIBUTING")
+        if "INFLUENCE RADIUS" in keyword.options:
+            raise TieRefusal("its INFLUENCE RADIUS chooses among the nodes of its surface, which is not read")
+        detail = keyword.detail
+        if detail.name == "KINEMATIC":
+            check_translations(self._components(detail.words()), "its surface")
+        else:
+            tie.kind = "average"
+            for key, known in (("WEIGHTING METHOD", "UNIFORM"), ("COUPLING", "CONTINUUM")):
+                if detail.options.get(key, known).upper() != known:
+                    raise TieRefusal(f"its {key} is {detail.options[key].upper()}; {known} is read")
+            tie.directions = direction_words(self._components(detail.words()))
+        if keyword.options.get("ORIENTATION"):
+            tie.axes = self.deck.constraints.oriented_axes(keyword, keyword.options["ORIENTATION"])
+        wanted = keyword.options.get("SURFACE", "")
+        found = self.deck.key("SURFACE", self._name(keyword, wanted))
+        if found is None:
+            raise TieRefusal(f"there is no *SURFACE, NAME={wanted}")
+        name, kind, entries, _ = self.deck.surfaces[found]
+        if kind == "ELEMENT":
+            tie.surface = name
+            return
+        for entry, area in entries:
+            self._add(tie, self._rows([entry]), self._number(area, "an area of its surface") if area else 1.0)
 
+    def _kinematic_coupling(self, keyword, tie):
+        self._refer(keyword, tie, keyword.options.get("REF NODE", ""))
+        taken = {}
+        for words in keyword.words():
+            for row in self._rows([self._entry(keyword, words[0])]):
+                taken.setdefault(row, set()).update(self._components([words[1:]]))
+        for row, components in taken.items():
+            check_translations(components, f"the node {self.deck.assembly.told(self.label_of[row])}")
+        self._add(tie, taken, 1.0)
 
-def _check_faces(mesh, told, names, one, other, main_of):
-    """Refuses surfaces of coinciding nodes whose faces differ, such as a coarse one on a fine one."""
-    known = set(other.faces)
-    apart = [face for face in one.faces if frozenset(main_of[node] for node in face) not in known]
-    if other.faces and apart:
-        raise InputError(f"{told}: {len(apart)} of {len(one.faces)} faces of '{names[0]}' are no faces of '{names[1]}', though their nodes "
-                         f"coincide (the first near {place(mesh.points[sorted(apart[0])].mean(axis=0))}): mesh both surfaces alike")
+    def _distributing_coupling(self, keyword, tie):
+        tie.kind = "average"
+        labels = self._elements(keyword, "DCOUP3D")
+        if len(labels) != 1:
+            raise TieRefusal(f"its set has {counted(len(labels), 'element')} DCOUP3D; one is expected")
+        self._stand(tie, self.deck.single_nodes[labels[0]][1])
+        for words in keyword.words():
+            self._add(tie, self._rows([self._entry(keyword, words[0])]), self._number(words[1], "a weight") if len(words) > 1 and words[1] else 1.0)
 
+    def _rigid_body(self, keyword, tie):
+        self._refer(keyword, tie, keyword.options.get("REF NODE", ""))
+        if keyword.options.get("POSITION", "INPUT").upper() != "INPUT":
+            raise TieRefusal(f"its POSITION is {keyword.options['POSITION'].upper()}: give the reference node its place")
+        if "ANALYTICAL SURFACE" in keyword.options:
+            raise TieRefusal("it is an analytical surface")
+        for key in ("NSET", "PIN NSET", "TIE NSET"):
+            if key in keyword.options:
+                self._add(tie, self._rows([self._name(keyword, keyword.options[key])]), 1.0)
+        if "ELSET" in keyword.options:
+            blocks = enumerate(self.deck.cells_of(self._name(keyword, keyword.options["ELSET"])))
+            self._add(tie, {row for block, rows in blocks for row in self.deck.cells[block][1][rows].ravel().tolist()}, 1.0)
 
-def _main_nodes(count, pairs):
-    """(count) the node that each one becomes: of all that are tied to each other, the first that is a main one alone."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-    _, group = connected_components(coo_matrix((np.ones(len(pairs)), pairs.T), shape=(count, count)), directed=False)
-    secondary = np.zeros(count, bool)
-    secondary[pairs[:, 0]] = True
-    order = np.lexsort((np.arange(count), secondary, group))
-    first = order[np.searchsorted(group[order], np.arange(group.max() + 1))]
-    return first[group]
+    def mpcs(self, keyword):
+        """*MPC BEAM of several nodes on the same one is a rigid tie; others tie no nodes rigidly."""
+        ties = {}
+        for words in keyword.words():
+            kind = words[0].upper()
+            shown = keyword.scope.shown if keyword.scope else ""
+            name = f"mpc {kind.lower()} {shown}{words[2] if len(words) > 2 else '?'}"
+            tie = ties.setdefault(name, Tie(name))
+            try:
+                if kind != "BEAM":
+                    raise TieRefusal(f"*MPC of type {kind} does not tie nodes as a rigid body; BEAM does")
+                if len(words) != 3:
+                    raise TieRefusal("BEAM has two nodes, or a set and a node")
+                if tie.position is None:
+                    self._refer(keyword, tie, words[2])
+                self._add(tie, self._rows([self._entry(keyword, words[1])]), 1.0)
+            except (InputError, TieRefusal) as reason:
+                tie.refused = str(reason)
+        return list(ties.values())
 
+    def masses(self, keyword):
+        """The masses of *MASS or *ROTARY INERTIA, one for each element of its set."""
+        where = f"{keyword.where}: *{keyword.name}"
+        try:
+            values = [self._number(word, "a mass or an inertia") for words in keyword.words() for word in words]
+            if not values:
+                raise TieRefusal("it has no numbers")
+            inertia, mass = np.zeros((3, 3)), 0.0
+            if keyword.name == "MASS":
+                mass = values[0]
+            else:
+                i11, i22, i33, i12, i13, i23 = (values + [0.0] * 6)[:6]
+                inertia = np.array([[i11, i12, i13], [i12, i22, i23], [i13, i23, i33]])  # I12 = - int x1 x2 dm
+                if "ORIENTATION" in keyword.options:
+                    axes = self.deck.constraints.oriented_axes(keyword, keyword.options["ORIENTATION"])
+                else:
+                    axes = keyword.turned(np.eye(3))
+                inertia = axes @ inertia @ axes.T
+            found = []
+            for label in self._elements(keyword, "MASS" if keyword.name == "MASS" else "ROTARYI"):
+                row, place = self._place(self.deck.single_nodes[label][1])
+                found.append(PointMass(f"{keyword.name.lower()} {self.deck.assembly.told(label)}", mass, place, inertia, row))
+            return found
+        except (TieRefusal, InputError) as reason:
+            raise InputError(f"{where}: {reason}") from None
 
-def _renumber(mesh, main_of):
-    """Replaces the joined nodes everywhere and leaves them out of the points."""
-    kept = np.flatnonzero(main_of == np.arange(len(main_of)))
-    number = np.zeros(len(main_of), np.int64)
-    number[kept] = np.arange(len(kept))
-    number = number[main_of]
-    mesh.points = mesh.points[kept]
-    mesh.cells = [(kind, number[cells]) for kind, cells in mesh.cells]
-    mesh.point_sets = {name: np.unique(number[nodes]) for name, nodes in mesh.point_sets.items()}
-    mesh.face_sets = {name: [number[corners] for corners in faces] for name, faces in mesh.face_sets.items()}
+    # ---- nodes --------------------------------------------------------------------------------------------------------
+    def _refer(self, keyword, tie, word):
+        """Sets the reference node: a label, or a set of one node."""
+        if not word:
+            raise TieRefusal("it names no reference node (REF NODE)")
+        label = self._entry(keyword, word)
+        if isinstance(label, int):
+            self._stand(tie, label)
+            return
+        labels = self.deck.labels_of("NSET", label)
+        if len(labels) != 1:
+            raise TieRefusal(f"its reference node '{word}' is a set of {counted(len(labels), 'node')}; one is expected")
+        self._stand(tie, labels[0])
 
+    def _stand(self, tie, label):
+        tie.reference, tie.position = self._place(label)
+        for transform in self.deck.constraints.transforms:
+            if label in self._set(transform, "NSET"):
+                tie.axes = self.deck.constraints.transformed_axes(transform)
 
-def _drop_inner(mesh, names):
-    """Leaves the faces out of tied surfaces that are inside of the body now."""
-    count = {}
-    for flat, block in solid_faces(_solids(mesh)).items():
-        for key in map(tuple, face_keys(flat, block).tolist()):
-            count[key] = count.get(key, 0) + 1
-    for name in sorted(names & mesh.face_sets.keys()):
-        faces = [face for face in mesh.face_sets[name] if count.get(_key(face), 0) < 2]
-        if len(faces) < len(mesh.face_sets[name]):
-            inner = len(mesh.face_sets[name]) - len(faces)
-            mesh.notes.append(f"surface '{name}': {counted(inner, 'tied face')} {'is' if inner == 1 else 'are'} inside of the body and left out")
-            mesh.face_sets[name] = faces
-        if not faces:
-            del mesh.face_sets[name]
+    def _place(self, label):
+        """Row (None of a reference point of an assembly) and place of a node."""
+        if label in self.deck.reference_points:
+            return None, np.array(self.deck.reference_points[label])
+        if label not in self.deck.numbers:
+            raise TieRefusal(f"it names the node {self.deck.assembly.told(label)}, which does not exist")
+        row = self.deck.numbers[label]
+        return row, np.array(self.deck.points[row])
 
+    def _rows(self, entries):
+        """Rows of nodes that are given by labels or names of sets."""
+        rows = []
+        for entry in entries:
+            for label in [entry] if isinstance(entry, int) else self.deck.labels_of("NSET", str(entry)):
+                if label not in self.deck.numbers:
+                    raise TieRefusal(f"it names the node {self.deck.assembly.told(label)}, which is no node of the mesh")
+                rows.append(self.deck.numbers[label])
+        return rows
 
-def _key(corners):
-    corners = sorted(set(corners.tolist()))
-    return (-1, *corners) if len(corners) == 3 else tuple(corners)
+    def _add(self, tie, rows, weight):
+        for row in rows:
+            check_weight(weight, self.deck.assembly.told(self.label_of[row]))
+            if weight > 0:
+                tie.weights[row] = 1.0 if tie.kind == "rigid" else tie.weights.get(row, 0.0) + weight
+
+    def _elements(self, keyword, kind):
+        """Labels of the elements of one node in the set of a keyword."""
+        return [label for label in self._set(keyword, "ELSET") if self.deck.single_nodes.get(label, ("",))[0].startswith(kind)]
+
+    def _set(self, keyword, key):
+        """The labels of the set that an option names."""
+        if not keyword.options.get(key):
+            raise TieRefusal(f"no {key} is named by *{keyword.name}")
+        return self.deck.labels_of(key, self._name(keyword, keyword.options[key]))
+
+    def _entry(self, keyword, word):
+        """The label or the name of a set that a word of a keyword means."""
+        if keyword.scope is None:
+            return self.deck.entry(word)
+        word = word.strip('"')
+        return int(word) + keyword.scope.raised if word.isdigit() else keyword.scope.prefix + word
+
+    def _name(self, keyword, name):
+        """The name in the body of a set or surface."""
+        return keyword.scope.prefix + name if keyword.scope else name
+
+    # ---- numbers ------------------------------------------------------------------------------------------------------
+    @staticmethod
+    def _components(lines):
+        """Components of lines `first, last`; all if there are none."""
+        taken = set()
+        for words in lines:
+            words = [word for word in words if word]
+            if not all(word.isdigit() and 1 <= int(word) <= 6 for word in words[:2]):
+                raise TieRefusal(f"'{', '.join(words)}' are no components: numbers from 1 to 6 are expected")
+            taken |= set(range(int(words[0]), int(words[-1 if len(words) < 2 else 1]) + 1)) if words else ALL
+        return taken or ALL
+
+    @staticmethod
+    def _number(word, what):
+        try:
+            return float(word.upper().replace("D", "E"))
+        except ValueError:
+            raise TieRefusal(f"{what} is '{word}', which is no number") from None

@@ -64,13 +64,22 @@ def _read(path, shown=None, file_format=None):
         raise InputError(f"meshio cannot read '{shown or path}': {reason}") from None
 
 
+def with_path(path, work):
+    """The result of `work`, whose sentences get the path if they have none."""
+    try:
+        return work()
+    except InputError as error:
+        text = str(error)
+        raise InputError(text if path in text else f"'{path}' {text}") from None
+
+
 def _nastran_mesh(path):
     """The mesh with the sets, and the notes on other contents."""
     cards = read_cards(path)
-    raw, nodes = read_mesh(cards)
+    raw, grids = read_mesh(cards)
     if not len(raw.points):
         raise InputError(f"'{path}' holds no GRID: it is no Nastran bulk data")
-    extras = read_extras(cards, nodes, raw.points)
+    extras = read_extras(cards, grids)
     raw.point_sets.update(extras.point_sets)
     raw.notes += extras.notes
     return raw

@@ -1,8 +1,8 @@
 """The contents of a Nastran file besides its mesh: materials, rigid elements, point masses.
 
 Some of them have no counterpart in a superelement. Nothing is ignored without a message: materials are reported as
-lines of a body file, the nodes of RBE2 and RBE3 become sets that an interface can name, everything else is reported
-with its numbers.
+lines of a body file, RBE2 and RBE3 become ties that an interface can name (nastran_ties) and sets of their nodes, everything
+else is reported with its numbers.
 """
 
 from collections import Counter
@@ -10,9 +10,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .messages import InputError, counted
+from .messages import counted
 from .nastran_cards import young_and_poisson
 from .nastran_mesh import SHAPES
+from .nastran_ties import read_nastran_ties
 
 # Cards of stiffness, mass or conditions that solid cells do not represent.
 LOST = ("CONM1", "CMASS1", "CMASS2", "CMASS3", "CMASS4", "CELAS1", "CELAS2", "CELAS3", "CELAS4", "CBUSH", "CBUSH1D", "CBAR", "CBEAM", "CROD",
@@ -35,28 +36,18 @@ class Extras:
     notes: list = field(default_factory=list)
 
 
-def read_extras(all_cards, nodes, points):
-    """@param nodes: the row of each grid point among the points, by its number. @returns Extras. @raises InputError if
-    a field of a card that is read should be a number and is not."""
+def read_extras(all_cards, grids):
+    """@param grids: the grid points. @returns Extras. @raises InputError if a field of a card that is read should be a number
+    and is not."""
     cards = {name: [] for name in READ}
     for card in all_cards:
         if card.name in cards:
             cards[card.name].append(card)
-    places = {number: points[row] for number, row in nodes.items()}
     extras = Extras()
     _tell_parts(extras, all_cards)
-    tied = {}
-    for card in cards["RBE2"]:
-        members = [card.integer(k) for k in card.filled(4) if card.is_integer(k)]  # a number with a point is ALPHA
-        if set("123") <= set(card.fields[3]):
-            _add_tie(extras, card, "rigid", card.integer(2), members, nodes, places, tied)
-        else:
-            extras.notes.append(f"left out: RBE2 {card.integer(1)} ({counted(len(members), 'node')}), which ties the components "
-                                f"{card.fields[3]} alone")
-    for card in cards["RBE3"]:
-        _add_tie(extras, card, "average", card.integer(3), _nodes_of_rbe3(card), nodes, places, tied)
+    carriers = _tell_ties(extras, cards["RBE2"] + cards["RBE3"], grids)
     _tell_materials(extras, cards)
-    _tell_masses(extras, cards["CONM2"], places, tied)
+    _tell_masses(extras, cards["CONM2"], grids, carriers)
     for name in LOST:
         if cards[name]:
             extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), which no solid cell stands for")
@@ -79,30 +70,19 @@ def _tell_parts(extras, all_cards):
                                 "its cells are read as part of the one body, not joined by anything but common grid points")
 
 
-def _add_tie(extras, card, tie, reference, members, nodes, places, tied):
-    name = f"{card.name.lower()}_{card.integer(1)}"
-    missing = [node for node in members + [reference] if node not in nodes]
-    if missing:
-        raise InputError(f"'{card.path}': line {card.line}: {card.name} {card.integer(1)} names the node {missing[0]}, which does not exist")
-    extras.point_sets[name] = np.array([nodes[node] for node in members], np.int64)
-    tied[reference] = name
-    x, y, z = places[reference]
-    weighted = ", by area whatever its weights" if tie == "average" else ""
-    extras.notes.append(f"{card.name} {card.integer(1)} ({counted(len(members), 'node')}) is the surface '{name}': the interface "
-                        f"{{surface: {name}, tie: {tie}, position: [{x:g}, {y:g}, {z:g}]}} stands for it{weighted} (position in the file's units)")
-
-
-def _nodes_of_rbe3(card):
-    """Groups of weight, components, nodes; a weight contains a decimal point. UM and ALPHA end them."""
-    members, k = [], 5
-    while k < len(card.fields) and card.fields[k] not in ("UM", "ALPHA"):
-        if card.fields[k] and not card.is_integer(k):
-            k += 2  # the weight and its components
+def _tell_ties(extras, cards, grids):
+    """Makes sets of the nodes of the RBE2 and RBE3. @returns the name of the tie of each row of a reference node"""
+    carriers = {}
+    for tie in read_nastran_ties(cards, grids):
+        if tie.refused:
+            extras.notes.append(f"left out: {tie.name}: {tie.refused}")
             continue
-        if card.fields[k]:
-            members.append(card.integer(k))
-        k += 1
-    return members
+        name = tie.name.lower().replace(" ", "_")
+        extras.point_sets[name] = np.array(sorted(tie.weights), np.int64)
+        carriers[tie.reference] = tie.name
+        extras.notes.append(f"{tie.name} ({counted(len(tie.weights), 'node')}): the interface {{from: {tie.name}}} stands for it; the faces "
+                            f"between its nodes are the surface '{name}'")
+    return carriers
 
 
 def _tell_materials(extras, cards):
@@ -118,14 +98,15 @@ def _tell_materials(extras, cards):
         extras.notes.append(f"MAT1 {number} of {users} is, in the file's units (the body file wants SI, or `materials: from_file`), mat_{number}: {{{text}}}")
 
 
-def _tell_masses(extras, cards, places, tied):
+def _tell_masses(extras, cards, grids, carriers):
     if not cards:
         return
     total = sum(card.number(4, 0.0) for card in cards)
     at = []
     for card in cards[:MOST_NAMED]:
-        x, y, z = places.get(card.integer(2), (np.nan,) * 3)
-        hangs = f", tied by {tied[card.integer(2)]}" if card.integer(2) in tied else ""
+        row = grids.rows.get(card.integer(2))
+        x, y, z = (np.nan,) * 3 if row is None else grids.points[row]
+        hangs = f", tied by {carriers[row]}" if row in carriers else ""
         at.append(f"{card.integer(1)}: {card.number(4, 0.0):g} at ({x:g}, {y:g}, {z:g}){hangs}")
     more = f"; and {len(cards) - MOST_NAMED} more" if len(cards) > MOST_NAMED else ""
     extras.notes.append(f"left out: {counted(len(cards), 'CONM2', 'CONM2')} with a mass of {total:g} in total, in the file's units, which the "

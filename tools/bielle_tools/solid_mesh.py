@@ -41,13 +41,19 @@ class RawMesh:
 
 @dataclass
 class SolidMesh:
-    """Points (p,3), cells by meshio type in gmsh's node order, and groups {name: {type: cell numbers}} by dimension."""
+    """Points (p,3), cells by meshio type in gmsh's node order, and groups {name: {type: cell numbers}} by dimension.
+
+    numbers: the row of each point of the RawMesh, -1 if it is left out; surface_of: the surface group of each of its sets of
+    faces.
+    """
 
     points: np.ndarray
     cells: dict
     surfaces: dict
     volumes: dict
     notes: list
+    numbers: np.ndarray
+    surface_of: dict
 
 
 def solid_mesh(raw):
@@ -62,7 +68,7 @@ def solid_mesh(raw):
             cells[kind] = _orient(raw.points, kind, cells[kind], labels[kind], notes)
 
     faces = FaceTable(raw.points, cells, notes)
-    volumes, surfaces = {}, {}
+    volumes, surfaces, surface_of = {}, {}, {}
     for name, parts in raw.cell_sets.items():
         members = _members(parts, place_of, cells)
         solid = {kind: index for kind, index in members.items() if kind in SOLIDS}
@@ -74,7 +80,7 @@ def solid_mesh(raw):
     for name, corners in raw.face_sets.items():
         members = faces.of_corners(corners, name)
         if members:
-            _add_surface(surfaces, volumes, name, members, notes)
+            surface_of[name] = _add_surface(surfaces, volumes, name, members, notes)
         else:
             notes.append(f"surface '{name}' holds only faces of repeated nodes, which have no area, and is left out")
     for name, nodes in raw.point_sets.items():
@@ -85,9 +91,9 @@ def solid_mesh(raw):
             notes.append(f"node set '{name}' ({counted(len(nodes), 'node')}) covers no boundary face and is left out")
     cells = faces.all_cells()
     _tell_mixture(cells, notes)
-    points, cells = _drop_unused(raw.points, cells, notes)
+    points, cells, numbers = _drop_unused(raw.points, cells, notes)
     cells = {kind: block[:, permutation(kind, "vtk", "gmsh")] for kind, block in cells.items()}
-    return SolidMesh(points, cells, surfaces, volumes, notes)
+    return SolidMesh(points, cells, surfaces, volumes, notes, numbers, surface_of)
 
 
 def _merge_blocks(raw, notes):
@@ -228,9 +234,9 @@ def _tell_mixture(cells, notes):
 
 
 def _add_surface(surfaces, volumes, name, members, notes):
-    """Adds a surface group; if its name is taken by another group, with `_surface` or a number appended."""
+    """Adds a surface group; if its name is taken by another group, with `_surface` or a number appended. @returns its name"""
     if name in surfaces and _same(surfaces[name], members):
-        return
+        return name
     free, count = name, 1
     while free in surfaces or free in volumes:
         free = f"{name}_surface" if count == 1 else f"{name}_surface{count}"
@@ -238,6 +244,7 @@ def _add_surface(surfaces, volumes, name, members, notes):
     if free != name:
         notes.append(f"the name '{name}' belongs to another group too; the surface is called '{free}'")
     surfaces[free] = members
+    return free
 
 
 def _same(one, other):
@@ -253,4 +260,4 @@ def _drop_unused(points, cells, notes):
         notes.append(f"left out: {counted(len(points) - len(used), 'point')} of no {', '.join(names[:-1])} or {names[-1]}")
     number = np.full(len(points), -1, dtype=np.int64)
     number[used] = np.arange(len(used))
-    return points[used], {kind: number[block] for kind, block in cells.items()}
+    return points[used], {kind: number[block] for kind, block in cells.items()}, number

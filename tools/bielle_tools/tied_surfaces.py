@@ -37,6 +37,9 @@ def tied_surfaces(path, group, body, interfaces, positions, given):
         columns = np.arange(first, first + kept.sum())
         first += int(kept.sum())
         entry = said.get(name, {})
+        if "from" in entry:
+            raise InputError(f"'{path}': the interface '{name}' is '{entry['from']}' of a deck, whose weights the superelement does not keep: "
+                             "analyse the deck itself")
         if entry.get("tie", "rigid") == "rigid":
             found.append(TiedSurface(name, True, position, _carried(name, path, body, kept, axes, position, columns), None))
         elif entry["tie"] == "average":

@@ -6,7 +6,7 @@ import numpy as np
 
 from box_mesh import area
 from test_deck_assemblies import Decks, volume
-from bielle_tools.abaqus_file import read_abaqus, read_contents
+from bielle_tools.abaqus_file import read_abaqus, read_deck
 from bielle_tools.cells import triangles_of
 
 # The corners of a block of 4 x 2 x 2 hexahedra of 0.2 x 0.1 x 0.05: nodes 1 + i + 10 j + 100 k.
@@ -20,7 +20,7 @@ NODES = {1 + i + 10 * j + 100 * k: (.2 * i, .1 * j, .05 * k) for i in range(5) f
 class Generators(Decks):
     def nodes(self, text):
         """{number: coordinates} of the nodes of a deck."""
-        reader = read_contents(self.write("deck.inp", text))
+        reader = read_deck(self.write("deck.inp", text))
         return {label: np.array(reader.points[row]) for label, row in reader.numbers.items()}
 
     def test_a_generated_block_equals_the_block_written_out(self):
