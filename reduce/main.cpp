@@ -193,7 +193,7 @@ void list(const std::string& path, std::optional<std::string> length_unit, bool 
   Progress progress(true);
   fmt::print("{}", describe_geometry(geometry.path, geometry.length_unit, progress, system_calls, geometry.densities));
   std::vector<std::string> notes;
-  fmt::print("{}", describe(deck_ties(geometry.path, geometry.length_unit, notes)));
+  fmt::print("{}", describe(read_deck(geometry.path, geometry.length_unit, notes)));
 }
 
 int body(int argc, char** argv) {

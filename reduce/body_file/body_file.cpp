@@ -1,5 +1,6 @@
 #include "reduce/body_file/body_file.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -150,6 +151,14 @@ void resolve_sizes(const YamlValue& root, const ReductionOptions& options, MeshR
   request.sizes = resolved;
 }
 
+bool takes_masses_from_file(const YamlValue& root) {
+  const auto masses = root.find("masses");
+  if (!masses || !masses->is_map()) return masses.has_value();
+  const auto entries = masses->entries();
+  return std::any_of(entries.begin(), entries.end(),
+                     [](const auto& entry) { return entry.second.is_map() && entry.second.has("from"); });
+}
+
 void read_regions(const YamlValue& root, BodyFile& body) {
   ReductionOptions& options = body.options;
   const YamlValue materials = root.at("materials");
@@ -162,8 +171,8 @@ void read_regions(const YamlValue& root, BodyFile& body) {
       options.materials.emplace(name, read_material(value));
       warn_of_material(value);
     }
-    if (root.has("mass_unit"))
-      root.at("mass_unit").fail("it belongs to 'materials: from_file': other values are in SI units");
+    if (root.has("mass_unit") && !takes_masses_from_file(root))
+      root.at("mass_unit").fail("it belongs to materials and masses of the file: other values are in SI units");
   }
   std::vector<std::string> names;
   for (const auto& [name, material] : options.materials) names.push_back(name);
@@ -257,10 +266,9 @@ BodyFile read(const YamlValue& file) {
                              : integration == "reduced" ? Integration::reduced
                                                         : Integration::standard;
   const YamlValue interfaces = root.at("interfaces");
-  DeckTieReader deck(body.mesh);
+  DeckReader deck(body.mesh);
   for (const auto& [name, value] : interfaces.entries())
     body.options.interfaces.push_back(read_interface(name, value, body.mesh, deck));
-  body.warnings.insert(body.warnings.end(), deck.notes().begin(), deck.notes().end());
   if (body.options.interfaces.empty())
     interfaces.fail(
         "expected at least one: a mechanism moves a body by its interfaces, and one with 'tie: average' on "
@@ -270,12 +278,14 @@ BodyFile read(const YamlValue& file) {
   if (const auto damping = root.find("damping")) read_damping(*damping, body.options);
   if (const auto loads = root.find("loads"))
     for (const auto& [name, value] : loads->entries()) body.options.loads.push_back(read_load(name, value, body.mesh));
-  if (const auto masses = root.find("masses")) read_masses(*masses, body.mesh, body.options);
+  if (const auto masses = root.find("masses"))
+    read_masses(*masses, kilograms_per(root.at("mass_unit").word()), body.mesh, deck, body.options);
   body.options.lumped = root.at("lumped").boolean();
   if (const auto points = root.find("points")) body.options.points = read_points(*points, body.mesh);
   if (const auto recovery = root.find("recovery")) read_recovery(*recovery, body.options);
   if (const auto pieces = root.find("pieces")) body.pieces = read_pieces(*pieces, body.mesh.cuts);
   resolve_sizes(root, body.options, body.mesh);
+  body.warnings.insert(body.warnings.end(), deck.notes().begin(), deck.notes().end());
   body.warnings.insert(body.warnings.end(), root.warnings().begin(), root.warnings().end());
   return body;
 }
@@ -310,7 +320,8 @@ const KeyTable& body_file_keys() {
         "Materials by their names; `from_file` takes those of the Nastran, Abaqus or CalculiX file that is the "
         "geometry."},
        {"mass_unit", word(mass_units(), "a unit of mass"), otherwise("kg"),
-        "Unit of mass of the materials that are taken from the file; their length has the `length_unit`, their time is "
+        "Unit of mass of the materials and masses that are taken from the file; their length has the `length_unit`, "
+        "their time is "
         "in seconds. A file in N, mm and MPa has `t`."},
        {"integration", word({"standard", "plain", "reduced"}, "an integration"), otherwise("standard"),
         "Integration of the stiffness. `plain` leaves out the internal modes of hexahedra with 8 nodes and of wedges "
@@ -327,8 +338,11 @@ const KeyTable& body_file_keys() {
        {"damping", nested(damping_keys), optional, "Damping of the body, which is undamped without it."},
        {"loads", entries("load", {nested(load_keys)}), optional, "Patterns of load by their names."},
        {"points", entries("point", {nested(point_keys)}), optional, "Points inside the body by their names."},
-       {"masses", entries("mass", {nested(mass_keys)}), optional,
-        "Masses that the body carries: equipment, paint; by their names."},
+       {"masses",
+        {entries("mass", {nested(mass_keys)}), word({"from_file"}, "a source of masses")},
+        optional,
+        "Masses that the body carries: equipment, paint; by their names. `from_file` takes all point masses of the "
+        "Nastran, Abaqus or CalculiX file that is the geometry."},
        {"lumped", boolean(), otherwise("false"),
         "The mesh has a diagonal mass matrix, to compare with other programs: row sums for cells of order 1, the "
         "scaled "

@@ -81,7 +81,7 @@ const KeyTable& interface_keys() {
 namespace {
 
 /// Reads an interface that is a tie of the deck; `directions` may choose among those that it ties.
-void read_from_deck(const YamlValue& value, const YamlValue& from, DeckTieReader& deck, InterfaceRequest& interface) {
+void read_from_deck(const YamlValue& value, const YamlValue& from, DeckReader& deck, InterfaceRequest& interface) {
   for (const char* key : {"surface", "tie", "position", "axes", "rotation_vector"})
     if (value.has(key))
       value.at(key).fail(
@@ -99,8 +99,7 @@ void read_from_deck(const YamlValue& value, const YamlValue& from, DeckTieReader
 
 }  // namespace
 
-InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh,
-                                DeckTieReader& deck) {
+InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh, DeckReader& deck) {
   check_name(name, value);
   InterfaceRequest interface;
   interface.name = name;

@@ -15,7 +15,7 @@ class YamlValue;
 
 namespace bielle::reduce {
 
-class DeckTieReader;
+class DeckReader;
 
 /// Checks a name that becomes a path in the superelement file. @throws InputError
 void check_name(const std::string& name, const YamlValue& value);
@@ -40,7 +40,6 @@ const KeyTable& interface_keys();
 
 /// @param mesh  gets the surface @param deck  the ties of its file, for `from`
 /// @throws InputError `file:line: key: what was expected`
-InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh,
-                                DeckTieReader& deck);
+InterfaceRequest read_interface(const std::string& name, const YamlValue& value, MeshRequest& mesh, DeckReader& deck);
 
 }  // namespace bielle::reduce

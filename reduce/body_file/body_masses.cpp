@@ -38,6 +38,14 @@ CoatingRequest read_coating(const std::string& name, const YamlValue& value, Mes
   return {name, read_surface(value, "surface", mesh), value.at("per_area").number(), value.path()};
 }
 
+MassRequest from_deck(const std::string& name, const YamlValue& value, double kilograms, DeckReader& deck) {
+  for (const char* key : {"surface", "at", "mass", "position", "inertia", "axes", "per_area"})
+    if (const auto given = value.find(key)) given->fail("the deck has it: remove this key, or 'from'");
+  MassRequest request = deck.read_mass(value.at("from"), kilograms);
+  request.name = name;
+  return request;
+}
+
 MassRequest read_mass(const std::string& name, const YamlValue& value, MeshRequest& mesh) {
   if (value.has("surface") == value.has("at"))
     value.fail("expected either `surface`, whose mean the mass follows, or `at`, its place [x, y, z in m]");
@@ -59,7 +67,11 @@ const KeyTable& mass_keys() {
   static const KeyTable table{
       "an added mass",
       "A rigid mass that the body carries without being stiffened by it, or mass spread over a surface.",
-      {{"surface", surface_forms(), optional,
+      {{"from", text(), optional,
+        "A point mass of the Nastran, Abaqus or CalculiX file that is the geometry, by its name: `CONM2 7001`, `mass "
+        "12`, "
+        "`rotary inertia 12`. Its tie or its node carries it; other keys are refused next to it."},
+       {"surface", surface_forms(), optional,
         "A surface that carries the mass, which moves as its area-weighted mean, as the node of an interface with "
         "`tie: "
         "average` does. It may touch interfaces."},
@@ -78,10 +90,18 @@ const KeyTable& mass_keys() {
   return table;
 }
 
-void read_masses(const YamlValue& value, MeshRequest& mesh, ReductionOptions& options) {
+void read_masses(const YamlValue& value, double kilograms, MeshRequest& mesh, DeckReader& deck,
+                 ReductionOptions& options) {
+  if (!value.is_map()) {
+    value.word();  // from_file
+    options.masses = deck.read_masses(value, kilograms);
+    return;
+  }
   for (const auto& [name, entry] : value.entries()) {
     check_name(name, entry);
-    if (entry.has("per_area"))
+    if (entry.has("from"))
+      options.masses.push_back(from_deck(name, entry, kilograms, deck));
+    else if (entry.has("per_area"))
       options.coatings.push_back(read_coating(name, entry, mesh));
     else
       options.masses.push_back(read_mass(name, entry, mesh));

@@ -24,13 +24,13 @@ constexpr std::array<std::pair<const char*, double>, 6> units = {{{"kg", 1},
                                                                   {"slug", 14.593902937206365},
                                                                   {"slinch", 175.12683524647638}}};
 
+}  // namespace
+
 double kilograms_per(const std::string& unit) {
   for (const auto& [name, kilograms] : units)
     if (unit == name) return kilograms;
   return 1;
 }
-
-}  // namespace
 
 std::vector<std::string> mass_units() {
   std::vector<std::string> names;

@@ -11,6 +11,8 @@ namespace bielle::reduce {
 
 /// The units of mass that a body file may name, for the values of a deck.
 std::vector<std::string> mass_units();
+/// Kilograms per unit of these.
+double kilograms_per(const std::string& unit);
 
 /// Reads the materials of the geometry's file, whose values have its `length_unit`, the body file's `mass_unit` and
 /// seconds, and the regions that the file gives them. Notes of the reader become warnings.

@@ -13,6 +13,7 @@
 #include "reduce/mesh/foreign_mesh.hpp"
 #include "reduce/mesh/length_unit.hpp"
 #include "reduce/mesh/place.hpp"
+#include "reduce/superelement/inertia_tensor.hpp"
 
 namespace bielle::reduce {
 
@@ -52,24 +53,49 @@ std::string folded(const std::string& text) {
   return result;
 }
 
-}  // namespace
-
-std::vector<DeckTie> deck_ties(const std::string& path, const std::optional<std::string>& length_unit,
-                               std::vector<std::string>& notes) {
-  std::vector<DeckTie> ties;
-  if (gmsh_reads(path)) return ties;
-  const std::string text = ties_of_mesh(path, notes);
-  const std::string name = std::filesystem::path(path).filename().string();
-  const YamlValue deck = YamlValue::parse(text, fmt::format("ties of {}", name));
-  const double metres = length_unit ? metres_per(*length_unit) : 1;
-  const YamlValue list = deck.at("ties");
-  for (const YamlValue& value : list.items()) ties.push_back(read_deck_tie(value, metres));
-  return ties;
+DeckMass read_deck_mass(const YamlValue& value, double metres) {
+  DeckMass mass;
+  mass.name = value.at("name").text();
+  mass.mass = value.at("mass").number();
+  mass.position = metres * value.at("position").vector3();
+  mass.inertia = metres * metres * value.at("inertia").matrix(3, 3);
+  if (const auto tie = value.find("tie")) mass.tie = tie->text();
+  if (const auto place = value.find("place")) mass.place = metres * place->vector3();
+  return mass;
 }
 
-std::string describe(const std::vector<DeckTie>& ties) {
+/// Returns the tie or mass that a key names. @throws InputError with the nearest name
+template <class Named>
+const Named& named(const std::vector<Named>& all, const YamlValue& from, const std::string& file, const char* what) {
+  const std::string wanted = from.text();
+  std::vector<std::string> names;
+  for (const Named& each : all) {
+    if (folded(each.name) == folded(wanted)) return each;
+    names.push_back(each.name);
+  }
+  from.fail(fmt::format("'{}' has no {} '{}'{}", file, what, wanted, did_you_mean(wanted, names)));
+}
+
+}  // namespace
+
+Deck read_deck(const std::string& path, const std::optional<std::string>& length_unit,
+               std::vector<std::string>& notes) {
+  Deck deck;
+  if (gmsh_reads(path)) return deck;
+  const std::string text = ties_of_mesh(path, notes);
+  const std::string name = std::filesystem::path(path).filename().string();
+  const YamlValue contents = YamlValue::parse(text, fmt::format("ties of {}", name));
+  const double metres = length_unit ? metres_per(*length_unit) : 1;
+  const YamlValue ties = contents.at("ties"), masses = contents.at("masses");
+  for (const YamlValue& value : ties.items()) deck.ties.push_back(read_deck_tie(value, metres));
+  for (const YamlValue& value : masses.items()) deck.masses.push_back(read_deck_mass(value, metres));
+  return deck;
+}
+
+std::string describe(const Deck& deck) {
   std::string text;
-  for (const DeckTie& tie : ties) {
+  if (!deck.ties.empty()) text += "ties (for interfaces, by {from: NAME}):\n";
+  for (const DeckTie& tie : deck.ties) {
     if (!tie.refusal.empty()) {
       text += fmt::format("  {}: no interface: {}\n", tie.name, tie.refusal);
       continue;
@@ -81,33 +107,37 @@ std::string describe(const std::vector<DeckTie>& ties) {
                         direction_name(tie.rotation.col(0)), direction_name(tie.rotation.col(1)),
                         fmt::join(direction_names(tie.kept), " "));
   }
-  return text.empty() ? "" : "ties (for interfaces, by {from: NAME}):\n" + text;
+  if (!deck.masses.empty()) text += "point masses (for masses, by {from: NAME}), in the file's unit of mass:\n";
+  for (const DeckMass& mass : deck.masses)
+    text += fmt::format("  {}: {:.6g} at {}, {}\n", mass.name, mass.mass, place_name(mass.position),
+                        !mass.tie.empty() ? fmt::format("carried by {}", mass.tie)
+                        : mass.place      ? "at a node of the solid"
+                                          : "carried by no node of the solid");
+  return text;
 }
 
-const DeckTie& DeckTieReader::find(const YamlValue& from) {
-  if (!ties_) {
-    try {
-      ties_ = deck_ties(mesh_.path, mesh_.length_unit, notes_);
-    } catch (const InputError& error) {
-      from.fail(error.what());
-    }
+std::string DeckReader::file_name() const { return std::filesystem::path(mesh_.path).filename().string(); }
+
+const Deck& DeckReader::deck(const YamlValue& key) {
+  if (deck_) return *deck_;
+  try {
+    deck_ = read_deck(mesh_.path, mesh_.length_unit, notes_);
+  } catch (const InputError& error) {
+    key.fail(error.what());
   }
-  const std::string file = std::filesystem::path(mesh_.path).filename().string();
-  if (ties_->empty())
+  return *deck_;
+}
+
+const DeckTie& DeckReader::find(const YamlValue& from) {
+  if (deck(from).ties.empty())
     from.fail(
         fmt::format("'{}' has no ties: they are the RBE2 and RBE3 of a Nastran file, and the couplings and rigid "
                     "bodies of an Abaqus or CalculiX file",
-                    file));
-  const std::string wanted = from.text();
-  std::vector<std::string> names;
-  for (const DeckTie& tie : *ties_) {
-    if (folded(tie.name) == folded(wanted)) return tie;
-    names.push_back(tie.name);
-  }
-  from.fail(fmt::format("'{}' has no tie '{}'{}", file, wanted, did_you_mean(wanted, names)));
+                    file_name()));
+  return named(deck(from).ties, from, file_name(), "tie");
 }
 
-void DeckTieReader::read(const YamlValue& from, InterfaceRequest& interface) {
+void DeckReader::read(const YamlValue& from, InterfaceRequest& interface) {
   const DeckTie& tie = find(from);
   if (!tie.refusal.empty()) from.fail(fmt::format("{}: {}", tie.name, tie.refusal));
   if (const auto [user, is_new] = user_of_.emplace(tie.name, interface.name); !is_new)
@@ -123,6 +153,64 @@ void DeckTieReader::read(const YamlValue& from, InterfaceRequest& interface) {
     interface.group = from.path();
     mesh_.nodes.push_back({interface.group, tie.nodes, tie.weights, from.path()});
   }
+}
+
+std::string DeckReader::carrier(const DeckMass& mass, const YamlValue& key) {
+  const auto tie = std::find_if(deck_->ties.begin(), deck_->ties.end(),
+                                [&](const DeckTie& each) { return folded(each.name) == folded(mass.tie); });
+  if (tie == deck_->ties.end() || !tie->refusal.empty())
+    key.fail(fmt::format("{} is carried by {}, whose nodes cannot carry it: {}", mass.name, mass.tie,
+                         tie == deck_->ties.end() ? "there is none" : tie->refusal));
+  if (!tie->surface.empty()) {
+    mesh_.surfaces.push_back({tie->surface, {tie->surface}, key.path()});
+    return tie->surface;
+  }
+  const std::string group = fmt::format("{} of {}", key.path(), mass.name);
+  mesh_.nodes.push_back({group, tie->nodes, tie->weights, key.path()});
+  return group;
+}
+
+MassRequest DeckReader::made(const DeckMass& mass, const YamlValue& key, double kilograms) {
+  if (mass.mass < 0) key.fail(fmt::format("{} has the mass {:g}, which is negative", mass.name, mass.mass));
+  if (mass.tie.empty() && !mass.place)
+    key.fail(fmt::format("{} stands at a node that belongs to no solid cell and to no tie", mass.name));
+  MassRequest request;
+  request.name = mass.name;
+  request.subject = key.path();
+  request.mass = kilograms * mass.mass;
+  request.position = mass.position;
+  request.inertia = kilograms * mass.inertia;
+  if (!request.inertia.isZero(0))
+    if (const std::string fault = inertia_fault(request.inertia); !fault.empty())
+      key.fail(fmt::format("{}: {}", mass.name, fault));
+  if (mass.tie.empty())
+    request.place = mass.place;
+  else
+    request.group = carrier(mass, key);
+  return request;
+}
+
+MassRequest DeckReader::read_mass(const YamlValue& from, double kilograms) {
+  const std::vector<DeckMass>& masses = read_any(from);
+  const DeckMass& mass = named(masses, from, file_name(), "point mass");
+  if (mass.mass == 0 && mass.inertia.isZero(0)) from.fail(fmt::format("{} has neither mass nor inertia", mass.name));
+  return made(mass, from, kilograms);
+}
+
+std::vector<MassRequest> DeckReader::read_masses(const YamlValue& key, double kilograms) {
+  std::vector<MassRequest> requests;
+  for (const DeckMass& mass : read_any(key))
+    if (mass.mass != 0 || !mass.inertia.isZero(0)) requests.push_back(made(mass, key, kilograms));
+  return requests;
+}
+
+const std::vector<DeckMass>& DeckReader::read_any(const YamlValue& key) {
+  if (deck(key).masses.empty())
+    key.fail(
+        fmt::format("'{}' has no point masses: they are the CONM2 of a Nastran file, and *MASS and *ROTARY INERTIA "
+                    "of an Abaqus or CalculiX file",
+                    file_name()));
+  return deck_->masses;
 }
 
 }  // namespace bielle::reduce

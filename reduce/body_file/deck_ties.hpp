@@ -1,4 +1,5 @@
-// `from` of an interface: ties of the Nastran, Abaqus or CalculiX file that is the body's geometry.
+// `from` of interfaces and masses: ties and point masses of the Nastran, Abaqus or CalculiX file that is the body's
+// geometry.
 #pragma once
 
 #include <array>
@@ -31,20 +32,34 @@ struct DeckTie {
   std::vector<double> weights = {};                        ///< one for each of `nodes`
 };
 
-/// Returns the ties of a file, none of a file that is no deck.
+/// A point mass of a deck: a CONM2, a *MASS or a *ROTARY INERTIA.
+struct DeckMass {
+  std::string name;                                    ///< "CONM2 7001"
+  double mass = 0;                                     ///< in the file's unit of mass
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< its centre [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   ///< about its centre, in the file's unit of mass times m^2
+  std::string tie;                                     ///< name of the tie that carries it; empty: none
+  std::optional<Eigen::Vector3d> place = {};           ///< node of the solid that carries it [m]
+};
+
+/// The ties and point masses of a file; none of a file that is no deck.
+struct Deck {
+  std::vector<DeckTie> ties;
+  std::vector<DeckMass> masses;
+};
+
 /// @param length_unit  unit of the file; absent: m
 /// @param notes  gets the reader's notes @throws InputError with the reader's sentence
-std::vector<DeckTie> deck_ties(const std::string& path, const std::optional<std::string>& length_unit,
-                               std::vector<std::string>& notes);
+Deck read_deck(const std::string& path, const std::optional<std::string>& length_unit, std::vector<std::string>& notes);
 
-/// The ties as lines for the terminal, which `--list` prints; empty if there are none.
-std::string describe(const std::vector<DeckTie>& ties);
+/// The ties and masses as lines for the terminal, which `--list` prints; empty if there are none.
+std::string describe(const Deck& deck);
 
-/// The ties of a body's geometry. They are read when the first interface asks for one.
-class DeckTieReader {
+/// The deck of a body's geometry. It is read when the first interface or mass asks for it.
+class DeckReader {
  public:
-  /// Makes an interface of a tie. The object refers to `mesh`.
-  explicit DeckTieReader(MeshRequest& mesh) : mesh_(mesh) {}
+  /// Makes interfaces and masses. The object refers to `mesh`.
+  explicit DeckReader(MeshRequest& mesh) : mesh_(mesh) {}
 
   /// Sets group, tie, position, rotation and directions of an interface, and requests its nodes or its surface.
   /// @param from  the key that names the tie
@@ -52,12 +67,24 @@ class DeckTieReader {
   ///         another interface has
   void read(const YamlValue& from, InterfaceRequest& interface);
 
+  /// Returns the mass that a key names, with a request for the nodes, the surface or the place that carries it.
+  /// @param kilograms  per unit of the file @throws InputError at the key, as `read`, and for values of no body
+  MassRequest read_mass(const YamlValue& from, double kilograms);
+
+  /// Returns all masses that have an effect. @param key  stands in messages @throws InputError as `read_mass`
+  std::vector<MassRequest> read_masses(const YamlValue& key, double kilograms);
+
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  const Deck& deck(const YamlValue& key);
   const DeckTie& find(const YamlValue& from);
+  const std::vector<DeckMass>& read_any(const YamlValue& key);
+  MassRequest made(const DeckMass& mass, const YamlValue& key, double kilograms);
+  std::string carrier(const DeckMass& mass, const YamlValue& key);
+  std::string file_name() const;
   MeshRequest& mesh_;
-  std::optional<std::vector<DeckTie>> ties_;
+  std::optional<Deck> deck_;
   std::map<std::string, std::string> user_of_;  ///< tie -> interface
   std::vector<std::string> notes_;
 };

@@ -16,7 +16,7 @@ namespace bielle::reduce {
 
 /// Mass without stiffness on a surface: paint, lining.
 struct Coating {
-  Group faces;               ///< of the solid's mesh; faces that occur in several coatings have the mass of each
+  Group faces;  ///< the coated faces of the mesh; faces that occur in several coatings have the mass of each
   double mass_per_area = 0;  ///< [kg/m^2]
 };
 

@@ -1,7 +1,6 @@
 #include "reduce/fe/surface.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -75,24 +74,6 @@ SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& name) {
                 result.normals.col(column) += n(a) * normal;
               }
             });
-  return result;
-}
-
-SurfaceIntegrals integrate_nodes(const Mesh& mesh, std::vector<int> nodes, const Eigen::VectorXd& weights) {
-  SurfaceIntegrals result;
-  Eigen::Index heaviest = 0;  // the origin of the sums: its distance from the centroid may be tiny, its weight huge
-  weights.maxCoeff(&heaviest);
-  const Eigen::Vector3d origin = mesh.points.col(nodes[static_cast<std::size_t>(heaviest)]);
-  const Eigen::Matrix3Xd from_origin = mesh.points(Eigen::all, nodes).colwise() - origin;
-  result.nodes = std::move(nodes);
-  result.area = weights.sum();
-  const Eigen::Vector3d centroid = from_origin * weights / result.area;
-  result.centroid = origin + centroid;
-  const Eigen::Matrix3Xd r = from_origin.colwise() - centroid;
-  result.weights = weights;
-  result.first_moments = r * weights.asDiagonal();
-  result.second_moment = result.first_moments * r.transpose();
-  result.normals = Eigen::Matrix3Xd::Zero(3, weights.size());
   return result;
 }
 

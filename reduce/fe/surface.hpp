@@ -28,11 +28,6 @@ const Group& surface_group(const Mesh& mesh, const std::string& name);
 ///         group, and the caller gives it a subject
 SurfaceIntegrals integrate_surface(const Mesh& mesh, const std::string& group);
 
-/// The same sums over nodes with weights in place of areas; there are no normals.
-/// @param nodes    ascending, at least three that are not on one line
-/// @param weights  one for each node, positive, in any unit
-SurfaceIntegrals integrate_nodes(const Mesh& mesh, std::vector<int> nodes, const Eigen::VectorXd& weights);
-
 /// Forces on the nodes of a surface [N], one column per node of `surface.nodes`.
 /// @param pressure  [Pa], pushing against the outward normal
 Eigen::Matrix3Xd pressure_forces(const SurfaceIntegrals& surface, double pressure);

@@ -1,5 +1,7 @@
 #include "reduce/fe/weighted_nodes.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "reduce/common/counted.hpp"
@@ -27,26 +29,34 @@ void check_not_in_line(const SurfaceIntegrals& nodes) {
 
 }  // namespace
 
-SurfaceIntegrals sum_over_nodes(const Mesh& mesh, const Group& nodes) {
+SurfaceIntegrals sum_over_nodes(const Mesh& mesh, std::vector<int> nodes, const Eigen::VectorXd& weights) {
   SurfaceIntegrals result;
-  result.nodes = nodes.nodes;
-  const auto count = static_cast<Eigen::Index>(nodes.nodes.size());
-  result.weights = Eigen::Map<const Eigen::VectorXd>(nodes.weights.data(), count);
-  result.area = result.weights.sum();
-  const Eigen::Matrix3Xd points = mesh.points(Eigen::all, nodes.nodes);
-  result.centroid = points * result.weights / result.area;
-  const Eigen::Matrix3Xd arms = points.colwise() - result.centroid;
-  result.first_moments = arms * result.weights.asDiagonal();
+  Eigen::Index heaviest = 0;  // the origin of the sums: its distance from the centroid may be tiny, its weight huge
+  weights.maxCoeff(&heaviest);
+  const Eigen::Vector3d origin = mesh.points.col(nodes[static_cast<std::size_t>(heaviest)]);
+  const Eigen::Matrix3Xd from_origin = mesh.points(Eigen::all, nodes).colwise() - origin;
+  result.nodes = std::move(nodes);
+  result.weights = weights;
+  result.area = weights.sum();
+  const Eigen::Vector3d centroid = from_origin * weights / result.area;
+  result.centroid = origin + centroid;
+  const Eigen::Matrix3Xd arms = from_origin.colwise() - centroid;
+  result.first_moments = arms * weights.asDiagonal();
   result.second_moment = result.first_moments * arms.transpose();
-  result.normals = Eigen::Matrix3Xd::Zero(3, count);
-  check_not_in_line(result);
+  result.normals = Eigen::Matrix3Xd::Zero(3, weights.size());
   return result;
 }
 
-SurfaceIntegrals integrate_tied(const Mesh& mesh, const std::string& group) {
-  const auto found = mesh.groups.find(group);
-  return found != mesh.groups.end() && found->second.dimension == 0 ? sum_over_nodes(mesh, found->second)
-                                                                    : integrate_surface(mesh, group);
+SurfaceIntegrals integrate_tied(const Mesh& mesh, const std::string& name) {
+  const auto found = mesh.groups.find(name);
+  if (found == mesh.groups.end() || found->second.dimension != 0) return integrate_surface(mesh, name);
+  const Group& group = found->second;
+  const auto count = static_cast<Eigen::Index>(group.nodes.size());
+  if (count == 0) throw InputError("it ties no nodes of the solid");
+  SurfaceIntegrals nodes =
+      sum_over_nodes(mesh, group.nodes, Eigen::Map<const Eigen::VectorXd>(group.weights.data(), count));
+  check_not_in_line(nodes);
+  return nodes;
 }
 
 }  // namespace bielle::reduce

@@ -12,6 +12,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
+#include "reduce/fe/weighted_nodes.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/reduction/ties.hpp"
@@ -34,12 +35,12 @@ SurfaceIntegrals around(const Solid& solid, const Eigen::Vector3d& place, const 
     sorted[static_cast<Eigen::Index>(nodes.size())] = weight;
     nodes.push_back(node);
   }
-  return integrate_nodes(solid.mesh, std::move(nodes), sorted);
+  return sum_over_nodes(solid.mesh, std::move(nodes), sorted);
 }
 
 AddedMass put_on(const Solid& solid, const MassRequest& request, const std::string& body) {
   AddedMass result;
-  result.surface = request.place ? around(solid, *request.place, body) : integrate_surface(solid.mesh, request.group);
+  result.surface = request.place ? around(solid, *request.place, body) : integrate_tied(solid.mesh, request.group);
   const std::optional<Eigen::Vector3d> position = request.position ? request.position : request.place;
   check_position(position, result.surface, solid.mesh);
   Interface centre;

@@ -24,7 +24,7 @@ ResidualRequest inertia_relief(const LinearFields& linear) {
   request.may_be_empty = true;
   request.loads.reserve(Eigen::VectorXi::Constant(linear.inertia.rows(), 4));
   for (Eigen::Index row = 0; row < linear.inertia.rows(); ++row)
-    for (Eigen::Index column = 0; column < LinearFields::count; ++column)  // of other directions: under masses alone
+    for (Eigen::Index column = 0; column < LinearFields::count; ++column)  // masses alone couple directions
       if (column / 4 == row % 3 || linear.inertia(row, column) != 0)
         request.loads.insert(row, column) = linear.inertia(row, column);
   request.loads.makeCompressed();

@@ -57,7 +57,7 @@ struct MassRequest {
   std::string name;
   std::string group;                                  ///< surface group that it follows; or
   std::optional<Eigen::Vector3d> place;               ///< place in the mesh whose nodes it follows [m]
-  double mass = 0;                                    ///< [kg], positive
+  double mass = 0;                                    ///< [kg], not negative
   std::optional<Eigen::Vector3d> position;            ///< its centre [m]; default: centroid of the surface, the place
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about its centre, body axes [kg m^2]
   std::string subject;                                ///< "masses.motor"

@@ -81,7 +81,7 @@ class _Numbering:
             if mass.node in carriers:
                 entry["tie"] = carriers[mass.node]
             elif node is not None:
-                entry["node"] = node + 1
+                entry["node"], entry["place"] = node + 1, self.mesh.points[node].tolist()
             self.found.masses.append(entry)
         return self.found
 

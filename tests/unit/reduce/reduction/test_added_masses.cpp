@@ -114,7 +114,7 @@ TEST_CASE("a mass on the surface of an interface is a rigid body on its node", "
   // S_kl of the element dm at xi: its displacement is W_x + theta x xi.
   const Matrix3d second = skew_inertia.trace() / 2 * Matrix3d::Identity() - skew_inertia;
   for (int k = 0; k < 3; ++k) {
-    Eigen::Matrix<double, 3, 6> along = Eigen::Matrix<double, 3, 6>::Zero();  // of xi
+    Eigen::Matrix<double, 3, 6> along = Eigen::Matrix<double, 3, 6>::Zero();  // rows: displacement per xi
     along.rightCols<3>() = skew(Vector3d::Unit(k));
     Eigen::RowVectorXd centre = Eigen::RowVectorXd::Zero(6);
     centre(k) = 1;
