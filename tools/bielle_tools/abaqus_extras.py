@@ -13,7 +13,7 @@ TOLD = {
     "EQUATION": "the nodes stay apart",
     "EMBEDDED ELEMENT": "the elements stay apart",
     "SHELL TO SOLID COUPLING": "the surfaces stay apart", "CONTACT PAIR": "the surfaces stay apart", "PRE-TENSION SECTION": "there is no tension",
-    "MASS": "give the mechanism a point mass there", "ROTARY INERTIA": "give the mechanism a rigid body there",
+    "MASS": "`masses: from_file` puts it on the body", "ROTARY INERTIA": "`masses: from_file` puts it on the body",
     "NONSTRUCTURAL MASS": "raise the density", "SPRING": "give the mechanism a spring there", "DASHPOT": "give the mechanism a damper there",
     "SHELL SECTION": "shells are surfaces without stiffness here", "MEMBRANE SECTION": "membranes are surfaces without stiffness here",
     "BEAM SECTION": "beams are left out", "ORIENTATION": "materials have no directions here: only isotropic ones are right",

@@ -109,8 +109,8 @@ def _tell_masses(extras, cards, grids, carriers):
         hangs = f", tied by {carriers[row]}" if row in carriers else ""
         at.append(f"{card.integer(1)}: {card.number(4, 0.0):g} at ({x:g}, {y:g}, {z:g}){hangs}")
     more = f"; and {len(cards) - MOST_NAMED} more" if len(cards) > MOST_NAMED else ""
-    extras.notes.append(f"left out: {counted(len(cards), 'CONM2', 'CONM2')} with a mass of {total:g} in total, in the file's units, which the "
-                        f"superelement does not have: give the mechanism a rigid body there ({'; '.join(at)}{more})")
+    extras.notes.append(f"{counted(len(cards), 'CONM2', 'CONM2')} with a mass of {total:g} in total, in the file's units: `masses: from_file` puts "
+                        f"{'it' if len(cards) == 1 else 'them'} on the body ({'; '.join(at)}{more})")
 
 
 def _ids(cards):

@@ -24,7 +24,7 @@ materials: {{steel: {{young: 210e9, poisson: 0.3, density: 7850}}}}
 regions: {{all: steel}}
 interfaces:
   left: {{from: {tie}}}
-  right: {{surface: {{plane: {{point: [0.6, 0, 0], normal: [1, 0, 0]}}}}}}
+  right: {{surface: {{plane: {{point: [{length}, 0, 0], normal: [1, 0, 0]}}}}}}
 modes: {{count: 2}}
 {more}
 """
@@ -51,8 +51,8 @@ class DeckMasses(CommandTest):
         with open(self.path(name), "w", encoding="utf-8") as file:
             file.write(text)
 
-    def nastran(self, extra, scale=1.0):
-        node = ",".join(f"{x:.15g}" for x in NODE * scale)
+    def nastran(self, extra):
+        node = ",".join(f"{x:.15g}" for x in NODE)
         self.write("bar.bdf", self.box.nastran(f"MAT1,1,2.1+11,,.3,7850.\nGRID,9001,,{node}\n" + extra, form="large"))
 
     def rbe2(self):
@@ -61,8 +61,8 @@ class DeckMasses(CommandTest):
     def rbe3(self):
         return cell_decks.card("free", "RBE3", 12, "", 9001, 123456, "1.", 123, *self.members)
 
-    def reduced(self, tie, more="", ending="bdf"):
-        self.write("body.yaml", BODY.format(tie=tie, more=more, ending=ending))
+    def reduced(self, tie, more="", ending="bdf", length=0.6):
+        self.write("body.yaml", BODY.format(tie=tie, more=more, ending=ending, length=length))
         done = self.run_program("body.yaml", "-o", "body.h5")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.said = done.stderr
@@ -98,15 +98,17 @@ class DeckMasses(CommandTest):
         self.expect_body_on_the_node(loaded, bare, rigid(2.5, np.zeros(3), TENSOR))
 
     def test_units_of_the_deck(self):
-        self.nastran(self.rbe2() + CONM2)
-        bare = self.reduced("RBE2 12", "length_unit: mm")
-        loaded = self.reduced("RBE2 12", "length_unit: mm\nmass_unit: t\nmasses: from_file")
-        self.expect_body_on_the_node(loaded, bare, rigid(2500, OFFSET * 1e-3, TENSOR * 1e-3))
+        tiny = "CONM2,1,9001,,2.5-9,.1,.2,.3\n+,4.-9,1.-9,5.-9,-.5-9,.25-9,6.-9\n"  # the body has 1e-7 kg
+        self.nastran(self.rbe2() + tiny)
+        bare = self.reduced("RBE2 12", "length_unit: mm", length=0.6e-3)
+        loaded = self.reduced("RBE2 12", "length_unit: mm\nmass_unit: t\nmasses: from_file", length=0.6e-3)
+        self.expect_body_on_the_node(loaded, bare, rigid(2.5e-6, OFFSET * 1e-3, TENSOR * 1e-12))
 
     def test_masses_on_nodes_of_the_solid_and_on_ties_without_an_interface(self):
         grid = "GRID,9002,,.65,.1,.05\n"
-        other = cell_decks.card("free", "RBE3", 13, "", 9002, 123456, "1.", 123, *(k + 9 for k in self.members))
-        self.nastran(self.rbe2() + grid + other + f"CONM2,4,{self.members[0] + 9},,7.\nCONM2,5,9002,,3.\nCONM2,6,9002,,0.\n")
+        inner = [k + 1 for k in range(len(self.box.points)) if 0.1 < self.box.points[k][0] < 0.5]
+        other = cell_decks.card("free", "RBE3", 13, "", 9002, 123456, "1.", 123, *inner[:6])
+        self.nastran(self.rbe2() + grid + other + f"CONM2,4,{inner[-1]},,7.\nCONM2,5,9002,,3.\nCONM2,6,9002,,0.\n")
         bare, loaded = self.reduced("RBE2 12"), self.reduced("RBE2 12", "masses: from_file")
         self.assertAlmostEqual(loaded[1] - bare[1], 10, delta=1e-9)
         self.assertIn("CONM2 4: 7 kg", self.said)
@@ -119,7 +121,7 @@ class DeckMasses(CommandTest):
 
     # ---- refusals ---------------------------------------------------------------------------------------------------------
     def refuse(self, more, *says, tie="RBE2 12"):
-        self.write("bad.yaml", BODY.format(tie=tie, more=more, ending="bdf"))
+        self.write("bad.yaml", BODY.format(tie=tie, more=more, ending="bdf", length=0.6))
         self.expect_refusal(1, "bad.yaml", "-o", "bad.h5", says=says)
 
     def test_wrong_requests_are_refused_with_the_place(self):
