@@ -10,6 +10,7 @@
 #include "reduce/body_file/body_loads.hpp"
 #include "reduce/body_file/body_masses.hpp"
 #include "reduce/body_file/body_materials.hpp"
+#include "reduce/body_file/body_mesh.hpp"
 #include "reduce/body_file/body_pieces.hpp"
 #include "reduce/body_file/body_points.hpp"
 #include "reduce/body_file/deck_materials.hpp"
@@ -20,32 +21,6 @@
 namespace bielle::reduce {
 
 namespace {
-
-const KeyTable& mesh_keys() {
-  using namespace keys;
-  static const KeyTable table{
-      "the mesh",
-      "Elements into which a geometry is meshed; a file that contains a mesh needs no `mesh`.",
-      {{"size", number("m").positive(), optional,
-        "Length of edges at which the mesh aims. A `.geo` may do without, other geometries may not."},
-       {"cells", word({"tetrahedra", "hexahedra"}, "a kind of cells"), otherwise("tetrahedra"),
-        "Kind of elements. Blocks of six faces are meshed by grids of hexahedra; in other geometries tetrahedra of "
-        "twice the size are divided into four hexahedra each."},
-       {"order", integer().between(1, 2), otherwise("2"),
-        "Order of the elements: 1 for tetrahedra with 4 nodes or hexahedra with 8, 2 for 10 or 20. Tetrahedra of "
-        "order 1 are far too stiff in bending."},
-       {"curvature", integer().between(3, 360), optional,
-        "Number of edges on a full circle of curved surfaces, at least; edges that follow from it are not shorter "
-        "than a twentieth of `size`."},
-       {"heal", boolean(), otherwise("false"),
-        "Edges and faces smaller than a hundredth of `size` are removed, and faces are sewn together, before the "
-        "geometry is meshed; it must have no physical surfaces."},
-       {"sizes", entries("physical group, interface, load, point or mass", {number("m").positive()}), optional,
-        "Other sizes on physical groups, or on the surfaces of interfaces, loads, points and masses; they fade into "
-        "`size` "
-        "away from them."}}};
-  return table;
-}
 
 const KeyTable& modes_keys() {
   using namespace keys;
@@ -86,69 +61,6 @@ const KeyTable& recovery_keys() {
        {"stress", extent, otherwise("surface"),
         "Nodes whose stress and strain can be recovered; `all` needs all displacements."}}};
   return table;
-}
-
-SolidSelection read_solid(const YamlValue& value) {
-  if (!value.is_scalar() || value.is_null()) value.fail("expected a volume, by its number or its name");
-  return {value.text(), value.path()};
-}
-
-void read_solids(const YamlValue& root, MeshRequest& request) {
-  const auto volume = root.find("volume"), volumes = root.find("volumes");
-  if (volume && volumes) volume->fail("expected either volume, or volumes");
-  if (volume) request.solids.push_back(read_solid(*volume));
-  if (volumes) {
-    for (const YamlValue& item : volumes->items()) request.solids.push_back(read_solid(item));
-    if (request.solids.empty()) volumes->fail("expected at least one volume, by its number or its name");
-  }
-  if (const auto glue = root.find("glue")) {
-    request.glue = glue->boolean();
-    request.glue_subject = glue->path();
-  }
-}
-
-void read_mesh(const YamlValue& root, MeshRequest& request) {
-  const YamlValue geometry = root.at("geometry");
-  request.path = geometry.file_path();
-  request.subject = geometry.path();
-  if (const auto unit = root.find("length_unit")) {
-    request.length_unit = unit->word();
-    request.length_unit_subject = unit->path();
-  }
-  read_solids(root, request);
-  const auto mesh = root.find("mesh");
-  if (!mesh) return;
-  request.mesh_subject = mesh->path();
-  if (const auto size = mesh->find("size")) request.size = size->number();
-  if (const auto order = mesh->find("order")) request.order = order->integer();
-  if (const auto cells = mesh->find("cells")) request.hexahedra = cells->word() == "hexahedra";
-  if (const auto curvature = mesh->find("curvature")) request.curvature = curvature->integer();
-  if (const auto heal = mesh->find("heal")) {
-    request.heal = heal->boolean();
-    request.heal_subject = heal->path();
-  }
-  if (const auto sizes = mesh->find("sizes"))
-    for (const auto& [name, size] : sizes->entries()) request.sizes[name] = {size.number(), size.path()};
-}
-
-// `mesh.sizes` may name interfaces, loads, points and masses: their groups take their place.
-void resolve_sizes(const YamlValue& root, const ReductionOptions& options, MeshRequest& request) {
-  std::map<std::string, std::string> group_of;
-  for (const PointRequest& point : options.points)
-    if (!point.group.empty()) group_of[point.name] = point.group;
-  for (const LoadRequest& load : options.loads) group_of[load.name] = load.group;
-  for (const CoatingRequest& coating : options.coatings) group_of[coating.name] = coating.group;
-  for (const MassRequest& mass : options.masses)
-    if (!mass.group.empty()) group_of[mass.name] = mass.group;
-  for (const InterfaceRequest& interface : options.interfaces) group_of[interface.name] = interface.group;
-  std::map<std::string, GroupSize> resolved;
-  for (const auto& [name, size] : request.sizes) {
-    const auto found = group_of.find(name);
-    const std::string& group = found == group_of.end() ? name : found->second;
-    if (!resolved.emplace(group, size).second)
-      root.at("mesh").at("sizes").at(name).fail(fmt::format("the surface '{}' gets its size twice", group));
-  }
-  request.sizes = resolved;
 }
 
 bool takes_masses_from_file(const YamlValue& root) {
