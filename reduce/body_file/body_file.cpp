@@ -84,7 +84,8 @@ void read_regions(const YamlValue& root, BodyFile& body) {
       warn_of_material(value);
     }
     if (root.has("mass_unit") && !takes_masses_from_file(root))
-      root.at("mass_unit").fail("it belongs to materials and masses of the file: other values are in SI units");
+      root.at("mass_unit")
+          .fail("it belongs to 'materials: from_file' and to masses of the file: other values are in SI units");
   }
   std::vector<std::string> names;
   for (const auto& [name, material] : options.materials) names.push_back(name);

@@ -129,7 +129,7 @@ class DeckMasses(CommandTest):
         self.refuse("masses: {motor: {from: CONM2 7}}", "bad.yaml:9: masses.motor.from", "no point mass 'CONM2 7'", "'CONM2 1'")
         self.refuse("masses: {motor: {from: CONM2 1, mass: 3}}", "masses.motor.mass: the deck has it")
         self.refuse("masses: deck", "masses", "from_file")
-        self.refuse("masses: {motor: {surface: BODY, mass: 1}}\nmass_unit: t", "mass_unit: it belongs to materials and masses of the file")
+        self.refuse("masses: {motor: {surface: BODY, mass: 1}}\nmass_unit: t", "mass_unit: it belongs to 'materials: from_file' and to masses of the file")
         self.nastran(self.rbe2())
         self.refuse("masses: from_file", "'bar.bdf' has no point masses")
 
