@@ -15,6 +15,7 @@
 #include "reduce/mesh/jacobian.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/mesh/solid_cells.hpp"
+#include "reduce/mesh/sorted_points.hpp"
 
 namespace bielle::reduce {
 
@@ -64,18 +65,13 @@ std::string piece_names(const std::vector<Piece>& pieces) {
 // Pairs of the listed points nearer to each other than `distance`; a point is the first of one pair at most.
 std::vector<std::pair<int, int>> near_pairs(const Eigen::Matrix3Xd& points, const std::vector<int>& listed,
                                             double distance) {
-  // Points are sorted along an oblique direction, along which the nodes of no face of a machine part coincide.
-  const Eigen::RowVector3d direction(0.6154, 0.3581, 0.7022);
-  std::vector<std::pair<double, int>> sorted;
-  for (int node : listed) sorted.emplace_back(direction * points.col(node), node);
-  std::sort(sorted.begin(), sorted.end());
+  const SortedPoints sorted(points, listed);
   std::vector<std::pair<int, int>> pairs;
-  for (std::size_t i = 0; i < sorted.size(); ++i)
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].first - sorted[i].first <= distance; ++j)
-      if ((points.col(sorted[j].second) - points.col(sorted[i].second)).norm() <= distance) {
-        pairs.emplace_back(sorted[i].second, sorted[j].second);
-        break;
-      }
+  for (const int node : listed) {
+    int partner = -1;
+    const auto is_later = [&](int other) { return partner = other, other > node; };
+    if (sorted.has_near(points.col(node), distance, is_later)) pairs.emplace_back(node, partner);
+  }
   return pairs;
 }
 

@@ -10,6 +10,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/common/sort_unique.hpp"
 #include "reduce/mesh/place.hpp"
+#include "reduce/mesh/sorted_points.hpp"
 
 namespace bielle::reduce {
 
@@ -87,26 +88,18 @@ std::vector<std::array<int, 2>> boundary_edges(const FaceTable& faces) {
 // (Both sides of a slit have nodes of their own.)
 void check_hanging_nodes(const Mesh& mesh, const FaceTable& faces) {
   const std::vector<std::array<int, 2>> edges = boundary_edges(faces);
-  // Corners in the order of their heights along an oblique direction, along which those of no plane face coincide.
-  const Eigen::RowVector3d direction(0.6154, 0.3581, 0.7022);
-  std::vector<std::pair<double, int>> corners;
-  for (const auto& edge : edges)
-    for (const int node : edge) corners.emplace_back(direction * mesh.points.col(node), node);
-  sort_unique(corners);
+  std::vector<int> corners;
+  for (const auto& edge : edges) corners.insert(corners.end(), edge.begin(), edge.end());
+  const SortedPoints sorted(mesh.points, corners);
   const auto is_edge = [&](int a, int b) {
     return std::binary_search(edges.begin(), edges.end(), std::array<int, 2>{std::min(a, b), std::max(a, b)});
   };
   Faults faults;
   for (const auto& [a, b] : edges) {
     const Eigen::Vector3d half = (mesh.points.col(a) + mesh.points.col(b)) / 2;
-    const double near = 1e-6 * (mesh.points.col(a) - mesh.points.col(b)).norm(), height = direction * half;
-    auto corner = std::lower_bound(corners.begin(), corners.end(), std::pair(height - near, -1));
-    for (; corner != corners.end() && corner->first <= height + near; ++corner)
-      if (const int node = corner->second;
-          (mesh.points.col(node) - half).norm() <= near && is_edge(a, node) && is_edge(node, b)) {
-        faults.add(half);
-        break;
-      }
+    const double near = 1e-6 * (mesh.points.col(a) - mesh.points.col(b)).norm();
+    if (sorted.has_near(half, near, [&, a = a, b = b](int node) { return is_edge(a, node) && is_edge(node, b); }))
+      faults.add(half);
   }
   if (faults.count == 0) return;
   throw InputError(fmt::format(
