@@ -104,7 +104,8 @@ class Assembly:
     def own(self, label, kind):
         """The number of a node (kind NSET) or element (ELSET) that is named outside of parts and instances."""
         lowered = label - STRIDE
-        return lowered if len(self.instances) > 1 or (kind == "NSET" and lowered in self.reader.reference_points) else label
+        known = self.reader.reference_points if kind == "NSET" else self.reader.single_nodes
+        return lowered if len(self.instances) > 1 or lowered in known else label
 
     def entry(self, word):
         """An entry of a set: the raised number of `instance.12`, or a name."""
@@ -131,7 +132,9 @@ class Assembly:
     def told(self, number):
         """A number of a node or element in messages."""
         k, local = divmod(int(number), STRIDE)
-        return f"{local} of instance '{self.instances[k].name}'" if 0 <= k < len(self.instances) > 1 else str(local if k < 0 else number)
+        if k < 0:
+            return f"{local} of the assembly"
+        return f"{local} of instance '{self.instances[k].name}'" if k < len(self.instances) > 1 else str(number)
 
     # ---- joining ------------------------------------------------------------------------------------------------
     def finish(self):

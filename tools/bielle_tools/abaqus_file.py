@@ -162,11 +162,12 @@ class _Reader(Contents):
         if not kind.startswith(SINGLE_NODES):
             return
         shift = OWN if self.assembly else 0
+        lowered = STRIDE if self.assembly and self.assembly.open else 0
         labels = []
         for words in keyword.table(lambda words: [word for word in words if word]):
             if len(words) != 2:
                 raise ValueError(f"an element of type {kind} has one node: expected two numbers, found '{', '.join(words)}'")
-            labels.append(self._entry(words[0], shift, "ELSET"))
+            labels.append(integer(words[0]) - lowered)
             self.single_nodes[labels[-1]] = (kind, self._entry(words[1], shift))
         if "ELSET" in keyword.options:
             self.extend("ELSET", keyword.options["ELSET"], labels)

@@ -187,9 +187,9 @@ class _Reader:
                 tie.axes = self.deck.constraints.transformed_axes(transform)
 
     def _place(self, label):
-        """Row (None of a reference point of an assembly) and place of a node."""
+        """Row and place of a node; in place of the row the words `reference point` and the label of one of an assembly."""
         if label in self.deck.reference_points:
-            return None, np.array(self.deck.reference_points[label])
+            return ("reference point", label), np.array(self.deck.reference_points[label])
         if label not in self.deck.numbers:
             raise TieRefusal(f"it names the node {self.deck.assembly.told(label)}, which does not exist")
         row = self.deck.numbers[label]

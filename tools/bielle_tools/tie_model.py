@@ -16,7 +16,7 @@ class TieRefusal(Exception):
 class Tie:
     """A tie. Rows are those of the points of RawMesh.
 
-    kind: "rigid" or "average"; reference: row of the reference node, None if it is no point of the mesh; position, axes
+    kind: "rigid" or "average"; reference: row of the reference node, something else if it is no point of the mesh; position, axes
     (columns): its own; weights: {row: weight} of the tied nodes; surface: name of a set of faces in place of nodes;
     refused: the reason why it can be no interface.
     """
@@ -34,7 +34,7 @@ class Tie:
 
 @dataclass
 class PointMass:
-    """A mass at a node. position: centre of mass; inertia (3,3): about it, in basic axes; node: row or None."""
+    """A mass at a node. position: centre of mass; inertia (3,3): about it, in basic axes; node: as the reference of a Tie."""
 
     name: str
     mass: float

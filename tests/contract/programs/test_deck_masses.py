@@ -97,6 +97,18 @@ class DeckMasses(CommandTest):
         loaded = self.reduced("rigid body 9001", "masses: from_file", "inp")
         self.expect_body_on_the_node(loaded, bare, rigid(2.5, np.zeros(3), TENSOR))
 
+    def test_masses_of_an_assembly_and_of_its_instance_may_have_one_number(self):
+        members = "".join(f"{k}\n" for k in self.members)
+        self.write("bar.inp", "*PART, NAME=P\n" + self.box.abaqus(
+            f"*NSET, NSET=LEFT\n{members}*SURFACE, NAME=S, TYPE=NODE\nLEFT\n*ELEMENT, TYPE=MASS, ELSET=PM\n901, {self.members[0]}\n"
+            "*MASS, ELSET=PM\n1.\n") + "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=P-1, PART=P\n*END INSTANCE\n*NODE\n"
+            "1, -0.02, 0.11, 0.04\n*ELEMENT, TYPE=MASS, ELSET=RM\n901, 1\n*MASS, ELSET=RM\n7.\n"
+            "*NSET, NSET=RP\n1\n*COUPLING, CONSTRAINT NAME=END, REF NODE=RP, SURFACE=P-1.S\n*KINEMATIC\n*END ASSEMBLY\n")
+        bare = self.reduced("coupling END", ending="inp")
+        own = self.reduced("coupling END", "masses: {pump: {from: mass 901 of the assembly}}", "inp")
+        self.expect_body_on_the_node(own, bare, rigid(7, np.zeros(3), np.zeros((3, 3))))
+        self.assertAlmostEqual(self.reduced("coupling END", "masses: from_file", "inp")[1] - bare[1], 8, delta=1e-9)
+
     def test_units_of_the_deck(self):
         tiny = "CONM2,1,9001,,2.5-9,.1,.2,.3\n+,4.-9,1.-9,5.-9,-.5-9,.25-9,6.-9\n"  # the body has 1e-7 kg
         self.nastran(self.rbe2() + tiny)
