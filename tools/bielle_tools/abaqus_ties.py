@@ -145,8 +145,11 @@ class _Reader:
         where = f"{keyword.where}: *{keyword.name}"
         try:
             values = [self._number(word, "a mass or an inertia") for words in keyword.words() for word in words]
-            if not values:
-                raise TieRefusal("it has no numbers")
+            if keyword.options.get("TYPE", "ISOTROPIC").upper() != "ISOTROPIC":
+                raise TieRefusal(f"its TYPE is {keyword.options['TYPE'].upper()}; ISOTROPIC is read")
+            known = (1,) if keyword.name == "MASS" else (3, 4, 5, 6)
+            if len(values) not in known:
+                raise TieRefusal(f"it has {counted(len(values), 'number')}; expected {'one' if known == (1,) else 'three to six'}")
             inertia, mass = np.zeros((3, 3)), 0.0
             if keyword.name == "MASS":
                 mass = values[0]

@@ -11,7 +11,7 @@ import numpy as np
 from .abaqus_file import read_sections
 from .foreign_mesh import MANY_PROGRAMS, NASTRAN, is_nastran
 from .messages import InputError, counted
-from .nastran_cards import read_cards, young_and_poisson
+from .nastran_cards import mass_per_weight, read_cards, young_and_poisson
 
 # Rows of Nastran's order xx yy zz xy yz zx, and of Abaqus' xx yy zz xy xz yz, in the order xx yy zz yz xz xy.
 FROM_NASTRAN, FROM_ABAQUS = (0, 1, 2, 4, 5, 3), (0, 1, 2, 5, 4, 3)
@@ -65,6 +65,7 @@ def _of_nastran(path):
         name = f"mat_{number}"
         if name not in found.materials:
             found.materials[name] = _CARDS[material.name](material)
+            found.materials[name]["density"] *= mass_per_weight(cards)
         found.regions[f"property_{card.integer(1)}"] = name
     return found
 

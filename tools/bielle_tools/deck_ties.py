@@ -74,12 +74,18 @@ class _Numbering:
                 self.found.ties.append(self._tie(tie))
             except TieRefusal as refusal:
                 self.found.ties.append({"name": tie.name, "refused": str(refusal)})
-        carriers = {tie.reference: tie.name for tie in ties if not tie.refused and tie.reference is not None}
+        carriers = {}
+        for tie in ties:
+            if tie.reference is not None:
+                carriers.setdefault(tie.reference, []).append(tie.name)
         for mass in masses:
             entry = {"name": mass.name, "mass": mass.mass, "position": list(mass.position), "inertia": np.asarray(mass.inertia).tolist()}
             node = self._node(mass.node)
+            if len(carriers.get(mass.node, ())) > 1:
+                raise InputError(f"{mass.name} stands at a node of several ties ({', '.join(carriers[mass.node])}), which would share it: give the "
+                                 "ties one node each, or join them to one tie")
             if mass.node in carriers:
-                entry["tie"] = carriers[mass.node]
+                entry["tie"] = carriers[mass.node][0]
             elif node is not None:
                 entry["node"], entry["place"] = node + 1, self.mesh.points[node].tolist()
             self.found.masses.append(entry)

@@ -16,6 +16,17 @@ SHORT_EXPONENT = re.compile(r"(?<=[\d.])([+-]\d+)$")  # 7.85-9 is 7.85e-9
 INCLUDE = re.compile(r"\s*INCLUDE\b", re.IGNORECASE).match
 
 
+def mass_per_weight(cards):
+    """PARAM,WTMASS: the factor of all densities and masses of a file that gives weights. @raises InputError unless positive"""
+    for card in cards:
+        if card.name == "PARAM" and card.fields[1].upper() == "WTMASS":
+            factor = card.number(2, 1.0)
+            if not factor > 0:
+                raise InputError(f"'{card.path}': line {card.line}: PARAM,WTMASS is {factor:g}; expected a positive number")
+            return factor
+    return 1.0
+
+
 def young_and_poisson(card):
     """The constants of a MAT1, of which one follows from the other two; None for what cannot be known."""
     young, shear, poisson = (card.number(k, None) for k in (2, 3, 4))

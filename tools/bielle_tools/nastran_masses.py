@@ -3,6 +3,7 @@
 import numpy as np
 
 from .messages import InputError
+from .nastran_cards import mass_per_weight
 from .tie_model import PointMass
 
 IN_BASIC = -1  # CID by which X1 to X3 are coordinates in the basic system, no offsets
@@ -10,10 +11,11 @@ IN_BASIC = -1  # CID by which X1 to X3 are coordinates in the basic system, no o
 
 def read_masses(cards, grids):
     """@returns list of PointMass @raises InputError with file and line"""
-    return [_mass(card, grids) for card in cards if card.name == "CONM2"]
+    factor = mass_per_weight(cards)
+    return [_mass(card, grids, factor) for card in cards if card.name == "CONM2"]
 
 
-def _mass(card, grids):
+def _mass(card, grids, factor):
     number, system = card.integer(2), card.integer(3, 0)
     if number not in grids.rows:
         raise InputError(f"'{card.path}': line {card.line}: CONM2 {card.integer(1)} names the node {number}, which does not exist")
@@ -23,4 +25,4 @@ def _mass(card, grids):
     position = x if system == IN_BASIC else grids.points[node] + axes @ x
     i11, i21, i22, i31, i32, i33 = (card.number(k, 0.0) for k in range(9, 15))
     inertia = np.array([[i11, -i21, -i31], [-i21, i22, -i32], [-i31, -i32, i33]])  # I21 = int x1 x2 dm
-    return PointMass(f"CONM2 {card.integer(1)}", card.number(4, 0.0), position, axes @ inertia @ axes.T, node)
+    return PointMass(f"CONM2 {card.integer(1)}", factor * card.number(4, 0.0), position, factor * axes @ inertia @ axes.T, node)
