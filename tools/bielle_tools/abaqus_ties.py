@@ -147,9 +147,11 @@ class _Reader:
             values = [self._number(word, "a mass or an inertia") for words in keyword.words() for word in words]
             if keyword.options.get("TYPE", "ISOTROPIC").upper() != "ISOTROPIC":
                 raise TieRefusal(f"its TYPE is {keyword.options['TYPE'].upper()}; ISOTROPIC is read")
-            known = (1,) if keyword.name == "MASS" else (3, 4, 5, 6)
-            if len(values) not in known:
-                raise TieRefusal(f"it has {counted(len(values), 'number')}; expected {'one' if known == (1,) else 'three to six'}")
+            if not values:
+                raise TieRefusal("it has no numbers")
+            least, most, expected = (1, 1, "one") if keyword.name == "MASS" else (3, 6, "three to six")
+            if not least <= len(values) <= most:
+                raise TieRefusal(f"it has {counted(len(values), 'number')}; expected {expected}")
             inertia, mass = np.zeros((3, 3)), 0.0
             if keyword.name == "MASS":
                 mass = values[0]

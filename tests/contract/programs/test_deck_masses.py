@@ -126,6 +126,11 @@ class DeckMasses(CommandTest):
         self.assertIn("CONM2 4: 7 kg", self.said)
         self.assertIn("CONM2 5: 3 kg with the centre (0.65, 0.1, 0.05) m", self.said)
 
+    def test_weights_become_masses_by_wtmass(self):
+        self.nastran("PARAM,WTMASS,.5\n" + self.rbe2() + CONM2)
+        bare, loaded = self.reduced("RBE2 12"), self.reduced("RBE2 12", "masses: from_file")
+        self.expect_body_on_the_node(loaded, bare, rigid(1.25, OFFSET, TENSOR / 2))
+
     def test_list_shows_them(self):
         self.nastran(self.rbe2() + CONM2)
         done = self.run_program("--list", "bar.bdf")
@@ -151,6 +156,8 @@ class DeckMasses(CommandTest):
             with self.subTest(card):
                 self.nastran(self.rbe2() + card)
                 self.refuse("masses: from_file", "CONM2 1", says)
+        self.nastran(self.rbe2() + cell_decks.card("free", "RBE3", 13, "", 9001, 123456, "1.", 123, *self.members) + CONM2)
+        self.refuse("masses: from_file", "CONM2 1 stands at a node of several ties (RBE2 12, RBE3 13)")
         self.nastran(self.rbe2() + "CONM2,1,9001,,0.\n")
         self.refuse("masses: {motor: {from: CONM2 1}}", "has neither mass nor inertia")
 
