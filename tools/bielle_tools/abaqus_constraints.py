@@ -4,7 +4,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .abaqus_lines import Keyword
+from .abaqus_lines import Keyword, number
+from .abaqus_systems import axes_of, rotation
 from .tie_model import TieRefusal
 
 TIES = ("COUPLING", "KINEMATIC COUPLING", "DISTRIBUTING COUPLING", "RIGID BODY", "MPC")
@@ -48,6 +49,10 @@ class Constraint:
 
     def prefix(self):
         return self.scope.prefix.upper() if self.scope else ""
+
+    def shown(self, name):
+        """A name in messages and among the ties of the body."""
+        return (self.scope.shown if self.scope else "") + name
 
     def turned(self, axes):
         """Axes that are given in the system of the part, in that of the assembly."""
@@ -112,25 +117,20 @@ class Constraints:
 
 def _numbers(keyword, words):
     try:
-        return [float(word.upper().replace("D", "E")) if word else 0.0 for word in words]
+        return [number(word) if word else 0.0 for word in words]
     except ValueError:
         raise TieRefusal(f"*{keyword.name} at {keyword.where} has a word where a number belongs") from None
 
 
 def _axes(keyword, x, in_plane):
-    z = np.cross(x, in_plane)
-    if np.linalg.norm(z) <= 1e-12 * np.linalg.norm(x) * np.linalg.norm(in_plane) or not x.any() or not in_plane.any():
+    axes = axes_of(x, np.cross(x, in_plane), np.linalg.norm(in_plane))
+    if axes is None:
         raise TieRefusal(f"the points of *{keyword.name} at {keyword.where} stand in one line")
-    x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
-    return np.column_stack([x, np.cross(z, x), z])
+    return axes
 
 
 def _turn(axis, degrees):
     """Rotation about axis 1, 2 or 3."""
     if axis not in (1, 2, 3):
         raise TieRefusal("the additional rotation of its *ORIENTATION is about axis 1, 2 or 3")
-    i, j, k = int(axis) - 1, int(axis) % 3, (int(axis) + 1) % 3
-    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
-    turn = np.zeros((3, 3))
-    turn[i, i], turn[j, j], turn[k, k], turn[k, j], turn[j, k] = 1.0, c, c, s, -s
-    return turn
+    return rotation(np.eye(3)[int(axis) - 1], np.radians(degrees))

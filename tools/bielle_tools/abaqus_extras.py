@@ -6,6 +6,7 @@ materials are reported as lines of a body file, masses and orientations as left 
 
 from dataclasses import dataclass
 
+from .abaqus_lines import number
 from .messages import InputError, counted
 
 # Keywords of constraints and of stiffness or mass, with their names in messages.
@@ -85,6 +86,6 @@ def _properties(properties):
 
 def _number(word):
     try:
-        return f"{float(word.upper().replace('D', 'E')):g}"
+        return f"{number(word):g}"
     except ValueError:
         raise InputError(f"a material has '{word}' where a number belongs") from None

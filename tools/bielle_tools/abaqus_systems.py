@@ -30,10 +30,20 @@ def system(keyword):
         z = np.array([0.0, 0.0, 1.0])
     else:
         z = np.cross(x, points[2] - points[0])
-    if np.linalg.norm(x) == 0 or np.linalg.norm(z) <= IN_LINE * np.linalg.norm(x) * max(np.linalg.norm(points[-1] - points[0]), 1e-300):
+    axes = axes_of(x, z, np.linalg.norm(points[-1] - points[0]))
+    if axes is None:
         raise InputError(f"{keyword.where}: *SYSTEM: the points stand in one line")
-    x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
-    return points[0], np.column_stack([x, np.cross(z, x), z])
+    return points[0], axes
+
+
+def axes_of(x, z, length):
+    """Axes (columns) along x and along z, which is normal to x; None if the points that define them stand in one line. @param
+    length: distance of the point that defines the plane of x and y"""
+    size = np.linalg.norm(x)
+    if size == 0 or np.linalg.norm(z) <= IN_LINE * size * max(length, 1e-300):
+        return None
+    x, z = x / size, z / np.linalg.norm(z)
+    return np.column_stack([x, np.cross(z, x), z])
 
 
 def kind_of_coordinates(keyword, cartesian="R"):

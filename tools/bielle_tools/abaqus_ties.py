@@ -7,6 +7,7 @@ mean of nodes with weights is that of an average tie.)
 import numpy as np
 
 from .abaqus_constraints import TIES
+from .abaqus_lines import number
 from .messages import InputError, counted
 from .tie_model import PointMass, Tie, TieRefusal, check_translations, check_weight, direction_words
 
@@ -50,8 +51,7 @@ class _Reader:
         """The tie of a keyword of TIES."""
         options = keyword.options
         named = options.get("CONSTRAINT NAME") if keyword.name == "COUPLING" else options.get("ELSET") if keyword.name == TIES[2] else None
-        shown = keyword.scope.shown if keyword.scope else ""
-        tie = Tie(f"{keyword.name.lower()} {shown}{named or options.get('REF NODE', '?')}")
+        tie = Tie(f"{keyword.name.lower()} {keyword.shown(named or options.get('REF NODE', '?'))}")
         try:
             {"COUPLING": self._coupling, "KINEMATIC COUPLING": self._kinematic_coupling, "DISTRIBUTING COUPLING": self._distributing_coupling,
              "RIGID BODY": self._rigid_body}[keyword.name](keyword, tie)
@@ -125,8 +125,7 @@ class _Reader:
         ties = {}
         for words in keyword.words():
             kind = words[0].upper()
-            shown = keyword.scope.shown if keyword.scope else ""
-            name = f"mpc {kind.lower()} {shown}{words[2] if len(words) > 2 else '?'}"
+            name = f"mpc {kind.lower()} {keyword.shown(words[2] if len(words) > 2 else '?')}"
             tie = ties.setdefault(name, Tie(name))
             try:
                 if kind != "BEAM":
@@ -252,6 +251,6 @@ class _Reader:
     @staticmethod
     def _number(word, what):
         try:
-            return float(word.upper().replace("D", "E"))
+            return number(word)
         except ValueError:
             raise TieRefusal(f"{what} is '{word}', which is no number") from None

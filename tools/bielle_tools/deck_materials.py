@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .abaqus_file import read_sections
+from .abaqus_lines import number as abaqus_number
 from .foreign_mesh import MANY_PROGRAMS, NASTRAN, is_nastran
 from .messages import InputError, counted
 from .nastran_cards import mass_per_weight, read_cards, young_and_poisson
@@ -50,6 +51,7 @@ def _of_nastran(path):
     cards = read_cards(path)
     by_number = {card.integer(1): card for card in cards if card.name in ("MAT1", "MAT9", "MAT11")}
     solids = {card.integer(2, card.integer(1)) for card in cards if card.name in ("CTETRA", "CHEXA", "CPENTA", "CPYRAM", "CPYRA")}
+    factor = mass_per_weight(cards)
     found = DeckMaterials()
     for card in cards:
         if card.name != "PSOLID" or card.integer(1) not in solids:
@@ -65,7 +67,7 @@ def _of_nastran(path):
         name = f"mat_{number}"
         if name not in found.materials:
             found.materials[name] = _CARDS[material.name](material)
-            found.materials[name]["density"] *= mass_per_weight(cards)
+            found.materials[name]["density"] *= factor
         found.regions[f"property_{card.integer(1)}"] = name
     return found
 
@@ -150,7 +152,7 @@ def _numbers(where, keyword, rows):
     for row in rows:
         for word in filter(None, (word.strip() for word in row.split(","))):
             try:
-                numbers.append(float(word.upper().replace("D", "E")))
+                numbers.append(abaqus_number(word))
             except ValueError:
                 raise InputError(f"{where}: *{keyword} has '{word}' where a number belongs") from None
     return numbers
