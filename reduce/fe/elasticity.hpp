@@ -1,6 +1,8 @@
 // Conversion between tensors and their six components in the order xx yy zz yz xz xy.
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 namespace bielle::reduce {
@@ -9,6 +11,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Index of component ij in the order xx yy zz yz xz xy.
 constexpr int voigt(int i, int j) { return i == j ? i : 6 - i - j; }
+
+/// The components in that order: 11 22 33 23 13 12, counted from 0.
+inline constexpr std::array<std::array<int, 2>, 6> voigt_pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
 /// Engineering strain of the displacement gradient du_i/dx_j.
 inline Vector6 strain_of(const Eigen::Matrix3d& h) {
@@ -38,11 +43,11 @@ inline Eigen::Matrix<double, 9, 9> elasticity_tensor(const Eigen::Matrix<double,
 /// Q with Q s the components of a stress in turned axes: s'_ij = R_im R_jn s_mn.
 /// @param rotation  R, from the axes of s to those of the result
 inline Eigen::Matrix<double, 6, 6> stress_rotation(const Eigen::Matrix3d& rotation) {
-  constexpr int first[6] = {0, 1, 2, 1, 0, 0}, second[6] = {0, 1, 2, 2, 2, 1};
   Eigen::Matrix<double, 6, 6> turn;
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b < 6; ++b) {
-      const int i = first[a], j = second[a], m = first[b], n = second[b];
+      const auto [i, j] = voigt_pairs[static_cast<std::size_t>(a)];
+      const auto [m, n] = voigt_pairs[static_cast<std::size_t>(b)];
       turn(a, b) = rotation(i, m) * rotation(j, n);
       if (m != n) turn(a, b) += rotation(i, n) * rotation(j, m);
     }

@@ -16,6 +16,7 @@
 #include "reduce/mesh/describe_solids.hpp"
 #include "reduce/mesh/gmsh_model.hpp"
 #include "reduce/mesh/gmsh_session.hpp"
+#include "reduce/mesh/groups.hpp"
 #include "reduce/mesh/length_unit.hpp"
 #include "reduce/mesh/patches.hpp"
 #include "reduce/mesh/place.hpp"
@@ -136,16 +137,6 @@ SurfacePoints surface_points(int tag, double metres) {
   return result;
 }
 
-// Names of the physical groups to which an entity belongs.
-std::string groups_of(const std::vector<PhysicalGroup>& groups, int dimension, int entity) {
-  std::string names;
-  for (const PhysicalGroup& group : groups)
-    if (group.dimension == dimension &&
-        std::find(group.entities.begin(), group.entities.end(), entity) != group.entities.end())
-      names += (names.empty() ? "" : ", ") + group.name;
-  return names;
-}
-
 // Measures the shape and the box of a surface. (OpenCASCADE's own boxes of free-form surfaces enclose their control
 // points, which lie outside.)
 void measure_surface(int tag, double metres, SurfaceEntry& entry) {
@@ -176,7 +167,7 @@ std::string geometry_text(double metres, const std::map<std::string, double>& de
     entry.name = fmt::format("surface {}", tag);
     gmsh::model::getType(2, tag, entry.kind);
     measure_surface(tag, metres, entry);
-    entry.groups = groups_of(groups, 2, tag);
+    entry.groups = fmt::format("{}", fmt::join(groups_of(groups, 2, tag), ", "));
     if (!is_exact({dim, tag})) continue;
     double area;
     Vector3d centre;

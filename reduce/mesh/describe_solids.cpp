@@ -11,6 +11,7 @@
 #include <gmsh.h>
 
 #include "reduce/mesh/gmsh_model.hpp"
+#include "reduce/mesh/groups.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/mesh/solids.hpp"
 
@@ -22,14 +23,6 @@ std::vector<std::string> names_of_path(const std::string& path) {
   std::vector<std::string> names;
   std::istringstream text(path);
   for (std::string name; std::getline(text, name, '/');) names.push_back(name);
-  return names;
-}
-
-std::vector<std::string> groups_of_solid(const std::vector<PhysicalGroup>& groups, const BodySolid& solid) {
-  std::vector<std::string> names;
-  for (const PhysicalGroup& group : groups)
-    if (group.dimension == 3 && std::count(group.entities.begin(), group.entities.end(), solid.number) > 0)
-      names.push_back(group.name);
   return names;
 }
 
@@ -59,7 +52,7 @@ std::string solids_text(const std::map<int, Eigen::AlignedBox3d>& boxes, double 
     above = folders;
     std::vector<std::string> facts;
     if (!solid.path.empty()) facts.push_back(fmt::format("'{}'", solid.name()));
-    const std::vector<std::string> of_solid = groups_of_solid(groups, solid);
+    const std::vector<std::string> of_solid = groups_of(groups, 3, solid.number);
     if (std::count(exact.begin(), exact.end(), std::pair(3, solid.number)) > 0) {
       const double volume = volume_of(solid) * std::pow(metres, 3);
       facts.push_back(fmt::format("{:.6g} m^3", volume));

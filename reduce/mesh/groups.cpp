@@ -19,6 +19,15 @@ std::vector<std::string> group_names(const std::vector<PhysicalGroup>& groups, i
   return names;
 }
 
+std::vector<std::string> groups_of(const std::vector<PhysicalGroup>& groups, int dimension, int entity) {
+  std::vector<std::string> names;
+  for (const PhysicalGroup& group : groups)
+    if (group.dimension == dimension &&
+        std::find(group.entities.begin(), group.entities.end(), entity) != group.entities.end())
+      names.push_back(group.name);
+  return names;
+}
+
 const PhysicalGroup* find_group(const std::vector<PhysicalGroup>& groups, const std::string& name) {
   for (const PhysicalGroup& group : groups)
     if (group.name == name) return &group;

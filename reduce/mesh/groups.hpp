@@ -14,6 +14,8 @@ namespace bielle::reduce {
 
 /// Names of the physical groups of one dimension.
 std::vector<std::string> group_names(const std::vector<PhysicalGroup>& groups, int dimension);
+/// Names of the physical groups that an entity belongs to.
+std::vector<std::string> groups_of(const std::vector<PhysicalGroup>& groups, int dimension, int entity);
 
 /// Returns nullptr if there is none of that name.
 const PhysicalGroup* find_group(const std::vector<PhysicalGroup>& groups, const std::string& name);

@@ -34,8 +34,7 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
   if (repaired.nodes > 0)
     progress.note(
         fmt::format("{} inside out, or nearly so, at curved surfaces: {} moved to the middle of the edge, by {} at "
-                    "most (at {}), which "
-                    "changes the volume by {:.2g} %; smaller elements avoid it",
+                    "most (at {}), which changes the volume by {:.2g} %; smaller elements avoid it",
                     counted(repaired.elements, "second-order element"), counted(repaired.nodes, "mid-side node"),
                     length_name(repaired.farthest), place_name(repaired.place), 100 * repaired.volume_change));
   if (model.dropped_nodes > 0)

@@ -12,6 +12,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
+#include "reduce/fe/elasticity.hpp"
 #include "reduce/fe/weighted_nodes.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
@@ -45,9 +46,7 @@ AddedMass put_on(const Solid& solid, const MassRequest& request, const std::stri
   check_position(position, result.surface, solid.mesh);
   Interface centre;
   centre.position = position.value_or(result.surface.centroid);
-  result.loads.resize(3 * static_cast<Eigen::Index>(result.surface.nodes.size()), 6);
-  for (int axis = 0; axis < 6; ++axis)
-    result.loads.col(axis) = spread_unit_load(result.surface, centre, axis).reshaped();
+  result.loads = spread_unit_loads(result.surface, centre);
   result.name = request.name;
   result.mass = request.mass;
   result.position = centre.position;
@@ -115,15 +114,14 @@ void AddedMasses::add_linear_inertia(const Eigen::Vector3d& centre, RowMatrix& i
 }
 
 void AddedMasses::add_inertia_components(const RowMatrix& shapes, std::array<Eigen::MatrixXd, 6>& components) const {
-  constexpr std::array<std::array<int, 2>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   for (const AddedMass& mass : masses_) {
     const Eigen::MatrixXd motion = mass.motion(shapes);
     const Eigen::Matrix3d second = mass.second_moment();
     std::array<Eigen::MatrixXd, 3> turned;  // rows: the displacement of direction k per unit of xi
     for (int k = 0; k < 3; ++k)
       turned[static_cast<std::size_t>(k)] = skew(Eigen::Vector3d::Unit(k)) * motion.bottomRows<3>();
-    for (std::size_t s = 0; s < order.size(); ++s) {
-      const auto [k, l] = order[s];
+    for (std::size_t s = 0; s < voigt_pairs.size(); ++s) {
+      const auto [k, l] = voigt_pairs[s];
       const Eigen::MatrixXd along_l = second * turned[static_cast<std::size_t>(l)];
       components[s] += mass.mass * motion.row(k).transpose() * motion.row(l);
       components[s] += transposed_product(turned[static_cast<std::size_t>(k)], along_l);

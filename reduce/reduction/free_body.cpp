@@ -7,6 +7,7 @@
 
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
+#include "reduce/fe/elasticity.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/reduction/tie_second_order.hpp"
@@ -14,8 +15,6 @@
 namespace bielle::reduce {
 
 namespace {
-
-constexpr std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
 /// Acceleration a0 + A r [m/s^2 per unit of the load] and the load that belongs to it.
 struct FreeBodyLoad {
@@ -59,7 +58,7 @@ std::vector<Direction> kept_directions(const std::vector<Interface>& interfaces)
 
 std::vector<FreeBodyLoad> all_loads(const std::vector<Interface>& interfaces, const MassProperties& body) {
   std::vector<FreeBodyLoad> loads;
-  for (const auto& [k, l] : pairs) {
+  for (const auto& [k, l] : voigt_pairs) {
     loads.push_back(spin_load(k, l, body));
   }
   for (const Direction direction : kept_directions(interfaces)) {
@@ -109,7 +108,7 @@ GeometricStiffness geometric_stiffness(const Solid& solid, const BodyMatrices& m
                                        const Eigen::MatrixXd& reduced_stiffness, bool with_loads, Progress& progress) {
   std::vector<FreeBodyLoad> loads = all_loads(ties.interfaces, body);
   if (!with_loads) {
-    loads.resize(pairs.size());
+    loads.resize(voigt_pairs.size());
   }
   const auto count = static_cast<Eigen::Index>(loads.size());
   const Eigen::Index kept = basis.kept();

@@ -28,9 +28,7 @@ TiedPoint tie_to_surface(const Solid& solid, const PointRequest& request) {
   check_position(request.position, surface, solid.mesh);
   Interface node;
   node.position = request.position.value_or(surface.centroid);
-  Eigen::MatrixXd loads(3 * surface.nodes.size(), 6);
-  for (int axis = 0; axis < 6; ++axis) loads.col(axis) = spread_unit_load(surface, node, axis).reshaped();
-  return {request, node.position, on_points(solid.points(), surface.nodes, loads)};
+  return {request, node.position, on_points(solid.points(), surface.nodes, spread_unit_loads(surface, node))};
 }
 
 /// Points of the mesh outside the solid do not move with it and are not used.

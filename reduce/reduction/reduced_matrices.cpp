@@ -8,6 +8,7 @@
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/orthogonal_factors.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
+#include "reduce/fe/elasticity.hpp"
 
 namespace bielle::reduce {
 
@@ -31,10 +32,9 @@ Eigen::MatrixXd inner_products(const RowMatrix& a, const RowMatrix& b) { return 
 
 std::array<Eigen::MatrixXd, 6> inertia_components(const RowMatrix& shapes, const BodyMatrices& matrices) {
   const RowMatrix products = matrices.mesh_mass_times(shapes);
-  constexpr std::array<std::array<int, 2>, 6> order{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   std::array<Eigen::MatrixXd, 6> result;
   for (std::size_t s = 0; s < 6; ++s) {
-    const auto [k, l] = order[s];
+    const auto [k, l] = voigt_pairs[s];
     result[s] = strided_product(shapes, k, products, l, 3);
     if (k == l) {
       result[s] = Eigen::MatrixXd(result[s] + result[s].transpose()) / 2;

@@ -176,6 +176,12 @@ Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interfa
          skew(polar_moment(surface).inverse() * moment) * surface.first_moments;
 }
 
+Eigen::MatrixXd spread_unit_loads(const SurfaceIntegrals& surface, const Interface& interface) {
+  Eigen::MatrixXd loads(3 * static_cast<Eigen::Index>(surface.nodes.size()), 6);
+  for (int axis = 0; axis < 6; ++axis) loads.col(axis) = spread_unit_load(surface, interface, axis).reshaped();
+  return loads;
+}
+
 void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh) {
   const double size = (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm();
   const double arm = position ? (*position - surface.centroid).norm() : 0;
