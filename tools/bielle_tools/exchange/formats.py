@@ -1,0 +1,52 @@
+"""The formats of matrices, each a module, chosen by the ending of a file and by its first bytes.
+
+A module that reads has `read(path, options)`, which returns a MatrixSet; one that writes has `write(matrices, path, options)`,
+which may write several files and returns their paths. `options` are those of the command (`Options`).
+"""
+
+import importlib
+import os
+from dataclasses import dataclass, field
+
+from ..messages import InputError, did_you_mean
+
+# By name: module, endings. The first format that has the ending and recognises the file reads it (`recognises(path)`, where the
+# module has it).
+FORMATS = {
+    "superelement": ("superelement_set", [".h5"]),
+    "matrices": ("matrix_file", [".h5"]),
+}
+
+
+@dataclass
+class Options:
+    """The options of the command that a format may use."""
+
+    format: str = ""                       # name of the format; empty: by the file
+    nodes: str = ""                        # another file with the nodes (a deck, a table)
+    mass: str = ""                         # another file with the mass matrix
+    names: dict[str, str] = field(default_factory=dict)  # names of matrices in the file: {"stiffness": "KAAX", "mass": "MAAX"}
+    name: str = ""                         # name of the body
+
+
+def module_of(name):
+    """@raises InputError with the nearest name"""
+    if name not in FORMATS:
+        raise InputError(f"there is no format '{name}'{did_you_mean(name, FORMATS)}")
+    return importlib.import_module("." + FORMATS[name][0], __package__)
+
+
+def format_of(path, chosen="", writing=False):
+    """Name of the format of a file. @raises InputError when none has its ending"""
+    if chosen:
+        module_of(chosen)
+        return chosen
+    ending = os.path.splitext(path)[1].lower()
+    for name, (_, endings) in FORMATS.items():
+        if ending not in endings:
+            continue
+        module = module_of(name)
+        if hasattr(module, "write" if writing else "read") and (writing or not hasattr(module, "recognises") or module.recognises(path)):
+            return name
+    known = ", ".join(sorted({ending for _, endings in FORMATS.values() for ending in endings}))
+    raise InputError(f"'{path}': no format of matrices is known by this ending; known ones: {known}")

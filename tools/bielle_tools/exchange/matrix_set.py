@@ -1,0 +1,111 @@
+"""Stiffness and mass of a body as another program wrote them, full or reduced: the one model that all formats share."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import scipy.sparse
+
+from ..messages import InputError, counted
+
+COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
+
+
+@dataclass
+class Shapes:
+    """Displacements inside a body as functions of its unknowns, and the masses there if the file has them."""
+
+    numbers: np.ndarray                  # (p) the file's numbers of the points
+    points: np.ndarray                   # (p,3)
+    displacement: np.ndarray             # (3p,n): rows x y z of the first point, of the second ..., body axes
+    rotation: np.ndarray | None = None   # (3p,n): the same for rotations
+    masses: np.ndarray | None = None     # (p) point masses, whose sum is the body's mass
+    inertias: np.ndarray | None = None   # (p,3,3) about each point, body axes
+    cells: dict[int, np.ndarray] = field(default_factory=dict)  # by gmsh's element type: (cells, nodes), rows of `points`
+
+
+@dataclass
+class MassProperties:
+    """Mass properties that a file gives besides the matrices."""
+
+    mass: float
+    centre: np.ndarray          # (3)
+    inertia: np.ndarray         # (3,3) about the centre, body axes: positive moments, negative products
+
+
+@dataclass
+class MatrixSet:
+    """Matrices over n unknowns: displacements and rotations of nodes, and scalar coordinates (modal amplitudes).
+
+    All numbers are those of the file, in its units. Matrices hold both triangles as the file gives them (a file that
+    gives one triangle means a symmetric matrix), so that a check can find a matrix that is not symmetric.
+    """
+
+    name: str
+    source: str                         # format and file, for messages: "Nastran DMIG, arm.pch"
+    numbers: np.ndarray                 # (N) numbers of the nodes in the file
+    positions: np.ndarray               # (N,3) in body axes
+    unknown_nodes: np.ndarray           # (n) row of the node in `numbers`; -1: a scalar coordinate
+    unknown_components: np.ndarray      # (n) 0 to 5: x y z rx ry rz in the axes of the node; scalars: their count from 0
+    stiffness: Any                      # (n,n) scipy.sparse
+    mass: Any                           # (n,n) scipy.sparse
+    axes: np.ndarray | None = None      # (N,3,3) columns: directions of the axes of each node in the body; None: the body's
+    damping: Any = None                 # (n,n) scipy.sparse, viscous
+    geometric_stiffness: Any = None     # (n,n) scipy.sparse, of a load that the file does not tell
+    interfaces: dict[str, int] = field(default_factory=dict)  # rows of nodes that the file itself declares as interfaces, by name
+    inertia_components: np.ndarray | None = None  # (6,n,n) S_11 S_22 S_33 S_23 S_13 S_12, if the file has them
+    mass_properties: MassProperties | None = None
+    shapes: Shapes | None = None
+    length_unit: str | None = None      # as `length_unit` of a body file, if the file declares one
+    mass_unit: str | None = None        # as `mass_unit` of a body file
+    notes: list[str] = field(default_factory=list)  # whatever was left out
+
+    @property
+    def size(self):
+        """Number of unknowns."""
+        return len(self.unknown_nodes)
+
+    @property
+    def scalars(self):
+        """Number of scalar coordinates."""
+        return int(np.count_nonzero(self.unknown_nodes < 0))
+
+    def check(self):
+        """@raises InputError when shapes do not fit, an unknown stands twice, or numbers are not finite."""
+        n, nodes = self.size, len(self.numbers)
+        if n == 0:
+            raise InputError("holds no unknowns")
+        if self.positions.shape != (nodes, 3) or not np.isfinite(self.positions).all():
+            raise InputError("holds positions of nodes that are no numbers")
+        for name, matrix in self.matrices().items():
+            if matrix.shape != (n, n):
+                raise InputError(f"the {name} has {matrix.shape[0]} x {matrix.shape[1]} entries for {counted(n, 'unknown')}")
+            if not np.isfinite(matrix.data).all():
+                raise InputError(f"the {name} holds numbers that are not finite")
+        places = list(zip(self.unknown_nodes, self.unknown_components))
+        if len(set(places)) < n:
+            twice = next(place for place in places if places.count(place) > 1)
+            raise InputError(f"the unknown {self.name_of(*twice)} stands twice")
+
+    def matrices(self):
+        """The matrices that there are, by name."""
+        named = {"stiffness": self.stiffness, "mass": self.mass, "damping": self.damping,
+                 "geometric stiffness": self.geometric_stiffness}
+        return {name: matrix for name, matrix in named.items() if matrix is not None}
+
+    def name_of(self, node, component):
+        """Name of an unknown, as messages show it."""
+        return f"scalar {component + 1}" if node < 0 else f"node {self.numbers[node]} {COMPONENTS[component]}"
+
+
+def sparse(matrix):
+    """A matrix of any kind as scipy.sparse, without stored zeros."""
+    result = scipy.sparse.csr_matrix(matrix, dtype=float)
+    result.eliminate_zeros()
+    return result
+
+
+def mirrored(triangle):
+    """The symmetric matrix of which one triangle is given (scipy.sparse), whichever it is."""
+    triangle = sparse(triangle)
+    return sparse(triangle + triangle.T - scipy.sparse.diags(triangle.diagonal()))

@@ -1,0 +1,35 @@
+"""A superelement file as a MatrixSet: interfaces are its nodes, modes its scalar coordinates."""
+
+import os
+
+import h5py
+import numpy as np
+
+from ..messages import InputError
+from .matrix_set import MassProperties, MatrixSet, Shapes, sparse
+
+
+def read(path):
+    """@raises InputError for a body in pieces, and for interfaces that are not held in whole."""
+    with h5py.File(path) as file:
+        if file.attrs.get("format") != "bielle superelement":
+            raise InputError(f"'{path}' is no superelement of one piece")
+        kept = file["interface/dofs"][()].astype(bool)
+        nodes, components = np.nonzero(kept)
+        modes = len(file["reduced/stiffness"]) - len(nodes)
+        shapes = None
+        if "recovery/displacement" in file:
+            points = file["mesh/points"][()]
+            shapes = Shapes(numbers=np.arange(1, len(points) + 1), points=points, displacement=file["recovery/displacement"][()],
+                            cells={int(kind): cells[()] for kind, cells in file["mesh/cells"].items()})
+        names = file["interface/names"].asstr()[()]
+        return MatrixSet(
+            name=file.attrs["name"], source=f"superelement, {os.path.basename(path)}",
+            numbers=np.arange(1, len(names) + 1), positions=file["interface/positions"][()], axes=file["interface/rotations"][()],
+            unknown_nodes=np.concatenate([nodes, np.full(modes, -1)]),
+            unknown_components=np.concatenate([components, np.arange(modes)]),
+            stiffness=sparse(file["reduced/stiffness"][()]), mass=sparse(file["reduced/mass"][()]),
+            damping=sparse(file["reduced/damping"][()]), inertia_components=file["reduced/inertia_components"][()],
+            interfaces={name: k for k, name in enumerate(names)},
+            mass_properties=MassProperties(*(file[f"mass_properties/{name}"][()] for name in ("mass", "centre", "inertia"))),
+            shapes=shapes, length_unit="m", mass_unit="kg")
