@@ -6,16 +6,15 @@
 #include <fmt/format.h>
 
 #include "reduce/dense/dense_products.hpp"
-#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/fe/elasticity.hpp"
+#include "reduce/matrices/shown_moments.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
 
 namespace {
 
-/// Deviation in rigid motions, relative to M~, up to which the nodes' blocks count as those of rigid clouds.
-constexpr double rigid_clouds = 1e-6;
+constexpr Eigen::Index fewest_points = 10;  // of shapes that tell directions inside
 
 Eigen::MatrixXd sum_of(const std::array<Eigen::MatrixXd, 6>& components) {
   return components[0] + components[1] + components[2];
@@ -42,14 +41,29 @@ double largest_share(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& mass, c
   return result;
 }
 
-/// Whether M's blocks between nodes explain the rigid motions of the body.
-bool explains_rigid_motions(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass,
-                            const Eigen::MatrixXd& rigid) {
-  const Eigen::MatrixXd rest = congruent(mass - sum_of(components), rigid), whole = congruent(mass, rigid);
-  for (Eigen::Index k = 0; k < 6; ++k)
-    for (Eigen::Index l = 0; l < 6; ++l)
-      if (std::abs(rest(k, l)) > rigid_clouds * std::sqrt(whole(k, k) * whole(l, l))) return false;
-  return true;
+/// Whether components add up to M~ to the digits of text formats.
+bool add_up(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass) {
+  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+  return (scale.asDiagonal() * (mass - sum_of(components)) * scale.asDiagonal()).cwiseAbs().maxCoeff() < 1e-6;
+}
+
+/// S_kl of equal point masses at the points of the shapes.
+std::array<Eigen::MatrixXd, 6> equal_masses(NodalShapes points, const Eigen::MatrixXd& shapes, double mass) {
+  points.masses.setConstant(points.points.cols(), mass / static_cast<double>(points.points.cols()));
+  points.inertias.clear();
+  return inertia_of_points(points, product(points.displacement, shapes), {});
+}
+
+/// Replaces the moments of the nodes by those that the interfaces show in full.
+void take_shown(const ShownMoments& shown, RestMoments& moments) {
+  constexpr double in_full = 0.9;
+  RestMoments principal = turned_moments(moments, shown.axes);
+  for (std::size_t s = 0; s < 6; ++s) {
+    if (shown.shares[s] < in_full) continue;
+    const auto k = static_cast<std::size_t>(voigt_pairs[s][0]), l = static_cast<std::size_t>(voigt_pairs[s][1]);
+    principal[k][l] = principal[l][k] = shown.moments[s];
+  }
+  moments = turned_moments(principal, shown.axes.transpose());
 }
 
 }  // namespace
@@ -91,21 +105,27 @@ std::string BodyInertia::told() const {
           "{:.2g} % of the kinetic energy of free modes open",
           100 * unknown_share);
     case InertiaSource::nodes:
+      return "the inertia of large rotations is that of the nodes";
+    case InertiaSource::equal_masses:
       return fmt::format(
-          "the inertia of large rotations is that of the nodes; the mass matrix has up to {:.2g} % of "
-          "the kinetic energy of free modes in terms that do not turn with the body",
-          100 * unknown_share);
+          "the inertia of large rotations is an estimate with the directions of the file's shapes, as if "
+          "their points had equal masses; that of the rigid body is exact{}",
+          unknown_share < 0.01 ? ""
+                               : fmt::format(", and of the kinetic energy of a free mode up to {:.0f} % has "
+                                             "no known direction",
+                                             100 * unknown_share));
     case InertiaSource::estimate: {
       const auto percent = [&](std::size_t k) {
-        return shown[k] < 0 ? std::string("none needed") : fmt::format("{:.0f} %", 100 * shown[k]);
+        return shown[k] < 0 ? std::string("(none needed)") : fmt::format("{:.0f} %", 100 * shown[k]);
       };
       return fmt::format(
-          "the inertia of large rotations is an estimate, since reduced matrices alone do not tell in which direction "
-          "the inside moves: exact for the rigid body; the change of inertia with stretching along the principal axes "
-          "is "
-          "known to {}, {}, {}; of the kinetic energy of a free mode up to {:.0f} % has no known direction, so that "
-          "its "
-          "gyroscopic terms are left out. Shapes with point masses, or full matrices, make it exact",
+          "the inertia of large rotations is an estimate: reduced matrices do not tell in which direction the inside "
+          "moves. "
+          "That of the rigid body is exact; its change by stretching along the principal axes is shown by the "
+          "interfaces to "
+          "{}, {} and {}; of the kinetic energy of a free mode up to {:.0f} % has no known direction, and its "
+          "gyroscopic "
+          "terms are left out. Full matrices, or shapes with point masses, make it exact",
           percent(0), percent(1), percent(2), 100 * unknown_share);
     }
   }
@@ -125,12 +145,24 @@ BodyInertia body_inertia(const MatrixSet& set, const Eigen::MatrixXd& shapes, co
         inertia_of_points(points, product(points.displacement, shapes),
                           points.rotation.size() > 0 ? product(points.rotation, shapes) : Eigen::MatrixXd());
   } else {
-    result.source = InertiaSource::nodes;
-    result.components = inertia_of_nodes(set, shapes);
-    if (set.scalars() > 0 || !explains_rigid_motions(result.components, mass, rigid)) {
-      result.source = InertiaSource::estimate;
-      result.components = estimated_inertia(interfaces, mass, body, rigid, result.shown);
+    std::array<Eigen::MatrixXd, 6> known = inertia_of_nodes(set, shapes);
+    const RigidSplit split = split_rigid(mass, body, rigid);
+    result.source = add_up(known, mass) ? InertiaSource::nodes : InertiaSource::estimate;
+    const bool has_shapes = set.shapes && set.shapes->points.cols() >= fewest_points;
+    if (result.source == InertiaSource::estimate && has_shapes) {
+      result.source = InertiaSource::equal_masses;
+      known = equal_masses(*set.shapes, shapes, body.mass);
     }
+    RestInertia rest = rest_inertia(known, mass, split);
+    if (result.source == InertiaSource::estimate) {
+      const ShownMoments shown = shown_moments(interfaces, mass, body.centre, split);
+      take_shown(shown, rest.moments);
+      result.shown = shown.shares;
+    }
+    result.components = joined_inertia(split, rest, mass);
+    complete(result.components, mass);
+    result.unknown_share = modes.cols() > 0 ? largest_share(rest.open, mass, modes) : 0;
+    return result;
   }
   const Eigen::MatrixXd rest = complete(result.components, mass);
   result.unknown_share = modes.cols() > 0 ? largest_share(rest, mass, modes) : 0;

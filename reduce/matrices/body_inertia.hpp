@@ -4,15 +4,15 @@
 // this order, from
 //   the file      where it has them;
 //   its shapes    with point masses: S_kl = sum over points of m u_k u_l, rotary inertia as a cloud of mass;
-//   the nodes     of full matrices: a block of M between two nodes is that of mass at rigid clouds around them. With
-//                 unknowns of a displacement field it is m I exactly (nodal-based inertia: A. Zwoelfer, J. Gerstmayr,
-//                 "A concise nodal-based derivation of the floating frame of reference formulation for displacement-
-//                 based solid finite elements", Multibody Syst. Dyn. 49 (2020) 291);
-//   an estimate   for reduced matrices alone. A deformation is split into its rigid part, which M~ and the positions of
-//                 the interfaces know exactly, and the rest d. Of d the moments N_kl = integral of rho x_k d_l, which
-//                 change the inertia to first order, are those with the symmetric linear fields as far as the
-//                 interfaces can show these. Each direction gets a third of the energy that remains.
-// All four sum up to M~: where they do not, each direction gets a third of the difference.
+//   the nodes     a block of M between two nodes is that of mass at rigid clouds around them. With unknowns of a
+//                 displacement field it is m I exactly (nodal-based inertia: A. Zwoelfer, J. Gerstmayr, "A concise
+//                 nodal-based derivation of the floating frame of reference formulation for displacement-based solid
+//                 finite elements", Multibody Syst. Dyn. 49 (2020) 291);
+//   an estimate   for reduced matrices. The rigid part is that of M~ (rigid_split.hpp). The rest has the directions of
+//   the
+//                 nodes, or of shapes without masses, as far as these explain its energy; each direction gets a third
+//                 of what remains. Moments that change the inertia to first order are those that the interfaces show
+//                 (shown_moments.hpp).
 #pragma once
 
 #include <array>
@@ -26,18 +26,15 @@
 
 namespace bielle::reduce {
 
-enum class InertiaSource { file, shapes, nodes, estimate };
+enum class InertiaSource { file, shapes, nodes, equal_masses, estimate };
 
 struct BodyInertia {
   std::array<Eigen::MatrixXd, 6> components;  ///< S_11 S_22 S_33 S_23 S_13 S_12, (N,N)
   InertiaSource source = InertiaSource::file;
-  /// Share of the kinetic energy of the elastic motions whose direction is not known: the largest over free elastic
-  /// modes, 0 to 1.
+  /// Largest share of the kinetic energy of a free elastic mode whose direction is not known, 0 to 1.
   double unknown_share = 0;
-  /// Of an estimate: shares of the fields xx yy zz yz xz xy (principal axes of inertia) that the interfaces can show,
-  /// by which the inertia changes with the deformation; -1 for a body that is thin there.
-  std::array<double, 6> shown = {1, 1, 1, 1, 1, 1};
-  std::string told() const;  ///< a sentence or two for the user
+  std::array<double, 6> shown{};  ///< of an estimate: as ShownMoments::shares
+  std::string told() const;       ///< a sentence or two for the user
 };
 
 /// @param shapes  T (n,N): the unknowns in terms of the reduced coordinates
@@ -53,10 +50,5 @@ std::array<Eigen::MatrixXd, 6> inertia_of_points(const NodalShapes& points, cons
 
 /// S_kl of the nodes' blocks of M. @param shapes  T (n,N)
 std::array<Eigen::MatrixXd, 6> inertia_of_nodes(const MatrixSet& set, const Eigen::MatrixXd& shapes);
-
-/// S_kl from M~, rigid motions and the positions of the interfaces. @param shown  see BodyInertia
-std::array<Eigen::MatrixXd, 6> estimated_inertia(const std::vector<Interface>& interfaces, const Eigen::MatrixXd& mass,
-                                                 const MassProperties& body, const Eigen::MatrixXd& rigid,
-                                                 std::array<double, 6>& shown);
 
 }  // namespace bielle::reduce

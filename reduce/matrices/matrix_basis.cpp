@@ -8,6 +8,7 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/leading_component.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/matrices/reduce_matrices.hpp"
@@ -40,11 +41,8 @@ Eigenpairs all_modes(const HeldMatrices& held) {
   result.values = pairs.values.tail(count).reverse().cwiseInverse();
   result.vectors = product(moved, pairs.vectors.rightCols(count).rowwise().reverse());
   result.vectors = Eigen::MatrixXd(result.vectors * result.values.asDiagonal());
-  for (Eigen::Index k = 0; k < count; ++k) {
-    Eigen::Index largest = 0;
-    result.vectors.col(k).cwiseAbs().maxCoeff(&largest);
-    if (result.vectors(largest, k) < 0) result.vectors.col(k) *= -1;
-  }
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (leading_component(result.vectors.col(k)) < 0) result.vectors.col(k) *= -1;
   return result;
 }
 
