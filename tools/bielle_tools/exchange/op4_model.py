@@ -40,7 +40,7 @@ class Header:
         return 1 if self.kind in (1, 3) else 2
 
 
-@dataclass
+@dataclass(eq=False)
 class Op4Matrix:
     """A matrix by its entries."""
 
