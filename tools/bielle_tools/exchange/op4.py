@@ -7,7 +7,7 @@ points in their own axes.
 
 import os
 
-from ..messages import InputError, counted, note
+from ..messages import InputError, counted
 from ..nastran_cards import read_cards
 from . import op4_binary, op4_text
 from .matrix_set import mirrored, sparse
@@ -25,12 +25,14 @@ def read(path, options):
     """@returns MatrixSet @raises InputError"""
     found = _matrices(path)
     chosen = matrices_by_role(found, _matrices(options.mass) if options.mass else {}, options, path)
-    deck = Deck(read_cards(_nodes(path, options)))
+    nodes = options.nodes or _nodes_beside(path)
+    deck = Deck(read_cards(nodes))
     unknowns = _order(deck, chosen["stiffness"], path)
     # One row of zeros stands for a matrix that does not exist.
     empty = [matrix for matrix in found.values() if matrix.entries.shape[0] == 1 != len(unknowns) and not matrix.entries.nnz]
     chosen = {role: matrix for role, matrix in chosen.items() if matrix not in empty}
-    notes = left_out({name: matrix for name, matrix in found.items() if matrix not in empty}, chosen)
+    notes = [] if options.nodes else [f"the order of the unknowns is that of '{nodes}'"]
+    notes += left_out({name: matrix for name, matrix in found.items() if matrix not in empty}, chosen)
     members = {role: _square(matrix, len(unknowns), path, notes) for role, matrix in chosen.items() if role != "shapes"}
     if "shapes" in chosen:
         members["shapes"], more = _shapes(deck, chosen["shapes"], len(unknowns), path)
@@ -56,15 +58,12 @@ def _matrices(path):
     return found
 
 
-def _nodes(path, options):
-    if options.nodes:
-        return options.nodes
-    beside = nodes_beside(path)
-    if not os.path.isfile(beside):
+def _nodes_beside(path):
+    nodes = nodes_beside(path)
+    if not os.path.isfile(nodes):
         raise InputError(f"'{path}': an OUTPUT4 file does not name its unknowns: --nodes DECK gives the deck with GRID, SPOINT and ASET "
-                         f"(there is no '{os.path.basename(beside)}' beside it)")
-    note(f"the order of the unknowns is that of '{beside}'")
-    return beside
+                         f"(there is no '{os.path.basename(nodes)}' beside it)")
+    return nodes
 
 
 def _order(deck, stiffness, path):
