@@ -132,7 +132,12 @@ class Dmig(Decks):
         head = "\n".join(line for line in head.splitlines() if "SET1" not in line) + "\n"
         found = self.read(many + head + columns + "DMIG    MAAX" + tail)
         self.assertEqual((len(found.numbers), found.interfaces), (62, {}))
-        self.assertIn("the deck has no ASET, and more nodes than interfaces can be: the body file has to name them", found.notes)
+        self.assertIn("neither BSET nor ASET of the deck tells which nodes are interfaces: the body file has to name them", found.notes)
+        every = "ASET1,1,20,THRU,79\nASET1,1,1,2\n"
+        deck = many + head.replace("DMIG    KAAX           0", every + "DMIG    KAAX           0") + columns + "DMIG    MAAX" + tail
+        self.assertEqual(self.read(deck).interfaces, {})  # all are in the a-set, which tells nothing
+        self.assertEqual(len(self.read(deck + "QSET1,0,11\n").interfaces), 62)  # unless the body has modes
+        self.assertEqual(self.read(deck + "BSET1,1,30,2\n").interfaces, {"node_2": 1, "node_30": 12})
 
     def test_refused_cards(self):
         header = "DMIG    KAAX           0       6       2       0\n"
@@ -177,8 +182,8 @@ class Dmig(Decks):
             self.assertLessEqual(len(written), 16)
             self.assertIn(".", written)
             self.assertLessEqual(abs(number_of(written) - value), 5e-10 * abs(value) if abs(value) < 1e-99 else 5.01e-11 * abs(value), written)
-            if 1e-3 <= abs(value) < 1e14:
-                self.assertLessEqual(abs(number_of(written) - value), 5.01e-14 * 10 * abs(value), written)
+            if 1 <= abs(value) < 1e13:  # 14 digits and more
+                self.assertLessEqual(abs(number_of(written) - value), 5.01e-14 * abs(value), written)
 
 
 class RoundTrips(Decks):
@@ -209,6 +214,14 @@ class RoundTrips(Decks):
         assert_same(self, dmig.read(self.path("body.pch"), Options()), body, 1e-11)
         op4.write(body, self.path("body.op4"), Options())
         assert_same(self, op4.read(self.path("body.op4"), Options()), body, 0)
+
+    def test_interfaces_among_nodes(self):
+        body = beam(*STEEL)
+        body.interfaces = {"tip": 1}
+        dmig.write(body, self.path("body.pch"))
+        self.assertEqual(dmig.read(self.path("body.pch"), Options()).interfaces, {"node_12": 1})
+        op4.write(body, self.path("body.op4"), Options())
+        self.assertEqual(op4.read(self.path("body.op4"), Options()).interfaces, {"node_12": 1})
 
     def test_numbers_of_points(self):
         body = with_modes(beam(*STEEL))

@@ -9,7 +9,7 @@ from .nastran_deck import SYMMETRIC, Numbering, form_of, left_out_of_deck, numbe
 
 NAMES = {"stiffness": "KAAX", "mass": "MAAX", "damping": "BAAX", "geometric_stiffness": "KDAAX"}
 SHAPES, RECTANGULAR = "MUG1", 9
-MOST_POINTS = 5000  # of shapes
+MOST_POINTS = 5000  # the shapes at more of them are left out
 
 
 def write(matrices, path, _options=None):

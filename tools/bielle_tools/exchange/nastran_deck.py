@@ -1,4 +1,5 @@
-"""A deck of Nastran with the points and the unknowns of a MatrixSet, as EXTSEOUT writes it: GRID, CORD2R, SPOINT, ASET1, QSET1."""
+"""A deck of Nastran with the points and the unknowns of a MatrixSet, as EXTSEOUT writes it: GRID, CORD2R, SPOINT,
+ASET1, QSET1, and BSET1 if some of the nodes are interfaces."""
 
 import numpy as np
 import scipy.sparse
@@ -93,17 +94,21 @@ def point_cards(matrices, numbering, shapes):
         if number not in nodes:
             lines += wide("GRID", number, 0, *position, 0)
     lines += narrow("SPOINT", numbering.scalars)
-    return lines + set_cards(numbering.sorted_pairs(matrices)[0])
+    held = {numbering.nodes[row] for row in matrices.interfaces.values()}
+    return lines + set_cards(numbering.sorted_pairs(matrices)[0], held if len(held) < len(nodes) else set())
 
 
-def set_cards(pairs):
-    """ASET1 of the components of nodes, QSET1 of the scalar coordinates. @param pairs: in Nastran's order"""
-    lines, components = [], {}
+def set_cards(pairs, held):
+    """BSET1 of the components of the nodes in `held`, ASET1 of those of the others, QSET1 of the scalar coordinates.
+    @param pairs: in Nastran's order"""
+    components = {}
     for number, component in pairs:
         if component != SCALAR:
-            components.setdefault(number, []).append(str(component))
-    for text in sorted({"".join(digits) for digits in components.values()}):
-        lines += narrow("ASET1", [number for number, digits in components.items() if "".join(digits) == text], text)
+            components[number] = components.get(number, "") + str(component)
+    lines = []
+    for name, members in (("BSET1", held), ("ASET1", set(components) - held)):
+        for text in sorted({components[number] for number in members if number in components}):
+            lines += narrow(name, sorted(number for number in members if components.get(number) == text), text)
     return lines + narrow("QSET1", [number for number, component in pairs if component == SCALAR], "0")
 
 

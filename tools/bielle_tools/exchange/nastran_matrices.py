@@ -15,7 +15,7 @@ def matrix_set(deck, unknowns, matrices, options, path, source):
                        **arrays_of(deck, unknowns), **matrices)
     result.notes += deck.notes
     if not result.interfaces:
-        result.notes.append("the deck has no ASET, and more nodes than interfaces can be: the body file has to name them")
+        result.notes.append("neither BSET nor ASET of the deck tells which nodes are interfaces: the body file has to name them")
     return result
 
 

@@ -19,13 +19,14 @@ MOST_INTERFACES = 50                                   # more nodes than these a
 
 
 class Deck:
-    """Points of a deck. a_set: its unknowns in the analysis set; modal: those in the q-set; scalars: scalar points."""
+    """Points of a deck. a_set: its unknowns in the analysis set; held: those in the b-set, the ends of the modes; modal: those
+    in the q-set; scalars: scalar points."""
 
     def __init__(self, cards):
         """@raises InputError with file and line"""
         self.cards = cards
         self.grids = Grids(cards)
-        self.scalars, self.a_set, self.modal = set(), set(), set()
+        self.scalars, self.a_set, self.held, self.modal = set(), set(), set(), set()
         for card in cards:
             if card.name == "SPOINT":
                 self.scalars.update(_numbers(card, 1, None))
@@ -81,6 +82,8 @@ class Deck:
             self.a_set |= pairs
             if card.name.startswith("QSET"):
                 self.modal |= pairs
+            if card.name.startswith("BSET"):
+                self.held |= pairs
 
 
 def arrays_of(deck, unknowns):
@@ -100,9 +103,13 @@ def arrays_of(deck, unknowns):
 
 
 def _interfaces(deck, rows):
-    """Numbers of the grid points of the a-set, or of all with unknowns unless they are many."""
-    declared = sorted({number for number, component in deck.a_set - deck.modal if component != SCALAR and number in rows})
-    return declared or (rows if len(rows) <= MOST_INTERFACES else [])
+    """Numbers of the grid points that are interfaces: those of the b-set, or else of the a-set. If these are all that have
+    unknowns, they are interfaces of a body with modes, or if they are few."""
+    for members in (deck.held, deck.a_set - deck.modal):
+        declared = sorted({number for number, component in members if component != SCALAR and number in rows})
+        if declared and (len(declared) < len(rows) or deck.modal):
+            return declared
+    return rows if len(rows) <= MOST_INTERFACES else []
 
 
 def _number(card, k):
