@@ -80,7 +80,7 @@ class Numbering:
 
 def point_cards(matrices, numbering, shapes):
     """Lines of the points and of the sets of unknowns."""
-    lines = []
+    lines = [f"$ {name} is GRID {numbering.nodes[row]}".encode("ascii", "replace").decode() for name, row in matrices.interfaces.items()]
     systems = {}
     for k, number in enumerate(numbering.nodes):
         if matrices.axes is not None and (matrices.axes[k] != np.eye(3)).any():
