@@ -149,6 +149,8 @@ class Dmig(Decks):
                 (SMALL.replace("6       2       0\nDMIG    KAAX", "6       7       0\nDMIG    KAAX"), "expected a type: 1 to 4 in field 5, found '7'"),
                 (SMALL + "DMIG    KAAX           1       1               1       1     10.\n", "the column 1 1 of DMIG KAAX stands twice"),
                 (SMALL.replace("               2       1    -10.", "               1       1    -10."), "the column 1 1 of DMIG KAAX has the row 1 1 twice"),
+                (SMALL.replace("2       1    -10.", "2       7    -10."), "the column 1 1 of DMIG KAAX has the row 2 7; expected a number from 1 on and"),
+                (SMALL.replace("KAAX           1       1", "KAAX           1       8"), "the column 1 8 of DMIG KAAX is none: expected a number from 1 on"),
                 (SMALL.replace("    -10.", "    -1x."), "has an entry of ['2', '1', '-1X.', '']; expected a point, a component, a real"),
                 (SMALL.replace("    -10.", "        "), "has an entry of ['2', '1', '', '']; expected a point"),
                 (SMALL.replace("    -10.", "    -10.      1."), "the stiffness KAAX is complex; only real matrices describe a body"),

@@ -36,6 +36,8 @@ class DmigMatrix:
     def add(self, card):
         """Adds a column."""
         column = (card.integer(2), card.integer(3, 0))
+        if column[0] < 0 or not 0 <= column[1] <= 6:
+            self.fail(card, column, "is none: expected a number from 1 on and a component of 0 to 6")
         if column in self.columns:
             self.fail(card, column, "stands twice")
         self.columns.add(column)
@@ -50,6 +52,8 @@ class DmigMatrix:
                 value = None
             if value is None:
                 self.fail(card, column, f"has an entry of {texts}; expected a point, a component, a real and perhaps an imaginary part")
+            if row[0] <= 0 or not 0 <= row[1] <= 6:
+                self.fail(card, column, f"has the row {row[0]} {row[1]}; expected a number from 1 on and a component of 0 to 6")
             if row in rows:
                 self.fail(card, column, f"has the row {row[0]} {row[1]} twice")
             rows.add(row)

@@ -24,7 +24,7 @@ def wide_number(value):
     texts = [_without_e(f"{value:.{decimals}E}"), _without_e(f"{value:.{decimals - 1}E}")]  # one more digit may round up
     if -4 <= exponent < room - 1:
         fixed = f"{value:#.{room - 1 - max(exponent + 1, 0)}f}"
-        texts.append(fixed.replace("0.", ".", 1) if exponent < 0 else fixed)
+        texts.insert(0, fixed.replace("0.", ".", 1) if exponent < 0 else fixed)
     return min((text for text in texts if len(text) <= WIDE), key=lambda text: abs(number_of(text) - value))
 
 
