@@ -15,6 +15,9 @@ from ..messages import InputError, did_you_mean
 FORMATS = {
     "superelement": ("superelement_set", [".h5"]),
     "matrices": ("matrix_file", [".h5"]),
+    "calculix": ("calculix_matrices", [".sti"]),
+    "abaqus": ("abaqus_matrices", [".mtx"]),
+    "matrix_input": ("abaqus_matrix_input", [".mtx"]),
 }
 
 
@@ -27,6 +30,8 @@ class Options:
     mass: str = ""                         # another file with the mass matrix
     names: dict[str, str] = field(default_factory=dict)  # names of matrices in the file: {"stiffness": "KAAX", "mass": "MAAX"}
     name: str = ""                         # name of the body
+    unknowns: str = ""                     # a table of the order of the unknowns (node, component)
+    interfaces: list[int] = field(default_factory=list)  # numbers of the nodes whose unknowns replace amplitudes of modes
 
 
 def module_of(name):
