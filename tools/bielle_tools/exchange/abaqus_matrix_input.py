@@ -14,6 +14,7 @@ from ..messages import InputError, counted
 from ..text_lines import lines_of
 from .axes import in_body_axes
 from .entries import check_symmetric, matrix_of
+from .job_files import beside, deck_of_nodes, stem, used_nodes
 from .matrix_set import MatrixSet
 from .node_table import places_of, read_nodes, read_unknowns, unknowns_in_order
 from .text_tables import number_rows, whole
@@ -29,8 +30,6 @@ def recognises(path):
 
 def read(path, options):
     """@raises InputError"""
-    from .abaqus_matrices import beside, stem, used_nodes
-
     paths = _files(path, options)
     nodes = read_nodes(options.nodes or beside(re.sub(r"_STIF\d*(\.\w+)$", r"\1", path), (".inp", "_nodes.inp", ".csv")))
     entries = {name: _entries(each) for name, each in paths.items()}
@@ -123,8 +122,6 @@ def _numbered(paths, entries, nodes, options):
 
 def write(matrices, path, options):
     """Writes FILE_STIF1.mtx, FILE_MASS1.mtx and FILE_nodes.inp for FILE.mtx. @returns their paths"""
-    from .abaqus_matrices import deck_of_nodes
-
     matrices = in_body_axes(matrices)
     check_symmetric(matrices)
     labels, deck = deck_of_nodes(matrices)

@@ -11,8 +11,9 @@ import numpy as np
 
 from ..messages import InputError, counted
 from ..text_lines import lines_of
-from .abaqus_matrices import read_substructure, stem, used_nodes, write_substructure
+from .abaqus_matrices import read_substructure, write_substructure
 from .entries import matrix_of
+from .job_files import stem, used_nodes
 from .matrix_set import MatrixSet
 from .node_table import Nodes, places_of, read_nodes
 from .text_tables import number_rows, whole

@@ -18,6 +18,11 @@ FORMATS = {
     "calculix": ("calculix_matrices", [".sti"]),
     "abaqus": ("abaqus_matrices", [".mtx"]),
     "matrix_input": ("abaqus_matrix_input", [".mtx"]),
+    "matrix_market": ("matrix_market", [".mtx"]),
+    "npz": ("npz_matrices", [".npz"]),
+    "exudyn": ("exudyn_modes", [".npz"]),
+    "mbdyn": ("mbdyn_modes", [".fem"]),
+    "simscape": ("simscape_matrices", [".mat"]),
 }
 
 
