@@ -36,6 +36,11 @@ def packed_triangle(matrix):
     return [full[row, :row + 1] for row in range(len(full))]
 
 
+def symmetric_part(matrix):
+    """(A + A^T) / 2 of an array."""
+    return (matrix + matrix.T) / 2
+
+
 def check_symmetric(matrices):
     """@raises InputError if a matrix of a MatrixSet is not symmetric, for formats that hold one triangle"""
     for name, matrix in matrices.matrices().items():
