@@ -23,6 +23,7 @@ FORMATS = {
     "exudyn": ("exudyn_modes", [".npz"]),
     "mbdyn": ("mbdyn_modes", [".fem"]),
     "simscape": ("simscape_matrices", [".mat"]),
+    "fedem": ("fedem_matrices", [".fmx"]),
 }
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..messages import InputError
 from ..text_lines import lines_of
+from .matrix_set import COMPONENTS
 
 
 def first_line(path, comment=None):
@@ -45,3 +46,24 @@ def deck_of_nodes(matrices):
         lines += ["** Their component 1 is a scalar coordinate, an amplitude of a mode.", "*NSET, NSET=SCALARS"]
         lines += [f"{label}," for label in labels[scalar]]
     return labels, "\n".join(lines) + "\n"
+
+
+def node_table_text(matrices):
+    """A table of the nodes (node_table)."""
+    lines = ["node,x,y,z"]
+    lines += [",".join([str(number), *(f"{x:.17g}" for x in position)]) for number, position in zip(matrices.numbers, matrices.positions)]
+    return "\n".join(lines) + "\n"
+
+
+def frames_first(matrices, program):
+    """Rows in the order x y z rx ry rz of each node, then scalars. @param program: for the message
+    @raises InputError when a node lacks some of its six unknowns"""
+    place = {(int(node), int(component)): row for row, (node, component) in
+             enumerate(zip(matrices.unknown_nodes, matrices.unknown_components))}
+    order = []
+    for node, number in enumerate(matrices.numbers):
+        for component, name in enumerate(COMPONENTS):
+            if (node, component) not in place:
+                raise InputError(f"node {number} has no unknown {name}: a node of {program} needs all six")
+            order.append(place[node, component])
+    return order + np.flatnonzero(matrices.unknown_nodes < 0).tolist()

@@ -1,8 +1,8 @@
 """Matrix Market files (.mtx) of the stiffness and the mass, with a table of the nodes.
 
-`options.mass` names the file of the mass (default: that with `stiffness` replaced by `mass` in its name, K by M at its end, or _K by _M),
-`options.nodes` the nodes (node, x, y, z; a deck is possible), `options.unknowns` the order of the rows (node, component); without it, all
-nodes have 3 or 6 unknowns in their order. (NIST, "Matrix Market Exchange Formats".)
+`options.mass` names the file of the mass, `options.nodes` the nodes (node, x, y, z; a deck is possible), `options.unknowns` the order of the
+rows (node, component); without it, all nodes have 3 or 6 unknowns in their order. For ARM_stiffness.mtx the files ARM_mass.mtx,
+ARM_damping.mtx, ARM_nodes.csv and ARM_unknowns.csv need not be named. (NIST, "Matrix Market Exchange Formats".)
 """
 
 import io
@@ -14,12 +14,11 @@ import scipy.io
 from ..messages import InputError, counted
 from ..text_lines import lines_of
 from .axes import in_body_axes
-from .job_files import first_line, stem, used_nodes
+from .job_files import first_line, node_table_text, stem, used_nodes
 from .matrix_set import COMPONENTS, MatrixSet, sparse
 from .node_table import read_nodes, read_unknowns, unknowns_in_order
 
 FAULTS = (ValueError, TypeError, IndexError, OverflowError, KeyError, AttributeError, MemoryError, StopIteration)
-NAMES = ((r"stiffness(?=[^/]*$)", "mass"), (r"K(?=\.\w+$)", "M"), (r"k(?=\.\w+$)", "m"))
 
 
 def recognises(path):
@@ -29,29 +28,33 @@ def recognises(path):
 
 def read(path, options):
     """@raises InputError"""
-    if not options.nodes:
+    table = options.nodes or _beside(path, "nodes", ".csv")
+    if not table:
         raise InputError(f"'{path}': the positions of the nodes are missing: --nodes FILE names a table (node,x,y,z)")
-    stiffness, mass = _matrix(path), _matrix(options.mass or _mass_file(path))
-    size = stiffness.shape[0]
-    if mass.shape != stiffness.shape:
-        raise InputError(f"'{path}': the stiffness has {counted(size, 'row')}, the mass {mass.shape[0]}")
-    nodes = read_nodes(options.nodes)
-    if options.unknowns:
-        place, components = read_unknowns(options.unknowns, nodes.numbers)
+    mass, damping = options.mass or _beside(path, "mass"), _beside(path, "damping")
+    if not mass:
+        raise InputError(f"'{path}': the file of the mass matrix is missing: --mass FILE names it")
+    matrices = {"stiffness": _matrix(path), "mass": _matrix(mass)} | ({"damping": _matrix(damping)} if damping else {})
+    size = matrices["stiffness"].shape[0]
+    for name, matrix in matrices.items():
+        if matrix.shape[0] != size:
+            raise InputError(f"'{path}': the stiffness has {counted(size, 'row')}, the {name} {matrix.shape[0]}")
+    nodes, order = read_nodes(table), options.unknowns or _beside(path, "unknowns", ".csv")
+    if order:
+        place, components = read_unknowns(order, nodes.numbers)
+        if len(place) != size:
+            raise InputError(f"'{order}': has {counted(len(place), 'unknown')} for matrices of {counted(size, 'row')}")
     else:
         place, components = unknowns_in_order(nodes.path, len(nodes.numbers), size)
-    if len(place) != size:
-        raise InputError(f"'{options.unknowns}': has {counted(len(place), 'unknown')} for matrices of {counted(size, 'row')}")
-    return MatrixSet(name=options.name or stem(path), source=f"Matrix Market, {os.path.basename(path)}", stiffness=stiffness, mass=mass,
-                     **used_nodes(nodes, place), unknown_components=components)
+    return MatrixSet(name=options.name or stem(path).removesuffix("_stiffness"), source=f"Matrix Market, {os.path.basename(path)}",
+                     **matrices, **used_nodes(nodes, place), unknown_components=components)
 
 
-def _mass_file(path):
-    for pattern, replacement in NAMES:
-        other = re.sub(pattern, replacement, path)
-        if other != path and os.path.exists(other):
-            return other
-    raise InputError(f"'{path}': the file of the mass matrix is missing: --mass FILE names it")
+def _beside(path, name, ending=None):
+    """The file ARM_name.mtx next to ARM_stiffness.mtx, empty if there is none."""
+    base, own = os.path.splitext(path)
+    other = base.removesuffix("_stiffness") + f"_{name}" + (ending or own)
+    return other if base.endswith("_stiffness") and os.path.exists(other) else ""
 
 
 def _matrix(path):
@@ -86,8 +89,7 @@ def write(matrices, path, options):
         scipy.io.mmwrite(paths[-1], matrix.tocoo(), comment=f" {matrices.name}, of {matrices.source}", precision=17, symmetry="general")
     paths += [base + "_nodes.csv", base + "_unknowns.csv"]
     with open(paths[-2], "w", encoding="utf-8") as file:
-        file.write("node,x,y,z\n")
-        file.writelines(f"{number},{x:.17g},{y:.17g},{z:.17g}\n" for number, (x, y, z) in zip(matrices.numbers, matrices.positions))
+        file.write(node_table_text(matrices))
     with open(paths[-1], "w", encoding="utf-8") as file:
         file.write("node,component\n")
         for node, component in zip(matrices.unknown_nodes, matrices.unknown_components):
