@@ -61,14 +61,19 @@ def recognises(path):
 
 def read(path, options):
     """@raises InputError"""
-    arrays = load(path)
-    for name in arrays:
-        if name not in KEYS:
-            raise InputError(f"'{path}': there is no key '{name}'{did_you_mean(name, KEYS)}")
-    matrices = {attribute: _matrix(path, arrays, name) for name, attribute in MATRICES.items()}
-    for name in ("K", "M", "positions"):
-        if name not in arrays and f"{name}.data" not in arrays:
-            raise InputError(f"'{path}': the array '{name}' is missing")
+    return matrices_of(path, load(path), options.name or stem(path), f"arrays, {os.path.basename(path)}")
+
+
+def matrices_of(path, arrays, name, source):
+    """A MatrixSet of arrays with the keys above. @param path: for messages; name: of the body, unless an array names it
+    @raises InputError"""
+    for key in arrays:
+        if key not in KEYS:
+            raise InputError(f"'{path}': there is no key '{key}'{did_you_mean(key, KEYS)}")
+    matrices = {attribute: _matrix(path, arrays, key) for key, attribute in MATRICES.items()}
+    for key in ("K", "M", "positions"):
+        if key not in arrays and f"{key}.data" not in arrays:
+            raise InputError(f"'{path}': the array '{key}' is missing")
     size = matrices["stiffness"].shape[0]
     positions = _numbers(path, arrays, "positions", (-1, 3))
     count = len(positions)
@@ -79,9 +84,9 @@ def read(path, options):
     names = arrays.get("interface_names", np.array([], str)).reshape(-1)
     interfaces = _rows(path, "interface_nodes", _numbers(path, arrays, "interface_nodes", (len(names),), np.zeros(len(names))), numbers)
     axes = _numbers(path, arrays, "axes", (count, 3, 3)) if "axes" in arrays else None
-    return MatrixSet(name=options.name or _text(arrays, "name") or stem(path), source=f"arrays, {os.path.basename(path)}", numbers=numbers,
-                     positions=positions, axes=axes, unknown_nodes=nodes, unknown_components=components, **matrices,
-                     interfaces={str(name): int(row) for name, row in zip(names, interfaces)}, length_unit=_text(arrays, "length_unit"),
+    return MatrixSet(name=_text(arrays, "name") or name, source=source, numbers=numbers, positions=positions, axes=axes, unknown_nodes=nodes,
+                     unknown_components=components, **matrices,
+                     interfaces={str(each): int(row) for each, row in zip(names, interfaces)}, length_unit=_text(arrays, "length_unit"),
                      mass_unit=_text(arrays, "mass_unit"))
 
 
