@@ -50,7 +50,7 @@ def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "body.matrices.h5")
         matrix_file.write(matrices, path)
-        done = subprocess.run([_program(program), "--from", path, "-o", os.fspath(output), *arguments], capture_output=True, text=True,
+        done = subprocess.run([_program(program), "--from", path, "-o", os.fspath(output), "--quiet", *arguments], capture_output=True, text=True,
                               check=False)
     if done.returncode:
         kind = _core.InputError if done.returncode == 1 else _core.ComputationError

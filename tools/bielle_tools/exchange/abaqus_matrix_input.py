@@ -104,7 +104,9 @@ def _numbered(paths, entries, nodes, options):
     indices = {name: whole(paths[name], found[:, :2], "a row or column") - 1 for name, found in entries.items()}
     least = min(int(each.min(initial=0)) for each in indices.values())
     size = max(int(each.max(initial=-1)) for each in indices.values()) + 1
-    if least < 0 or size == 0:
+    if size == 0:
+        raise InputError(f"'{paths['stiffness']}': holds no entries")
+    if least < 0:
         raise InputError(f"'{paths['stiffness']}': rows and columns are counted from 1")
     if options.unknowns:
         place, components = read_unknowns(options.unknowns, nodes.numbers)

@@ -61,15 +61,16 @@ def recognises(path):
 
 def read(path, options):
     """@raises InputError"""
-    return matrices_of(path, load(path), options.name or stem(path), f"arrays, {os.path.basename(path)}")
+    return matrices_of(path, load(path), options.name, f"arrays, {os.path.basename(path)}")
 
 
 def matrices_of(path, arrays, name, source):
-    """A MatrixSet of arrays with the keys above. @param path: for messages; name: of the body, unless an array names it
+    """A MatrixSet of arrays with the keys above. @param path: for messages; name: of the body; empty: as the arrays or the file say
     @raises InputError"""
     for key in arrays:
         if key not in KEYS:
             raise InputError(f"'{path}': there is no key '{key}'{did_you_mean(key, KEYS)}")
+    arrays = {key: np.asarray(array) for key, array in arrays.items()}
     matrices = {attribute: _matrix(path, arrays, key) for key, attribute in MATRICES.items()}
     for key in ("K", "M", "positions"):
         if key not in arrays and f"{key}.data" not in arrays:
@@ -84,7 +85,7 @@ def matrices_of(path, arrays, name, source):
     names = arrays.get("interface_names", np.array([], str)).reshape(-1)
     interfaces = _rows(path, "interface_nodes", _numbers(path, arrays, "interface_nodes", (len(names),), np.zeros(len(names))), numbers)
     axes = _numbers(path, arrays, "axes", (count, 3, 3)) if "axes" in arrays else None
-    return MatrixSet(name=_text(arrays, "name") or name, source=source, numbers=numbers, positions=positions, axes=axes, unknown_nodes=nodes,
+    return MatrixSet(name=name or _text(arrays, "name") or stem(path), source=source, numbers=numbers, positions=positions, axes=axes, unknown_nodes=nodes,
                      unknown_components=components, **matrices,
                      interfaces={str(each): int(row) for each, row in zip(names, interfaces)}, length_unit=_text(arrays, "length_unit"),
                      mass_unit=_text(arrays, "mass_unit"))
