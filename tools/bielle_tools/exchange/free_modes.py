@@ -14,6 +14,7 @@ from .entries import symmetric_part
 from .inertia_moments import PAIRS, Moments, inertia_about, moments_of, moments_of_points, second_moment
 
 FREE = 1e-6        # largest force of a rigid motion, relative to the largest of the same displacements one by one
+ROUNDING = 1e-12   # of forces, relative to the largest stiffness
 LARGEST = 6000     # unknowns
 SAME_MASS = 1e-12  # difference of the masses of the three directions, relative to the largest
 
@@ -41,10 +42,11 @@ def free_modes(matrices):
         raise InputError(f"a body with {counted(body.size, 'unknown')} is too large for a format of modes: reduce it first")
     K, M = (symmetric_part(matrix.toarray()) for matrix in (body.stiffness, body.mass))
     rigid = rigid_motions(body, K)
-    forces, scale = np.abs(K @ rigid).max(axis=0), (np.abs(K) @ np.abs(rigid)).max(axis=0)
-    if (forces > FREE * scale).any():
-        raise InputError(f"a rigid motion of the body has forces of {(forces / scale).max():.1g} of their parts: it is held, or positions of "
-                         "nodes are wrong")
+    forces, parts = np.abs(K @ rigid).max(axis=0), (np.abs(K) @ np.abs(rigid)).max(axis=0)
+    held = forces > np.maximum(FREE * parts, ROUNDING * np.abs(K).max() * np.abs(rigid).max(axis=0))
+    if held.any():
+        raise InputError(f"a rigid motion of the body has forces of {(forces[held] / parts[held]).max():.1g} of their parts: it is held, or "
+                         "positions of nodes are wrong")
     try:
         modes = scipy.linalg.eigh(K, M)[1][:, 6:]
     except np.linalg.LinAlgError:
