@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _core
 
-FOLDERS = ("../../bin", "../../../../bin")  # of the programs, from this file: in the build, installed
+FOLDERS = ("../../bin", "../../../../bin")  # folders of the programs from here: in the build, installed
 
 
 def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C: Any = None,

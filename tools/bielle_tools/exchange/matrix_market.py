@@ -18,7 +18,8 @@ from .job_files import first_line, node_table_text, stem, used_nodes
 from .matrix_set import COMPONENTS, MatrixSet, sparse
 from .node_table import read_nodes, read_unknowns, unknowns_in_order
 
-FAULTS = (ValueError, TypeError, IndexError, OverflowError, KeyError, AttributeError, MemoryError, StopIteration)
+FAULTS = (ValueError, TypeError, IndexError, OverflowError, KeyError, AttributeError, MemoryError, StopIteration,
+          NotImplementedError, EOFError)
 
 
 def recognises(path):

@@ -30,15 +30,15 @@ PARTS = ("data", "indices", "indptr")
 KEYS = [*MATRICES, *(f"{name}.{part}" for name in MATRICES for part in PARTS), "positions", "nodes", "axes", "unknown_nodes",
         "unknown_components", "interface_names", "interface_nodes", "length_unit", "mass_unit", "name"]
 FAULTS = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error, KeyError, TypeError, NotImplementedError, RuntimeError, MemoryError,
-          SyntaxError, OverflowError, IndexError)
+          SyntaxError, OverflowError, IndexError, AttributeError)
 
 
 def load(path, wanted=None):
     """The arrays of an .npz file by name, without those of Python objects, whose reading could run any code. @raises InputError"""
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
             return {name: file[name] for name in file.files if wanted is None or name in wanted}
-    except FileNotFoundError as error:
+    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
     except FAULTS as error:
         raise InputError(f"'{path}': is no readable .npz file: {str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
