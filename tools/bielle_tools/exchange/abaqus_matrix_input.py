@@ -69,19 +69,23 @@ def _entries(path):
 
 def _labelled(paths, entries, nodes, _):
     """Place and component of each unknown, and the matrices, from lines with nodes and components."""
-    pairs = {name: whole(paths[name], found[:, :4], "a node or component").reshape(-1, 2) for name, found in entries.items()}
-    unknowns, index = np.unique(np.concatenate(list(pairs.values())), axis=0, return_inverse=True)
+    keys, found = {}, {}
+    for name, table in entries.items():
+        pairs = whole(paths[name], table[:, :4], "a node or component")
+        wrong = (pairs[:, 1::2] < 1) | (pairs[:, 1::2] > 6)
+        if wrong.any():
+            row, side = np.argwhere(wrong)[0]
+            raise InputError(f"'{paths[name]}': node {pairs[row, 2 * side]} has the component {pairs[row, 2 * side + 1]}; those of mechanics are 1 "
+                             "to 6")
+        keys[name] = 8 * pairs[:, 0::2] + pairs[:, 1::2]
+    unknowns = np.unique(np.concatenate([each.ravel() for each in keys.values()]))
     if not len(unknowns):
         raise InputError(f"'{paths['stiffness']}': holds no entries")
-    if unknowns[:, 1].min() < 1 or unknowns[:, 1].max() > 6:
-        wrong = unknowns[(unknowns[:, 1] < 1) | (unknowns[:, 1] > 6)][0]
-        raise InputError(f"'{paths['stiffness']}': node {wrong[0]} has the component {wrong[1]}; those of mechanics are 1 to 6")
+    for name, table in entries.items():
+        rows, columns = np.searchsorted(unknowns, keys[name]).T
+        found[name] = matrix_of(rows, columns, table[:, 4], len(unknowns))
+    unknowns = np.column_stack([unknowns // 8, unknowns % 8])
     place, components = places_of(paths["stiffness"], unknowns[:, 0], unknowns[:, 1] - 1, nodes)
-    index, found, begin = index.reshape(-1, 2), {}, 0
-    for name in entries:
-        rows = index[begin:begin + len(entries[name])]
-        begin += len(rows)
-        found[name] = matrix_of(rows[:, 0], rows[:, 1], entries[name][:, 4], len(unknowns))
     _check_free(paths["stiffness"], found["stiffness"], unknowns)
     return place, components, found
 
@@ -136,9 +140,10 @@ def write(matrices, path, options):
         paths.append(f"{base}_{kind}1{ending}")
         entries = getattr(matrices, name).tocoo()
         with open(paths[-1], "w", encoding="utf-8") as file:
-            for row, column, value in zip(entries.row, entries.col, entries.data):
-                if row >= column:
-                    file.write(f"{labels[row]}, {components[row]}, {labels[column]}, {components[column]}, {value:.16e}\n")
+            kept = entries.row >= entries.col
+            rows, columns = entries.row[kept], entries.col[kept]
+            lines = zip(*(each.tolist() for each in (labels[rows], components[rows], labels[columns], components[columns], entries.data[kept])))
+            file.writelines("%d, %d, %d, %d, %.16e\n" % line for line in lines)
     paths.append(base + "_nodes.inp")
     with open(paths[-1], "w", encoding="utf-8") as file:
         file.write(deck)

@@ -7,7 +7,6 @@ ARM_damping.mtx, ARM_nodes.csv and ARM_unknowns.csv need not be named. (NIST, "M
 
 import io
 import os
-import re
 
 import scipy.io
 
@@ -20,6 +19,7 @@ from .node_table import read_nodes, read_unknowns, unknowns_in_order
 
 FAULTS = (ValueError, TypeError, IndexError, OverflowError, KeyError, AttributeError, MemoryError, StopIteration,
           NotImplementedError, EOFError)
+FORTRAN = str.maketrans("dD", "ee")  # exponents
 
 
 def recognises(path):
@@ -64,7 +64,7 @@ def _matrix(path):
     if not texts[0].startswith("%%MatrixMarket"):
         raise InputError(f"{path}:1: expected %%MatrixMarket, found '{texts[0][:30]}'")
     body = [text for text in texts[1:] if text.strip() and not text.startswith("%")]
-    content = "\n".join([texts[0].strip(), *(re.sub("[dD]", "e", text) for text in body), ""]).encode("utf-8", "replace")
+    content = (texts[0].strip() + "\n" + "\n".join(body).translate(FORTRAN) + "\n").encode("utf-8", "replace")
     try:
         rows, columns, entries, form, kind, _ = scipy.io.mminfo(io.BytesIO(content))
     except FAULTS as error:
