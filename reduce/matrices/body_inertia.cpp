@@ -148,11 +148,16 @@ BodyInertia body_inertia(const MatrixSet& set, const Eigen::MatrixXd& shapes, co
     std::array<Eigen::MatrixXd, 6> known = inertia_of_nodes(set, shapes);
     const RigidSplit split = split_rigid(mass, body, rigid);
     result.source = add_up(known, mass) ? InertiaSource::nodes : InertiaSource::estimate;
+    if (result.source == InertiaSource::nodes) {
+      result.components = normalised_inertia(known, mass);
+      return result;
+    }
     const bool has_shapes = set.shapes && set.shapes->points.cols() >= fewest_points;
-    if (result.source == InertiaSource::estimate && has_shapes) {
+    if (has_shapes) {
       result.source = InertiaSource::equal_masses;
       known = equal_masses(*set.shapes, shapes, body.mass);
     }
+    if (!has_shapes && !is_semidefinite(known)) known = inertia_of_nodes(set, shapes, false);
     RestInertia rest = rest_inertia(known, mass, split);
     if (result.source == InertiaSource::estimate) {
       const ShownMoments shown = shown_moments(interfaces, mass, body.centre, split);

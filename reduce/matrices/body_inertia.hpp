@@ -48,7 +48,8 @@ BodyInertia body_inertia(const MatrixSet& set, const Eigen::MatrixXd& shapes, co
 std::array<Eigen::MatrixXd, 6> inertia_of_points(const NodalShapes& points, const Eigen::MatrixXd& displacement,
                                                  const Eigen::MatrixXd& rotation);
 
-/// S_kl of the nodes' blocks of M. @param shapes  T (n,N)
-std::array<Eigen::MatrixXd, 6> inertia_of_nodes(const MatrixSet& set, const Eigen::MatrixXd& shapes);
+/// S_kl of the nodes' blocks of M. @param shapes  T (n,N) @param rotations  whether to count blocks of rotations
+std::array<Eigen::MatrixXd, 6> inertia_of_nodes(const MatrixSet& set, const Eigen::MatrixXd& shapes,
+                                                bool rotations = true);
 
 }  // namespace bielle::reduce

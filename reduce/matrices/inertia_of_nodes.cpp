@@ -73,7 +73,7 @@ SparseColumns clouds(const SparseColumns& rotary, int k, int l) {
 
 }  // namespace
 
-std::array<Eigen::MatrixXd, 6> inertia_of_nodes(const MatrixSet& set, const Eigen::MatrixXd& shapes) {
+std::array<Eigen::MatrixXd, 6> inertia_of_nodes(const MatrixSet& set, const Eigen::MatrixXd& shapes, bool rotations) {
   const SparseColumns X = nodal_motions(set, false), Y = nodal_motions(set, true);
   Entries scalar;
   for_blocks(SparseColumns(X * set.mass * X.transpose()),
@@ -85,7 +85,7 @@ std::array<Eigen::MatrixXd, 6> inertia_of_nodes(const MatrixSet& set, const Eige
     const auto [k, l] = voigt_pairs[s];
     result[s] = transposed_product(every_third_row(v, k), m * every_third_row(v, l));
   }
-  if (Y.nonZeros() == 0) return result;
+  if (!rotations || Y.nonZeros() == 0) return result;
   const SparseColumns coupling = X * set.mass * Y.transpose(), rotary = Y * set.mass * Y.transpose();
   const Eigen::MatrixXd t = Y * shapes;
   std::array<Eigen::MatrixXd, 3> turned;

@@ -1,12 +1,11 @@
 #include "reduce/matrices/rigid_split.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
-#include "reduce/dense/symmetric_factors.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
@@ -14,7 +13,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr double rounding = 1e-9;        // of a kinetic energy relative to that of M~
+constexpr double thin_body = 1e-6;       // of the largest principal P
 constexpr double known_direction = 0.5;  // share of the energy of a motion from which on its directions count as known
 
 /// A^+ of a semidefinite matrix: a line of mass has no inertia about itself.
@@ -84,15 +83,32 @@ std::array<Eigen::MatrixXd, 6> joined(const RigidSplit& split, const RestMoments
   return result;
 }
 
-/// Whether no direction has negative kinetic energy.
-bool is_possible(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass) {
-  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
-  for (std::size_t k = 0; k < 3; ++k) {
-    Eigen::MatrixXd scaled = scale.asDiagonal() * components[k] * scale.asDiagonal();
-    scaled.diagonal().array() += rounding;
-    if (!is_positive_definite(scaled)) return false;
-  }
-  return true;
+/// Gradients of the linear fields nearest to the rest, times the roots of P, in the axes of the body: rows (3,N) of u_k
+/// in principal axes. Moments across a thin body are dropped. @param moments  in principal axes; changed accordingly
+std::array<Eigen::MatrixXd, 3> linear_part(const Eigen::Matrix3d& axes, const Eigen::Vector3d& P,
+                                           RestMoments& moments) {
+  const Eigen::Index n = moments[0][0].size();
+  const double least = thin_body * P.maxCoeff();
+  std::array<Eigen::MatrixXd, 3> result;
+  for (Eigen::MatrixXd& rows : result) rows.setZero(3, n);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b) {
+      const double Pa = P(static_cast<Eigen::Index>(a)), Pb = P(static_cast<Eigen::Index>(b));
+      if (std::min(Pa, Pb) <= least) moments[a][b].setZero();
+      if (Pb <= least) continue;
+      for (int k = 0; k < 3; ++k)
+        result[static_cast<std::size_t>(k)].row(static_cast<Eigen::Index>(b)) +=
+            axes(k, static_cast<Eigen::Index>(a)) / std::sqrt(Pb) * moments[a][b];
+    }
+  return result;
+}
+
+/// X with X^T M X = R, for R between 0 and M.
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& R, const Eigen::MatrixXd& mass) {
+  const auto pairs = symmetric_eigenpairs((R + R.transpose()) / 2, mass);
+  if (!pairs) throw ComputationError("the mass matrix of the reduced body is not positive definite");
+  return product(pairs->vectors * pairs->values.cwiseMax(0).cwiseSqrt().asDiagonal(),
+                 transposed_product(pairs->vectors, mass));
 }
 
 }  // namespace
@@ -120,9 +136,22 @@ RestMoments turned_moments(const RestMoments& moments, const Eigen::Matrix3d& ax
   return result;
 }
 
+bool is_semidefinite(const std::array<Eigen::MatrixXd, 6>& components) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::VectorXd values = symmetric_eigenpairs(components[k]).values;
+    if (values.minCoeff() < -1e-9 * values.cwiseAbs().maxCoeff()) return false;
+  }
+  return true;
+}
+
 RestInertia rest_inertia(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass,
                          const RigidSplit& split) {
   const Eigen::Index n = mass.rows();
+  if (!is_semidefinite(components)) {
+    std::array<Eigen::MatrixXd, 6> none;
+    none.fill(Eigen::MatrixXd::Zero(n, n));
+    return rest_inertia(none, mass, split);
+  }
   RestInertia result;
   const Eigen::MatrixXd sum = congruent(components[0] + components[1] + components[2], split.rest);
   const auto pairs = symmetric_eigenpairs((sum + sum.transpose()) / 2, mass);
@@ -168,16 +197,32 @@ std::array<Eigen::MatrixXd, 6> joined_inertia(const RigidSplit& split, const Res
                                               const Eigen::MatrixXd& mass) {
   const SymmetricEigenpairs principal = symmetric_eigenpairs(split.second);
   const Eigen::Matrix3d axes = principal.vectors;
-  const RestMoments found = turned_moments(rest.moments, axes);
-  std::array<Eigen::MatrixXd, 6> result;
-  for (const auto& [stretched, sheared] :
-       {std::pair{1.0, 1.0}, {1.0, 0.5}, {1.0, 0.0}, {0.9, 0.0}, {0.5, 0.0}, {0.0, 0.0}}) {
-    RestMoments reduced = found;
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t l = 0; l < 3; ++l) reduced[k][l] *= k == l ? stretched : sheared;
-    result = joined(split, turned_moments(reduced, axes.transpose()), rest.components);
-    if (is_possible(result, mass)) break;
+  RestMoments moments = turned_moments(rest.moments, axes);
+  std::array<Eigen::MatrixXd, 3> linear = linear_part(axes, principal.values.cwiseMax(0), moments);
+  Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
+  for (const Eigen::MatrixXd& rows : linear) energy += transposed_product(rows, rows);
+  double scale = 1;
+  if (const auto pairs = symmetric_eigenpairs(energy, mass); pairs && pairs->values.maxCoeff() > 1)
+    scale = 1 / std::sqrt(pairs->values.maxCoeff());
+  for (auto& rows : moments)
+    for (Eigen::RowVectorXd& row : rows) row *= scale;
+  const Eigen::MatrixXd remaining = root_of(congruent(mass, split.rest) - scale * scale * energy, mass);
+  std::array<Eigen::MatrixXd, 6> deformed;
+  for (std::size_t s = 0; s < 6; ++s) {
+    const auto k = static_cast<std::size_t>(voigt_pairs[s][0]), l = static_cast<std::size_t>(voigt_pairs[s][1]);
+    deformed[s] = congruent(rest.components[s], remaining) + scale * scale * transposed_product(linear[k], linear[l]);
   }
+  return joined(split, turned_moments(moments, axes.transpose()), deformed);
+}
+
+std::array<Eigen::MatrixXd, 6> normalised_inertia(const std::array<Eigen::MatrixXd, 6>& components,
+                                                  const Eigen::MatrixXd& mass) {
+  const auto pairs = symmetric_eigenpairs(components[0] + components[1] + components[2], mass);
+  if (!pairs) throw ComputationError("the mass matrix of the reduced body is not positive definite");
+  const Eigen::MatrixXd scaled = product(pairs->vectors * pairs->values.cwiseSqrt().cwiseInverse().asDiagonal(),
+                                         transposed_product(pairs->vectors, mass));
+  std::array<Eigen::MatrixXd, 6> result;
+  for (std::size_t s = 0; s < 6; ++s) result[s] = congruent(components[s], scaled);
   return result;
 }
 

@@ -31,15 +31,24 @@ struct RestInertia {
   Eigen::MatrixXd open;  ///< the part of M~ of the rest (N,N) without known directions, of which each got a third
 };
 
+/// Whether no direction has negative kinetic energy. Matrices of beams with inertia of torsion alone have, since no
+/// cloud of mass turns about one axis only.
+bool is_semidefinite(const std::array<Eigen::MatrixXd, 6>& components);
+
 /// The rest of components that may not add up to M~. In the basis of M~ and their sum (eigenvalues l, 1 where they add
-/// up) motions with l above one half are scaled by l^-1/2, the others get the missing 1 - l in thirds.
+/// up) motions with l above one half are scaled by l^-1/2, the others get the missing 1 - l in thirds. Components of
+/// which one has negative energy tell nothing.
 RestInertia rest_inertia(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass,
                          const RigidSplit& split);
 
-/// S_11 S_22 S_33 S_23 S_13 S_12 of rigid part and rest together. Moments that the energies of the rest do not allow
-/// are reduced: first those with k != l.
+/// S_11 S_22 S_33 S_23 S_13 S_12 of rigid part and rest together. The linear field nearest to the rest follows from its
+/// moments; what remains of the energy has the directions of the rest's components.
 std::array<Eigen::MatrixXd, 6> joined_inertia(const RigidSplit& split, const RestInertia& rest,
                                               const Eigen::MatrixXd& mass);
+
+/// Components that add up to M~ but for the digits of a text file, made to do so exactly.
+std::array<Eigen::MatrixXd, 6> normalised_inertia(const std::array<Eigen::MatrixXd, 6>& components,
+                                                  const Eigen::MatrixXd& mass);
 
 /// The moments A^T N A along axes A.
 RestMoments turned_moments(const RestMoments& moments, const Eigen::Matrix3d& axes);

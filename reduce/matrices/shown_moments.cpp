@@ -17,7 +17,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr double thin_body = 1e-6;  // of the largest principal P: below, a body counts as thin in that direction
+constexpr double thin_direction = 1e-6;  // of the largest principal P: below, a body counts as thin in that direction
 
 /// Interface coordinates (N) of the field (e_k x_l + e_l x_k) / 2, or e_k x_k; axes: principal ones -> body axes.
 Eigen::VectorXd shown_field(const std::vector<Interface>& interfaces, Eigen::Index size, const Eigen::Vector3d& centre,
@@ -40,7 +40,7 @@ ShownMoments shown_moments(const std::vector<Interface>& interfaces, const Eigen
                            const Eigen::Vector3d& centre, const RigidSplit& split) {
   const SymmetricEigenpairs principal = symmetric_eigenpairs(split.second);
   const Eigen::Vector3d P = principal.values.cwiseMax(0);
-  const double least = thin_body * P(2);
+  const double least = thin_direction * P(2);
   ShownMoments result;
   result.axes = principal.vectors;
   for (std::size_t s = 0; s < 6; ++s) {
