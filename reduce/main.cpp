@@ -112,7 +112,8 @@ void reduce_in_pieces(const Mesh& mesh, const BodyFile& file, const std::string&
 void reduce_matrices_of(const MatrixBody& body, const std::string& output, const CommonOptions& common,
                         Progress& progress) {
   progress.start("reading");
-  MatrixSet matrices = read_foreign_matrices(body.files, progress);
+  MatrixSet matrices = about(
+      "matrices", [&] { return read_foreign_matrices(body.files, progress); }, Subject::hidden);
   ReductionReport report;
   const Superelement result = reduce_matrices(matrices, body.options, progress, common.threads, &report);
   progress.start("writing");

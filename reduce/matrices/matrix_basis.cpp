@@ -74,7 +74,6 @@ void keep_requested(Eigenpairs& pairs, const MatrixOptions& options) {
 
 Eigenpairs requested_modes(const HeldMatrices& held, const MatrixOptions& options, Progress& progress, int threads) {
   const bool asked = options.mode_count || options.modes_below;
-  if (held.size() == 0 || options.mode_count == 0) return {};
   if (!asked && held.size() > most_unasked_modes)
     throw InputError(
         fmt::format("the body has {} inside: tell how many modes to keep, by 'modes: {{count: 20}}' in a "
@@ -83,6 +82,7 @@ Eigenpairs requested_modes(const HeldMatrices& held, const MatrixOptions& option
   if (options.mode_count.value_or(0) > held.size())
     throw InputError("modes", fmt::format("{} are asked for, but the body has only {} inside", *options.mode_count,
                                           counted(held.size(), "unknown")));
+  if (held.size() == 0 || options.mode_count == 0) return {};
   Eigenpairs pairs =
       held.size() <= most_unasked_modes ? all_modes(held) : lowest_modes(held, options, progress, threads);
   keep_requested(pairs, options);

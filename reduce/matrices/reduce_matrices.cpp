@@ -61,23 +61,19 @@ void prepare(MatrixSet& set, Progress& progress) {
   if (set.size() == 0) throw InputError(fmt::format("{}: stiffness and mass are zero", set.source));
 }
 
-/// Mass properties of M~ under rigid motions about the origin.
-MassProperties mass_of(const MatrixSet& set, const Eigen::MatrixXd& mass, const std::vector<Interface>& interfaces) {
-  const Eigen::MatrixXd u = interface_rigid_motions(interfaces, Eigen::Vector3d::Zero());
-  const Eigen::MatrixXd m = congruent(mass.topLeftCorner(u.rows(), u.rows()), u);
-  MassProperties result;
-  result.mass = m.topLeftCorner(3, 3).trace() / 3;
-  if (!(result.mass > 0))
-    throw InputError(fmt::format("{}: moved as a whole, the body has the mass {:.6g} kg; a mass matrix is needed",
-                                 set.source, result.mass));
-  const Eigen::Matrix3d coupling = m.topRightCorner(3, 3);
-  result.centre = Eigen::Vector3d(coupling(1, 2) - coupling(2, 1), coupling(2, 0) - coupling(0, 2),
-                                  coupling(0, 1) - coupling(1, 0)) /
-                  (2 * result.mass);
-  const Eigen::Matrix3d about_origin = m.bottomRightCorner(3, 3);
-  result.inertia = about_origin + result.mass * skew(result.centre) * skew(result.centre);
-  result.inertia = Eigen::Matrix3d((result.inertia + result.inertia.transpose()) / 2);
-  return result;
+/// Mass properties of M~ under rigid motions. Masses along x, y and z that differ in their last digits need iterations.
+MassProperties mass_of(const MatrixSet& set, Superelement body) {
+  body.centre.setZero();
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    const ReducedMassProperties found = reduced_mass_properties(body);
+    if (!(found.mass > 0))
+      throw InputError(fmt::format("{}: moved as a whole, the body has the mass {:.6g} kg; a mass matrix is needed",
+                                   set.source, found.mass));
+    body.total_mass = found.mass;
+    body.centre = found.centre;
+    body.inertia = (found.inertia + found.inertia.transpose()) / 2;
+  }
+  return mass_properties(body);
 }
 
 /// A mechanism needs inertia in every coordinate. Lumped masses leave rotations of nodes without any: these get a
@@ -287,8 +283,8 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);
   const Eigen::MatrixXd mass = transposed_product(T, set.mass * T);
   body.mass = (mass + mass.transpose()) / 2;
-  add_missing_inertia(mass_of(set, body.mass, body.interfaces), body, progress);
-  const MassProperties properties = mass_of(set, body.mass, body.interfaces);
+  add_missing_inertia(mass_of(set, body), body, progress);
+  const MassProperties properties = mass_of(set, body);
   body.total_mass = properties.mass;
   body.centre = properties.centre;
   body.inertia = properties.inertia;

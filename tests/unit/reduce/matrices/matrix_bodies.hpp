@@ -73,9 +73,9 @@ inline Superelement reduced(reduce::MatrixSet set, const reduce::MatrixOptions& 
 
 /// A straight Euler-Bernoulli beam along x with its consistent mass matrix (J. S. Przemieniecki, Theory of Matrix
 /// Structural Analysis, 1968, chapter 11, without rotary inertia of bending): length 2 m, EA = 1e7 N, GJ = 1e4 N m^2,
-/// EI = 2e4 (about y), 3e4 (about z) N m^2, 3 kg/m, 0.002 kg m of torsion.
+/// EI = 2e4 (about y), 3e4 (about z) N m^2, 3 kg/m, 1e-4 kg m of torsion.
 inline reduce::MatrixSet beam_set(int elements = 1) {
-  const double L = 2.0 / elements, EA = 1e7, GJ = 1e4, rho = 3, polar = 0.002;
+  const double L = 2.0 / elements, EA = 1e7, GJ = 1e4, rho = 3, polar = 1e-4;
   const int nodes = elements + 1;
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(6 * nodes, 6 * nodes), M = K;
   for (int e = 0; e < elements; ++e) {
