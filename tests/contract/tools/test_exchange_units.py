@@ -139,6 +139,20 @@ class Command(InFolder):
         self.run_tool("other.h5", "same.h5", "--to", "matrices")
         assert_same(self, matrix_file.read(self.path("same.h5")), self.body, 0)
 
+    def test_a_superelement(self):
+        """The program is replaced by one that writes its arguments, and copies the matrices that it gets."""
+        stand_in = self.write("bielle-reduce", '#!/bin/sh\necho "$1 $3 $4"; cp "$2" "$4" && exit ${BIELLE_TEST_STATUS:-0}\n')
+        os.chmod(stand_in, 0o755)
+        environment = {**os.environ, "BIELLE_BIN": self.folder}
+        done = run_python_tool(TOOL, ["body.h5", "new.h5", "--name", "arm"], self.folder, environment)
+        self.assertEqual((done.returncode, done.stdout), (0, "--from -o new.h5\n"), done.stderr)
+        found = matrix_file.read(self.path("new.h5"))
+        self.assertEqual((found.name, found.length_unit), ("arm", "m"))
+        assert_same(self, found, self.body, 0)
+        done = run_python_tool(TOOL, ["body.h5", "new.h5"], self.folder, {**environment, "BIELLE_TEST_STATUS": "1"})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("bielle-reduce made no superelement of the matrices (exit status 1); --to matrices writes them without it", done.stderr)
+
     def test_sentences(self):
         self.write("empty.pch", "")
         self.write("damaged.h5", "no HDF5")
