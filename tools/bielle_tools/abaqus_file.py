@@ -43,7 +43,7 @@ FAMILIES = [
     (r"(MASS|ROTARYI|SPRING[12A]|DASHPOT[12A]|DCOUP3D|CONN3D2|GAPUNI|B[23][123]|T[23]D[23]|FRAME3D)[A-Z]*", None, None),
 ]
 # Keywords that generate or move nodes and elements, which this reader does not support.
-GENERATING = ("NMAP", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE", "TRANSFORM COORDINATES", "SUBSTRUCTURE GENERATE", "IMPORT")
+GENERATING = ("NMAP", "SYMMETRIC MODEL GENERATION", "MODEL CHANGE", "TRANSFORM COORDINATES", "IMPORT")
 SINGLE_NODES = ("MASS", "ROTARYI", "DCOUP3D")  # types of elements that stand at one node
 MOST = 2 * 10**7  # numbers that one line of a set generates
 OWN = None        # in place of the amount by which numbers are raised: numbers of an assembly's own nodes, or of its only instance

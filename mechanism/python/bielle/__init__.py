@@ -22,7 +22,7 @@ A model is the same as in a file of bielle-mechanism: a YAML file, a text, or a 
 `load` and `read` make a `Model`, `Model.session` a `Session`, `Session.dynamics` a `Motion`; `run` gives a `Run` of
 `Results`. Units are SI and radians. A request that cannot be satisfied raises `InputError` or
 `ComputationError`, with the messages of the programs. mechanism/README.md describes the model, mechanism/io/README.md the names of results.
-`bielle.rotations` has the parametrisations of rotations, with their rates.
+`superelement` makes a superelement of matrices. `bielle.rotations` has the parametrisations of rotations, with their rates.
 """
 
 from . import rotations
@@ -33,9 +33,11 @@ from .motions import Motion
 from .results import Dataset, Event, Results
 from .runs import Run, run
 from .sessions import Inputs, Recording, Session
+from .superelements import superelement
 
 __all__ = ["ComputationError", "Dataset", "Error", "Event", "InputError", "Inputs", "Model", "Motion", "Node", "Recording",
-           "Results", "Run", "Session", "State", "load", "read", "rotations", "run", "__version__"]
+           "Results", "Run", "Session", "State", "load", "read", "rotations", "run", "superelement",
+           "__version__"]
 
 for _each in (Node, State):
     _each.__module__ = "bielle"

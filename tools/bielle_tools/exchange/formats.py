@@ -18,6 +18,15 @@ FORMATS = {
     "dmig": ("dmig", [".pch", ".dmig", ".bdf", ".nas"]),
     "op4": ("op4", [".op4"]),        # binary when it is written
     "op4-text": ("op4", [".op4"]),
+    "calculix": ("calculix_matrices", [".sti"]),
+    "abaqus": ("abaqus_matrices", [".mtx"]),
+    "matrix_input": ("abaqus_matrix_input", [".mtx"]),
+    "matrix_market": ("matrix_market", [".mtx"]),
+    "npz": ("npz_matrices", [".npz"]),
+    "exudyn": ("exudyn_modes", [".npz"]),
+    "mbdyn": ("mbdyn_modes", [".fem"]),
+    "simscape": ("simscape_matrices", [".mat"]),
+    "fedem": ("fedem_matrices", [".fmx"]),
 }
 
 
@@ -30,6 +39,8 @@ class Options:
     mass: str = ""                         # another file with the mass matrix
     names: dict[str, str] = field(default_factory=dict)  # names of matrices in the file: {"stiffness": "KAAX", "mass": "MAAX"}
     name: str = ""                         # name of the body
+    unknowns: str = ""                     # a table of the order of the unknowns (node, component)
+    interfaces: list[int] = field(default_factory=list)  # numbers of the nodes whose unknowns replace amplitudes of modes
 
 
 def module_of(name):

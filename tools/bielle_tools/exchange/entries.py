@@ -1,0 +1,49 @@
+"""Matrices out of lists of entries, of which a file may hold one triangle or both."""
+
+import numpy as np
+import scipy.sparse
+
+from ..messages import InputError, counted
+from .matrix_set import mirrored, sparse
+
+LARGEST_DENSE = 30000  # rows of a matrix whose entries are all written
+
+
+def matrix_of(rows, columns, values, size):
+    """The matrix with these entries, counted from 0 (scipy.sparse); if all are in one triangle, the symmetric matrix of it."""
+    matrix = sparse(scipy.sparse.coo_matrix((values, (rows, columns)), shape=(size, size)))
+    return matrix if (rows > columns).any() and (rows < columns).any() else mirrored(matrix)
+
+
+def packed_matrix(path, values, size, what):
+    """The symmetric matrix whose lower triangle is listed row by row, which is the upper one column by column.
+
+    @raises InputError if the count of numbers is another one; what: noun for the message
+    """
+    wanted = size * (size + 1) // 2
+    if len(values) != wanted:
+        raise InputError(f"'{path}': {what} has {counted(len(values), 'number')}, but a triangle of {size} rows has {wanted}")
+    full = np.zeros((size, size))
+    full[np.tril_indices(size)] = values
+    return sparse(full + np.tril(full, -1).T)
+
+
+def packed_triangle(matrix):
+    """The lower triangle row by row, of a symmetric matrix. @raises InputError if the matrix is too large to be written in full"""
+    if matrix.shape[0] > LARGEST_DENSE:
+        raise InputError(f"a matrix of {matrix.shape[0]} rows is too large for a file that holds all entries")
+    full = matrix.toarray()
+    return [full[row, :row + 1] for row in range(len(full))]
+
+
+def symmetric_part(matrix):
+    """(A + A^T) / 2 of an array."""
+    return (matrix + matrix.T) / 2
+
+
+def check_symmetric(matrices):
+    """@raises InputError if a matrix of a MatrixSet is not symmetric, for formats that hold one triangle"""
+    for name, matrix in matrices.matrices().items():
+        difference = abs(matrix - matrix.T)
+        if difference.nnz and difference.max() > 1e-9 * abs(matrix).max():
+            raise InputError(f"the {name} is not symmetric: entries of its triangles differ by {difference.max():.3g}")

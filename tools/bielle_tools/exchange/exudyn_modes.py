@@ -1,0 +1,110 @@
+"""Exudyn's reduced body of a floating frame (.npz): the file of ObjectFFRFreducedOrderInterface.SaveToFile.
+
+modeBasis (3p,m) are the shapes at all nodes, xRef their places, and the other keys inertia integrals with the mass of the mesh, which is
+equal in all directions. Written are all free modes at the nodes and recovery points. (Exudyn, FEM.py, GetDictionary; A. Zwoelfer, J. Gerstmayr,
+"The nodal-based floating frame of reference formulation with modal reduction", Acta Mech. 232 (2021) 835.)
+"""
+
+import os
+
+import numpy as np
+
+from ..cells import BY_GMSH, SOLIDS, boundary_faces, permutation, solid_faces, triangles_of
+from ..messages import InputError, note
+from .free_modes import free_modes, moments
+from .inertia_moments import EPSILON, Moments, components_of, inertia_about, second_moment
+from .job_files import stem
+from .matrix_set import MassProperties
+from .modal_body import body_of_modes, rigid_mass
+from .npz_matrices import load, names_in
+
+SHAPES = {"modeBasis": 2, "massMatrixReduced": 2, "stiffnessMatrixReduced": 2, "xRef": 1, "inertiaLocal": 2, "Mtt": 2, "chiU": 1,
+          "mPhitTPsi": 2, "mXRefTildePsi": 2, "mXRefTildePsiTilde": 2, "mPsiTildePsiTilde": 2}  # key: number of its dimensions
+
+
+def recognises(path):
+    """Whether the file has Exudyn's keys."""
+    return "massMatrixReduced" in names_in(path)
+
+
+def read(path, options):
+    """@raises InputError"""
+    if "massMatrix" in names_in(path):
+        raise InputError(f"'{path}': holds Exudyn's FEMinterface; reduce it, and save the ObjectFFRFreducedOrderInterface")
+    arrays = load(path, SHAPES)
+    for name, dimensions in SHAPES.items():
+        array = arrays.get(name)
+        if array is None:
+            raise InputError(f"'{path}': the array '{name}' of Exudyn's reduced body is missing")
+        if array.dtype.kind not in "iuf" or array.ndim != dimensions or not np.isfinite(array).all():
+            raise InputError(f"'{path}': '{name}' must be {dimensions}-dimensional, with finite numbers")
+    rows, modes = arrays["modeBasis"].shape
+    wanted = {"xRef": (rows,), "massMatrixReduced": (modes, modes), "stiffnessMatrixReduced": (modes, modes), "inertiaLocal": (3, 3),
+              "Mtt": (3, 3), "chiU": (3,), "mPhitTPsi": (3, modes), "mXRefTildePsi": (3, modes), "mXRefTildePsiTilde": (3, 3 * modes),
+              "mPsiTildePsiTilde": (3 * modes, 3 * modes)}
+    for name, shape in wanted.items():
+        if arrays[name].shape != shape or rows % 3 or not modes:
+            raise InputError(f"'{path}': '{name}' has the shape {arrays[name].shape}, expected {shape} for {rows // 3} nodes and {modes} modes")
+    inertia = _moments(path, arrays, modes)
+    shapes = np.zeros((rows // 3, 6, modes))
+    shapes[:, :3] = arrays["modeBasis"].reshape(-1, 3, modes)
+    coupling = np.column_stack([inertia.linear, inertia.turning()])
+    mass = np.block([[rigid_mass(inertia), coupling.T], [coupling, arrays["massMatrixReduced"]]])
+    body = body_of_modes(path, options, np.arange(1, rows // 3 + 1), arrays["xRef"].reshape(-1, 3), shapes, arrays["stiffnessMatrixReduced"],
+                         mass, None, components_of(inertia))
+    body.name, body.source = options.name or stem(path), f"Exudyn, {os.path.basename(path)}"
+    body.mass_properties = MassProperties(inertia.mass, inertia.centre, inertia_about(inertia.inertia, -inertia.mass, inertia.centre))
+    return body
+
+
+def _moments(path, arrays, modes):
+    mass = float(arrays["Mtt"][0, 0])
+    if not mass > 0:
+        raise InputError(f"'{path}': the mass is {mass:g}")
+    eighth = arrays["mXRefTildePsiTilde"].reshape(3, modes, 3).transpose(1, 0, 2)
+    halves = np.trace(eighth, axis1=1, axis2=2)[:, None, None] / 2 * np.eye(3)
+    squares = arrays["mPsiTildePsiTilde"].reshape(modes, 3, modes, 3).transpose(0, 2, 1, 3)
+    outer = np.trace(squares, axis1=2, axis2=3)[..., None, None] / 2 * np.eye(3) - squares  # (j,k): sum phi_k phi_j^T
+    return Moments(mass, mass * arrays["chiU"], second_moment(arrays["inertiaLocal"]), arrays["mPhitTPsi"].T, halves - eighth,
+                   outer.transpose(3, 2, 0, 1))
+
+
+def write(matrices, path, options):
+    """@returns the path, in a list. @raises InputError when the inertia inside the body is not known"""
+    free = free_modes(matrices)
+    known = moments(free)
+    if known is None:
+        raise InputError("the inertia inside the body is not known, which Exudyn's file needs: take the file of a superelement")
+    points = slice(free.nodes, None) if len(free.positions) > free.nodes else slice(None)
+    if free.damping is not None:
+        note("Exudyn's file has no damping: it is left out; the object has factors for it")
+    places, shapes = free.positions[points], (free.motions[points, :3] @ free.modes).reshape(-1, free.modes.shape[1])
+    np.savez(path, **_dictionary(known, free, places, shapes, _triangles(free.body)))
+    return [path]
+
+
+def _triangles(body):
+    """Surface triangles (k,3) of the recovery points, for pictures."""
+    if body.shapes is None or not body.shapes.cells:
+        return np.zeros((0, 3), np.int64)
+    cells = {BY_GMSH[kind].name: block[:, permutation(BY_GMSH[kind].name, "gmsh", "vtk")] for kind, block in body.shapes.cells.items()}
+    solids = {kind: block for kind, block in cells.items() if kind in SOLIDS}
+    return triangles_of(boundary_faces(solid_faces(solids))) if solids else np.zeros((0, 3), np.int64)
+
+
+def _dictionary(known, free, places, shapes, triangles):
+    """All keys of the file."""
+    modes, eye = shapes.shape[1], np.eye(3)
+    wedge = -np.einsum("abc,jc->jab", EPSILON, known.linear)  # sum phi_j~ dm
+    eighth = np.trace(known.product, axis1=1, axis2=2)[:, None, None] * eye - known.product
+    outer = known.square.transpose(2, 3, 1, 0)
+    squares = np.trace(outer, axis1=2, axis2=3)[..., None, None] * eye - outer
+    fifth = -np.einsum("abc,bcjk->jak", EPSILON, known.square)
+    return {
+        "modeBasis": shapes, "trigList": triangles, "postProcessingModes": {}, "massMatrixReduced": np.diag(np.diag(free.mass)),
+        "stiffnessMatrixReduced": np.diag(np.diag(free.stiffness)), "infoList": np.array([modes, len(places), 3, 4, 7, 7 + modes]),
+        "rigidBodyNodeType": "NodeType.RotationEulerParameters", "xRef": places.ravel(), "inertiaLocal": known.inertia,
+        "Mtt": known.mass * eye, "totalMass": known.mass, "chiU": known.centre, "chiUtilde": -np.einsum("abc,c->ab", EPSILON, known.centre),
+        "mPsiTildePsi": fifth.reshape(3 * modes, modes), "mPsiTildePsiTilde": squares.transpose(0, 2, 1, 3).reshape(3 * modes, 3 * modes),
+        "mPhitTPsi": known.linear.T, "mPhitTPsiTilde": wedge.transpose(1, 0, 2).reshape(3, 3 * modes), "mXRefTildePsi": -known.turning().T,
+        "mXRefTildePsiTilde": eighth.transpose(1, 0, 2).reshape(3, 3 * modes), "fileVersion": 1, "type": "ObjectFFRFreducedOrderInterface"}

@@ -1,0 +1,174 @@
+"""Arrays of NumPy (.npz): the way from Python to a body.
+
+| key | shape | content |
+|---|---|---|
+| K, M, C | n, n | stiffness, mass, and viscous damping (may be absent); also sparse, as scipy.sparse's K.data, K.indices, K.indptr |
+| positions | N, 3 | of the nodes |
+| nodes | N | their numbers; default 1, 2, .. |
+| axes | N, 3, 3 | columns: directions of each node's axes; default: those of the body |
+| unknown_nodes | n | number of the node of each unknown; 0: a scalar coordinate |
+| unknown_components | n | 0 to 5: x y z rx ry rz; of scalar coordinates: any |
+| interface_names, interface_nodes | k | names and numbers of nodes that are interfaces; default: the user names them |
+| length_unit, mass_unit | | texts; default: as the command says |
+
+Without unknown_nodes and unknown_components, the rows are x y z (rx ry rz if they are enough) of all nodes in order, then scalar coordinates.
+"""
+
+import os
+import zipfile
+import zlib
+
+import numpy as np
+import scipy.sparse
+
+from ..messages import InputError, counted, did_you_mean
+from .job_files import stem
+from .matrix_set import MatrixSet, sparse
+
+MATRICES = {"K": "stiffness", "M": "mass", "C": "damping"}
+PARTS = ("data", "indices", "indptr")
+KEYS = [*MATRICES, *(f"{name}.{part}" for name in MATRICES for part in PARTS), "positions", "nodes", "axes", "unknown_nodes",
+        "unknown_components", "interface_names", "interface_nodes", "length_unit", "mass_unit", "name"]
+FAULTS = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error, KeyError, TypeError, NotImplementedError, RuntimeError, MemoryError,
+          SyntaxError, OverflowError, IndexError, AttributeError)
+
+
+def load(path, wanted=None):
+    """The arrays of an .npz file by name, without those of Python objects, whose reading could run any code. @raises InputError"""
+    try:
+        with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
+            return {name: file[name] for name in file.files if wanted is None or name in wanted}
+    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
+        raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    except FAULTS as error:
+        raise InputError(f"'{path}': is no readable .npz file: {str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
+
+
+def names_in(path):
+    """Names of the arrays in a file; none if it is damaged."""
+    try:
+        with zipfile.ZipFile(path) as file:
+            return [name.removesuffix(".npy") for name in file.namelist()]
+    except FAULTS:
+        return []
+
+
+def recognises(path):
+    """Whether the file holds a stiffness K, or is damaged."""
+    names = names_in(path)
+    return not names or "massMatrixReduced" not in names
+
+
+def read(path, options):
+    """@raises InputError"""
+    return matrices_of(path, load(path), options.name, f"arrays, {os.path.basename(path)}")
+
+
+def matrices_of(path, arrays, name, source):
+    """A MatrixSet of arrays with the keys above. @param path: for messages; name: of the body; empty: as the arrays or the file say
+    @raises InputError"""
+    for key in arrays:
+        if key not in KEYS:
+            raise InputError(f"'{path}': there is no key '{key}'{did_you_mean(key, KEYS)}")
+    arrays = {key: np.asarray(array) for key, array in arrays.items()}
+    matrices = {attribute: _matrix(path, arrays, key) for key, attribute in MATRICES.items()}
+    for key in ("K", "M", "positions"):
+        if key not in arrays and f"{key}.data" not in arrays:
+            raise InputError(f"'{path}': the array '{key}' is missing")
+    size = matrices["stiffness"].shape[0]
+    positions = _numbers(path, arrays, "positions", (-1, 3))
+    count = len(positions)
+    numbers = _numbers(path, arrays, "nodes", (count,), np.arange(1, count + 1)).astype(np.int64)
+    if len(set(numbers.tolist())) < count or count and numbers.min() < 1:
+        raise InputError(f"'{path}': 'nodes' must be numbers from 1, each once")
+    nodes, components = _unknowns(path, arrays, numbers, size)
+    names = arrays.get("interface_names", np.array([], str)).reshape(-1)
+    interfaces = _rows(path, "interface_nodes", _numbers(path, arrays, "interface_nodes", (len(names),), np.zeros(len(names))), numbers)
+    axes = _numbers(path, arrays, "axes", (count, 3, 3)) if "axes" in arrays else None
+    return MatrixSet(name=name or _text(arrays, "name") or stem(path), source=source, numbers=numbers, positions=positions, axes=axes, unknown_nodes=nodes,
+                     unknown_components=components, **matrices,
+                     interfaces={str(each): int(row) for each, row in zip(names, interfaces)}, length_unit=_text(arrays, "length_unit"),
+                     mass_unit=_text(arrays, "mass_unit"))
+
+
+def _text(arrays, name):
+    return str(arrays[name]) if name in arrays else None
+
+
+def _numbers(path, arrays, name, shape, default=None):
+    """An array of finite numbers. @param shape: -1: any count"""
+    array = arrays.get(name, default)
+    if array is None:
+        raise InputError(f"'{path}': the array '{name}' is missing")
+    if array.dtype.kind not in "iuf" or len(array.shape) != len(shape) or any(w not in (-1, k) for w, k in zip(shape, array.shape)):
+        told = " x ".join("n" if each == -1 else str(each) for each in shape)
+        raise InputError(f"'{path}': '{name}' is {array.dtype} of shape {array.shape}; {told} numbers are expected")
+    if not np.isfinite(array).all():
+        raise InputError(f"'{path}': '{name}' holds numbers that are not finite")
+    return np.asarray(array, float)
+
+
+def _matrix(path, arrays, name):
+    """scipy.sparse, None if there is none."""
+    if f"{name}.data" in arrays:
+        data, indices, indptr = (_numbers(path, arrays, f"{name}.{part}", (-1,)) for part in PARTS)
+        size = len(indptr) - 1
+        try:
+            matrix = scipy.sparse.csr_matrix((data, indices.astype(np.int64), indptr.astype(np.int64)), shape=(size, size))
+            matrix.check_format(full_check=True)
+        except (ValueError, IndexError) as error:
+            raise InputError(f"'{path}': '{name}.indices' and '{name}.indptr' make no sparse matrix: {error}") from None
+        return sparse(matrix)
+    if name not in arrays:
+        return None
+    array = _numbers(path, arrays, name, (-1, -1))
+    if array.shape[0] != array.shape[1]:
+        raise InputError(f"'{path}': '{name}' has {counted(array.shape[0], 'row')} and {counted(array.shape[1], 'column')}")
+    return sparse(array)
+
+
+def _unknowns(path, arrays, numbers, size):
+    """Row of the node (-1: scalar) and component of each unknown."""
+    if "unknown_nodes" in arrays or "unknown_components" in arrays:
+        labels, components = (_numbers(path, arrays, name, (size,)).astype(np.int64) for name in ("unknown_nodes", "unknown_components"))
+        nodes = _rows(path, "unknown_nodes", labels, numbers)
+        wrong = (nodes >= 0) & ((components < 0) | (components > 5))
+        if wrong.any():
+            raise InputError(f"'{path}': 'unknown_components' holds {components[wrong][0]}; 0 to 5 are x y z rx ry rz")
+        return nodes, np.where(nodes < 0, np.cumsum(nodes < 0) - 1, components)
+    count = len(numbers)
+    each = 6 if size >= 6 * count else 3
+    if size < 3 * count:
+        raise InputError(f"'{path}': {counted(count, 'node')} with 3 unknowns each need {3 * count} rows, 'K' has {size}; give 'unknown_nodes' "
+                         "and 'unknown_components'")
+    scalars = size - each * count
+    return (np.concatenate([np.repeat(np.arange(count), each), np.full(scalars, -1)]),
+            np.concatenate([np.tile(np.arange(each), count), np.arange(scalars)]))
+
+
+def _rows(path, name, labels, numbers):
+    """Rows of numbers of nodes; -1 for 0."""
+    place = {int(number): row for row, number in enumerate(numbers)} | {0: -1}
+    for label in labels:
+        if label not in place:
+            raise InputError(f"'{path}': '{name}' names node {label:g}, which 'nodes' does not")
+    return np.array([place[int(label)] for label in labels], np.int64)
+
+
+def write(matrices, path, options):
+    """Writes the keys above. @returns the path, in a list"""
+    labels = np.where(matrices.unknown_nodes < 0, 0, matrices.numbers[matrices.unknown_nodes] if len(matrices.numbers) else 0)
+    arrays = {"positions": matrices.positions, "nodes": matrices.numbers, "unknown_nodes": labels,
+              "unknown_components": matrices.unknown_components, "name": matrices.name}
+    for name, attribute in MATRICES.items():
+        if getattr(matrices, attribute) is not None:
+            matrix = sparse(getattr(matrices, attribute))
+            arrays |= {f"{name}.{part}": getattr(matrix, part) for part in PARTS}
+    if matrices.axes is not None:
+        arrays["axes"] = matrices.axes
+    if matrices.interfaces:
+        arrays["interface_names"] = np.array(list(matrices.interfaces))
+        arrays["interface_nodes"] = matrices.numbers[list(matrices.interfaces.values())]
+    arrays |= {name: getattr(matrices, name) for name in ("length_unit", "mass_unit") if getattr(matrices, name)}
+    np.savez(path, **arrays)
+    return [path]
