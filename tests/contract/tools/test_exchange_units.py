@@ -155,6 +155,7 @@ class Command(InFolder):
 
     def test_sentences(self):
         self.write("empty.pch", "")
+        self.write("empty.npz", "")
         self.write("damaged.h5", "no HDF5")
         for told, arguments in (
                 ("'none.pch' does not exist", ("none.pch", "a.h5")),
@@ -163,8 +164,13 @@ class Command(InFolder):
                 ("there is no format 'opt4'; did you mean 'op4'?", ("body.h5", "a.op4", "--to", "opt4")),
                 ("there is no format 'dmigg'; did you mean 'dmig'?", ("body.h5", "a.op4", "--from", "dmigg")),
                 ("'--unit-to' is not an option; did you mean '--units'?", ("body.h5", "a.op4", "--unit-to", "m")),
-                ("--names 'stifness=K': there is no member 'stifness'; did you mean 'stiffness'?", ("body.h5", "a.op4", "--names", "stifness=K")),
-                ("--names 'K': MEMBER=NAME is expected", ("body.h5", "a.op4", "--names", "K")),
+                ("--names 'stifness=K': there is no member 'stifness'; did you mean 'stiffness'?", ("empty.pch", "a.op4", "--names", "stifness=K")),
+                ("--names 'K': MEMBER=NAME is expected", ("empty.pch", "a.op4", "--names", "K")),
+                ("--nodes: the format 'matrices' does not use it (it takes none of its kind)", ("body.h5", "a.op4", "--nodes", "empty.pch")),
+                ("--interfaces: the format 'dmig' does not use it (it takes --nodes and --mass and --names)",
+                 ("empty.pch", "a.op4", "--interfaces", "3")),
+                ("--interfaces '3,x': numbers of nodes are expected, such as 12,40, found 'x'",
+                 ("empty.npz", "a.op4", "--from", "exudyn", "--interfaces", "3,x")),
                 ("the format 'matrices' is in SI units", ("body.h5", "a.h5", "--to", "matrices", "--to-units", "mm-t-s")),
                 ("--units mm-t-s: the file declares", ("units.h5", "a.op4", "--units", "mm-t-s")),
                 ("'none.bdf' does not exist", ("body.h5", "a.op4", "--nodes", "none.bdf")),
