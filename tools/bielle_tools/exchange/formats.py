@@ -87,5 +87,5 @@ def check_options(name, given):
     takes = TAKES.get(name, ())
     for option in given:
         if option not in takes:
-            told = " and ".join(f"--{one}" for one in takes) or "none of its kind"
+            told = " and ".join(f"--{one}" for one in takes) or "none"
             raise InputError(f"--{option}: the format '{name}' does not use it (it takes {told})")
