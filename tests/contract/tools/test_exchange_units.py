@@ -139,8 +139,23 @@ class Command(InFolder):
         self.run_tool("other.h5", "same.h5", "--to", "matrices")
         assert_same(self, matrix_file.read(self.path("same.h5")), self.body, 0)
 
+    def test_a_superelement(self):
+        """The program is replaced by one that writes its arguments, and copies the matrices that it gets."""
+        stand_in = self.write("bielle-reduce", '#!/bin/sh\necho "$1 $3 $4"; cp "$2" "$4" && exit ${BIELLE_TEST_STATUS:-0}\n')
+        os.chmod(stand_in, 0o755)
+        environment = {**os.environ, "BIELLE_BIN": self.folder}
+        done = run_python_tool(TOOL, ["body.h5", "new.h5", "--name", "arm"], self.folder, environment)
+        self.assertEqual((done.returncode, done.stdout), (0, "--from -o new.h5\n"), done.stderr)
+        found = matrix_file.read(self.path("new.h5"))
+        self.assertEqual((found.name, found.length_unit), ("arm", "m"))
+        assert_same(self, found, self.body, 0)
+        done = run_python_tool(TOOL, ["body.h5", "new.h5"], self.folder, {**environment, "BIELLE_TEST_STATUS": "1"})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("bielle-reduce made no superelement of the matrices (exit status 1); --to matrices writes them without it", done.stderr)
+
     def test_sentences(self):
         self.write("empty.pch", "")
+        self.write("empty.npz", "")
         self.write("damaged.h5", "no HDF5")
         for told, arguments in (
                 ("'none.pch' does not exist", ("none.pch", "a.h5")),
@@ -149,8 +164,13 @@ class Command(InFolder):
                 ("there is no format 'opt4'; did you mean 'op4'?", ("body.h5", "a.op4", "--to", "opt4")),
                 ("there is no format 'dmigg'; did you mean 'dmig'?", ("body.h5", "a.op4", "--from", "dmigg")),
                 ("'--unit-to' is not an option; did you mean '--units'?", ("body.h5", "a.op4", "--unit-to", "m")),
-                ("--names 'stifness=K': there is no member 'stifness'; did you mean 'stiffness'?", ("body.h5", "a.op4", "--names", "stifness=K")),
-                ("--names 'K': MEMBER=NAME is expected", ("body.h5", "a.op4", "--names", "K")),
+                ("--names 'stifness=K': there is no member 'stifness'; did you mean 'stiffness'?", ("empty.pch", "a.op4", "--names", "stifness=K")),
+                ("--names 'K': MEMBER=NAME is expected", ("empty.pch", "a.op4", "--names", "K")),
+                ("--nodes: the format 'matrices' does not use it (it takes none)", ("body.h5", "a.op4", "--nodes", "empty.pch")),
+                ("--interfaces: the format 'dmig' does not use it (it takes --nodes and --mass and --names)",
+                 ("empty.pch", "a.op4", "--interfaces", "3")),
+                ("--interfaces '3,x': numbers of nodes are expected, such as 12,40, found 'x'",
+                 ("empty.npz", "a.op4", "--from", "exudyn", "--interfaces", "3,x")),
                 ("the format 'matrices' is in SI units", ("body.h5", "a.h5", "--to", "matrices", "--to-units", "mm-t-s")),
                 ("--units mm-t-s: the file declares", ("units.h5", "a.op4", "--units", "mm-t-s")),
                 ("'none.bdf' does not exist", ("body.h5", "a.op4", "--nodes", "none.bdf")),
@@ -165,7 +185,7 @@ class Command(InFolder):
         with open(self.path("body.h5"), "rb") as file:
             content = file.read()
         random = np.random.default_rng(3)
-        for case in range(40):
+        for case in range(20):
             damaged = bytearray(content)
             if case % 2:
                 del damaged[random.integers(1, len(content)):]

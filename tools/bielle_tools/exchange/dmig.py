@@ -1,5 +1,7 @@
 """Matrices of bodies as DMIG cards of Nastran: what EXTSEOUT(DMIGPCH) of Nastran and PARAM,EXTOUT of OptiStruct write."""
 
+import os
+
 import numpy as np
 import scipy.sparse
 
@@ -29,14 +31,21 @@ def read(path, options):
     squares = {role: matrix for role, matrix in chosen.items() if role != "shapes"}
     unknowns = _unknowns(deck, list(squares.values()))
     places = {pair: place for place, pair in enumerate(unknowns)}
-    members = {role: _square(deck, matrix, places) for role, matrix in squares.items()}
-    notes = left_out(found, chosen)
+    members = {role: _square(matrix, places) for role, matrix in squares.items()}
+    notes = left_out(found, chosen) + _cut_off(path)
     if "shapes" in chosen:
         members["shapes"], more = _shapes(deck, chosen["shapes"], places)
         notes += more
     result = matrix_set(deck, unknowns, members, options, path, "Nastran DMIG")
     result.notes += notes
     return result
+
+
+def _cut_off(path):
+    """A note on a file whose last line has no end: nothing else tells that columns of its last matrix are missing."""
+    with open(path, "rb") as file:
+        file.seek(-1, os.SEEK_END)
+        return [] if file.read() in b"\r\n" else [f"'{path}' ends in the middle of a line: it may be truncated"]
 
 
 def _unknowns(deck, matrices):
@@ -56,8 +65,8 @@ def _unknowns(deck, matrices):
     return sorted(pairs)
 
 
-def _square(deck, matrix, places):
-    by_name = _Named(deck, places)
+def _square(matrix, places):
+    by_name = _by_name(places)
     rows, columns, values = arrays(matrix, by_name, by_name)
     keys = rows * len(places) + columns
     order = np.argsort(keys, kind="stable")
@@ -95,7 +104,7 @@ def _shapes(deck, matrix, places):
     if matrix.rectangular:
         columns = {(number, 0): number - 1 for number in range(1, len(places) + 1)}
     else:
-        columns = _Named(deck, places)
+        columns = _by_name(places)
     strange = next((column for column in sorted(matrix.columns) if column not in columns), None)
     if strange is not None:
         raise InputError(f"'{matrix.header.path}': DMIG {matrix.name} has the column {strange[0]} {strange[1]}, which is none of the "
@@ -108,15 +117,6 @@ def _shapes(deck, matrix, places):
     return shapes_of(deck, blocks_of_rows(rows), values)
 
 
-class _Named(dict):
-    """Places of unknowns, by pairs as a deck names them."""
-
-    def __init__(self, deck, places):
-        super().__init__(places)
-        self.deck = deck
-
-    def __missing__(self, pair):
-        return self[self.deck.named(*pair)] if self.deck.named(*pair) != pair else dict.__getitem__({}, pair)
-
-    def __contains__(self, pair):
-        return super().__contains__(self.deck.named(*pair))
+def _by_name(places):
+    """Places of unknowns by all of their names: component 1 of a scalar point is the point itself."""
+    return {**places, **{(number, 1): place for (number, component), place in places.items() if component == SCALAR}}

@@ -29,6 +29,20 @@ FORMATS = {
     "fedem": ("fedem_matrices", [".fmx"]),
 }
 
+# Members of `Options`, besides the name of the body, that the reader of a format uses; it uses none if it is not here.
+TAKES = {
+    "dmig": ("nodes", "mass", "names"),
+    "op4": ("nodes", "mass", "names"),
+    "op4-text": ("nodes", "mass", "names"),
+    "calculix": ("nodes", "mass"),
+    "abaqus": ("nodes", "mass", "unknowns"),
+    "matrix_input": ("nodes", "mass", "unknowns"),
+    "matrix_market": ("nodes", "mass", "unknowns"),
+    "exudyn": ("interfaces",),
+    "mbdyn": ("interfaces",),
+    "fedem": ("nodes", "mass", "unknowns"),
+}
+
 
 @dataclass
 class Options:
@@ -66,3 +80,12 @@ def format_of(path, chosen="", writing=False):
             return name
     known = ", ".join(sorted({ending for _, endings in FORMATS.values() for ending in endings}))
     raise InputError(f"'{path}': no format of matrices is known by this ending; known ones: {known}")
+
+
+def check_options(name, given):
+    """@param given: names of members of `Options` @raises InputError for those that a format does not use"""
+    takes = TAKES.get(name, ())
+    for option in given:
+        if option not in takes:
+            told = " and ".join(f"--{one}" for one in takes) or "none"
+            raise InputError(f"--{option}: the format '{name}' does not use it (it takes {told})")

@@ -99,15 +99,15 @@ def arrays_of(deck, unknowns):
             "unknown_nodes": np.array([-1 if modal else rows[number] for (number, _), modal in zip(unknowns, scalar)], np.int64),
             "unknown_components": np.array([count if modal else component - 1 for (_, component), modal, count in
                                             zip(unknowns, scalar, counts)], np.int64),
-            "interfaces": {f"node_{number}": rows[number] for number in _interfaces(deck, rows)}}
+            "interfaces": {f"node_{number}": rows[number] for number in _interfaces(deck, rows, any(scalar))}}
 
 
-def _interfaces(deck, rows):
+def _interfaces(deck, rows, has_modes):
     """Numbers of the grid points that are interfaces: those of the b-set, or else of the a-set. If these are all that have
     unknowns, they are interfaces of a body with modes, or if they are few."""
     for members in (deck.held, deck.a_set - deck.modal):
         declared = sorted({number for number, component in members if component != SCALAR and number in rows})
-        if declared and (len(declared) < len(rows) or deck.modal):
+        if declared and (len(declared) < len(rows) or has_modes):
             return declared
     return rows if len(rows) <= MOST_INTERFACES else []
 
