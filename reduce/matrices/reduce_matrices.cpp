@@ -281,6 +281,7 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   body.input = options.input_text.empty() ? fmt::format("# from {}\n", set.source) : options.input_text;
   body.interfaces = ties.interfaces;
   body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);
+  body.stiffness.setZero(size, size);
   const Eigen::MatrixXd mass = transposed_product(T, set.mass * T);
   body.mass = (mass + mass.transpose()) / 2;
   add_missing_inertia(mass_of(set, body), body, progress);
@@ -289,7 +290,6 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   body.centre = properties.centre;
   body.inertia = properties.inertia;
   const Eigen::MatrixXd boundary = T.leftCols(kept);
-  body.stiffness.setZero(size, size);
   body.stiffness.topLeftCorner(kept, kept) =
       boundary_stiffness(set, ties, transposed_product(boundary, set.stiffness * boundary), properties);
   body.stiffness.bottomRightCorner(modes, modes) = basis.eigenvalues.asDiagonal();
