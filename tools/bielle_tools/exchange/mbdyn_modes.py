@@ -10,14 +10,21 @@ import os
 import numpy as np
 
 from ..messages import InputError, note
+from ..text_lines import lines_of
 from .free_modes import free_modes, moments, rigid_moments
 from .inertia_moments import EPSILON, Moments, components_of, inertia_about, moments_of_points, second_moment
 from .job_files import stem
 from .matrix_set import MassProperties
-from .mbdyn_file import ModalFile, write_groups
+from .mbdyn_file import GROUP, ModalFile, write_groups
 from .modal_body import body_of_modes, rigid_mass
 
 INVARIANTS = (14, 15, 16, 18)
+
+
+def recognises(path):
+    """Whether a file has groups, or no text: decks of OptiStruct have the same ending."""
+    texts = lines_of(path)
+    return any(GROUP.match(text) for text in texts) or not any(text.strip() for text in texts)
 
 
 def read(path, options):
