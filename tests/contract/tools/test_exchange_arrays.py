@@ -23,6 +23,12 @@ class Npz(Exchange):
             found = self.read_back("npz", body, self.path("b.npz"))
             self.same(found, body)
             self.assertEqual((found.interfaces, found.length_unit, found.mass_unit, found.name), (body.interfaces, "mm", None, "cloud"))
+            for name in ("mass", "centre", "inertia") if body.mass_properties else ():
+                np.testing.assert_array_equal(getattr(found.mass_properties, name), getattr(body.mass_properties, name))
+            if body.shapes is not None:
+                np.testing.assert_array_equal(found.inertia_components, body.inertia_components)
+                for name in ("numbers", "points", "displacement", "masses"):
+                    np.testing.assert_array_equal(getattr(found.shapes, name), getattr(body.shapes, name))
             if body.axes is not None:
                 np.testing.assert_array_equal(found.axes, body.axes)
         self.assertEqual(formats.format_of(self.path("b.npz")), "npz")
@@ -42,7 +48,9 @@ class Npz(Exchange):
                               ({"unknown_nodes": [1, 1, 1]}, "'unknown_components' is missing"), ({"nodes": [0]}, "'nodes' must be numbers from 1"),
                               ({"unknown_nodes": [1, 1, 2], "unknown_components": [0, 1, 2]}, "names node 2"),
                               ({"unknown_nodes": [1, 1, 1], "unknown_components": [0, 1, 6]}, "holds 6; 0 to 5"),
-                              ({"interface_names": ["a", "b"], "interface_nodes": [1]}, "2 numbers are expected")):
+                              ({"interface_names": ["a", "b"], "interface_nodes": [1]}, "2 numbers are expected"),
+                              ({"mass": 1.0}, "the array 'centre' is missing"), ({"inertia_components": np.zeros((6, 2, 2))}, "6 x 3 x 3 numbers are expected"),
+                              ({"points": np.zeros((2, 3)), "displacement": np.zeros((3, 3))}, "6 x 3 numbers are expected")):
             with self.subTest(told):
                 self.refuse("npz", self.saved(**{key: array for key, array in (given | changed).items() if array is not None}), told)
         self.refuse("npz", self.path("none.npz"), "cannot read")
