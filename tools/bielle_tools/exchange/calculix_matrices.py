@@ -1,20 +1,21 @@
 """Matrices of CalculiX: those of *FREQUENCY, SOLVER=MATRIXSTORAGE (JOB.sti, JOB.mas, JOB.dof), and substructures (.mtx).
 
 A line of JOB.sti or JOB.mas is `row column value` of one triangle, one of JOB.dof is `node.component` of a row. Nodes of solids come from
-JOB.inp. Shells and beams are expanded into solids: their nodes are those of JOB.frd, which another *FREQUENCY step before, with
+JOB.inp; the internal modes of C3D8I, nodes above those of the deck, are condensed. Shells and beams are expanded into solids: their nodes are those of JOB.frd, which another *FREQUENCY step before, with
 *NODE FILE, OUTPUT=3D, writes. Unknowns that are held or depend on others are not in JOB.dof. (CalculiX, "*FREQUENCY".)
 """
 
 import os
 
 import numpy as np
+import scipy.sparse
 
 from ..messages import InputError, counted
 from ..text_lines import lines_of
 from .abaqus_matrices import read_substructure, write_substructure
 from .entries import matrix_of
 from .job_files import stem, used_nodes
-from .matrix_set import MatrixSet
+from .matrix_set import MatrixSet, sparse
 from .node_table import Nodes, places_of, read_nodes
 from .text_tables import number_rows, whole
 
@@ -31,6 +32,12 @@ def read(path, options):
     notes = []
     if len(set(labels[starts])) == len(starts):
         nodes = read_nodes(options.nodes or _other(path, ".inp"))
+        inner = labels > nodes.numbers.max()
+        if inner.any() and len(labels) > len(nodes.numbers):
+            stiffness, mass = _condensed(path, stiffness, mass, inner, labels)
+            labels, components, starts = labels[~inner], components[~inner], starts[~inner[starts]]
+            size = len(labels)
+            notes.append("the internal modes of C3D8I are condensed, without their mass")
         place, components = places_of(base + ".dof", labels, components, nodes)
     else:
         nodes = _expanded(options.nodes if options.nodes.lower().endswith(".frd") else _other(path, ".frd"), base + ".dof", starts, size)
@@ -41,6 +48,24 @@ def read(path, options):
         notes.append(f"{counted(short, 'node')} with less than three unknowns: they are held, or depend on others")
     return MatrixSet(name=options.name or stem(path), source=f"CalculiX matrices, {os.path.basename(path)}", stiffness=stiffness, mass=mass,
                      **used_nodes(nodes, place), unknown_components=components, notes=notes)
+
+
+def _condensed(path, stiffness, mass, inner, labels):
+    """Stiffness and mass without the unknowns of the nodes that CalculiX gives each C3D8I: three each, which no other cell has.
+
+    @raises InputError if the unknowns are none of these
+    """
+    outer, inside = np.flatnonzero(~inner), np.flatnonzero(inner)
+    blocks = scipy.sparse.bsr_matrix(stiffness[inside][:, inside], blocksize=(9, 9)) if len(inside) % 9 == 0 else None
+    if blocks is None or len(blocks.indices) != len(inside) // 9 or (blocks.indices != np.arange(len(blocks.indices))).any():
+        raise InputError(f"'{path}': node {labels[inner][0]} has no position, and is none of the internal ones of C3D8I: the deck is that of "
+                         "another job")
+    try:
+        inverse = scipy.sparse.bsr_matrix((np.linalg.inv(blocks.data), blocks.indices, blocks.indptr), shape=blocks.shape)
+    except np.linalg.LinAlgError:
+        raise InputError(f"'{path}': the stiffness of internal modes is singular") from None
+    coupling = stiffness[outer][:, inside]
+    return sparse(stiffness[outer][:, outer] - coupling @ inverse @ coupling.T), mass[outer][:, outer]
 
 
 def write(matrices, path, options):
