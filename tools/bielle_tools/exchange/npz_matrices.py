@@ -15,7 +15,8 @@
 | point_numbers, point_masses | p | their numbers (default 1, 2, ..), and masses that sum up to the body's |
 | length_unit, mass_unit | | texts; default: as the command says |
 
-Without unknown_nodes and unknown_components, the rows are x y z (rx ry rz if they are enough) of all nodes in order, then scalar coordinates.
+Without unknown_nodes and unknown_components, the rows are x y z (rx ry rz if they are enough) of all nodes in order,
+then scalar coordinates.
 """
 
 import os
@@ -32,10 +33,10 @@ from .matrix_set import MassProperties, MatrixSet, Shapes, sparse
 MATRICES = {"K": "stiffness", "M": "mass", "C": "damping"}
 PARTS = ("data", "indices", "indptr")
 KEYS = [*MATRICES, *(f"{name}.{part}" for name in MATRICES for part in PARTS), "positions", "nodes", "axes", "unknown_nodes",
-        "unknown_components", "interface_names", "interface_nodes", "mass", "centre", "inertia", "inertia_components", "points", "displacement",
-        "point_numbers", "point_masses", "length_unit", "mass_unit", "name"]
-FAULTS = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error, KeyError, TypeError, NotImplementedError, RuntimeError, MemoryError,
-          SyntaxError, OverflowError, IndexError, AttributeError)
+        "unknown_components", "interface_names", "interface_nodes", "mass", "centre", "inertia", "inertia_components",
+        "points", "displacement", "point_numbers", "point_masses", "length_unit", "mass_unit", "name"]
+FAULTS = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error, KeyError, TypeError, NotImplementedError,
+          RuntimeError, MemoryError, SyntaxError, OverflowError, IndexError, AttributeError)
 
 
 def load(path, wanted=None):
@@ -46,7 +47,8 @@ def load(path, wanted=None):
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
     except FAULTS as error:
-        raise InputError(f"'{path}': is no readable .npz file: {str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
+        raise InputError(f"'{path}': is no readable .npz file: "
+                         f"{str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
 
 
 def names_in(path):
@@ -90,10 +92,10 @@ def matrices_of(path, arrays, name, source):
     names = arrays.get("interface_names", np.array([], str)).reshape(-1)
     interfaces = _rows(path, "interface_nodes", _numbers(path, arrays, "interface_nodes", (len(names),), np.zeros(len(names))), numbers)
     axes = _numbers(path, arrays, "axes", (count, 3, 3)) if "axes" in arrays else None
-    return MatrixSet(name=name or _text(arrays, "name") or stem(path), source=source, numbers=numbers, positions=positions, axes=axes, unknown_nodes=nodes,
-                     unknown_components=components, **matrices,
-                     interfaces={str(each): int(row) for each, row in zip(names, interfaces)}, **_inside(path, arrays, size), length_unit=_text(arrays, "length_unit"),
-                     mass_unit=_text(arrays, "mass_unit"))
+    return MatrixSet(name=name or _text(arrays, "name") or stem(path), source=source, numbers=numbers, positions=positions,
+                     axes=axes, unknown_nodes=nodes, unknown_components=components, **matrices,
+                     interfaces={str(each): int(row) for each, row in zip(names, interfaces)}, **_inside(path, arrays, size),
+                     length_unit=_text(arrays, "length_unit"), mass_unit=_text(arrays, "mass_unit"))
 
 
 def _inside(path, arrays, size):
@@ -145,7 +147,8 @@ def _matrix(path, arrays, name):
         return None
     array = _numbers(path, arrays, name, (-1, -1))
     if array.shape[0] != array.shape[1]:
-        raise InputError(f"'{path}': '{name}' has {counted(array.shape[0], 'row')} and {counted(array.shape[1], 'column')}")
+        raise InputError(f"'{path}': '{name}' has {counted(array.shape[0], 'row')} and "
+                         f"{counted(array.shape[1], 'column')}")
     return sparse(array)
 
 
@@ -161,7 +164,8 @@ def _unknowns(path, arrays, numbers, size):
     count = len(numbers)
     each = 6 if size >= 6 * count else 3
     if size < 3 * count:
-        raise InputError(f"'{path}': {counted(count, 'node')} with 3 unknowns each need {3 * count} rows, 'K' has {size}; give 'unknown_nodes' "
+        raise InputError(f"'{path}': {counted(count, 'node')} with 3 unknowns each need {3 * count} rows, 'K' has "
+                         f"{size}; give 'unknown_nodes' "
                          "and 'unknown_components'")
     scalars = size - each * count
     return (np.concatenate([np.repeat(np.arange(count), each), np.full(scalars, -1)]),

@@ -1,7 +1,8 @@
 """Simscape Multibody's block Reduced Order Flexible Solid: its matrices as variables of a .mat file.
 
-`origins` (k,3) are the positions of the interface frames, K, M and C the stiffness, mass and damping; rows are x y z rx ry rz of each frame in
-axes of the body, then amplitudes of modes. A script FILE.m beside sets the parameters of a block. (MathWorks, "Reduced Order Flexible Solid".)
+`origins` (k,3) are the positions of the interface frames, K, M and C the stiffness, mass and damping; rows are x y z rx
+ry rz of each frame in axes of the body, then amplitudes of modes. A script FILE.m beside sets the parameters of a
+block. (MathWorks, "Reduced Order Flexible Solid".)
 """
 
 import os
@@ -30,17 +31,20 @@ def read(path, options):
     origins = _numbers(path, variables, name)
     count = len(origins)
     if origins.shape[1] != 3 or not count:
-        raise InputError(f"'{path}': 'origins' has {origins.shape[0]} x {origins.shape[1]} numbers; three columns x, y, z are expected")
+        raise InputError(f"'{path}': 'origins' has {origins.shape[0]} x {origins.shape[1]} numbers; three columns x, "
+                         "y, z are expected")
     matrices = {each: _numbers(path, variables, each) for each in ("K", "M")}
     if "C" in variables:
         matrices["C"] = _numbers(path, variables, "C")
     size = len(matrices["K"])
     for each, matrix in matrices.items():
         if matrix.shape != (size, size) or size < 6 * count:
-            raise InputError(f"'{path}': '{each}' has {matrix.shape[0]} x {matrix.shape[1]} numbers; {counted(count, 'frame')} need 6 rows each")
+            raise InputError(f"'{path}': '{each}' has {matrix.shape[0]} x {matrix.shape[1]} numbers; "
+                             f"{counted(count, 'frame')} need 6 rows each")
     scalars = size - 6 * count
     return MatrixSet(
-        name=options.name or stem(path), source=f"Simscape reduced order solid, {os.path.basename(path)}", numbers=np.arange(1, count + 1),
+        name=options.name or stem(path), source="Simscape reduced order solid, "
+                                                f"{os.path.basename(path)}", numbers=np.arange(1, count + 1),
         positions=origins, unknown_nodes=np.concatenate([np.repeat(np.arange(count), 6), np.full(scalars, -1)]),
         unknown_components=np.concatenate([np.tile(np.arange(6), count), np.arange(scalars)]), stiffness=sparse(matrices["K"]),
         mass=sparse(matrices["M"]), damping=sparse(matrices["C"]) if "C" in matrices else None)
@@ -60,7 +64,8 @@ def _load(path):
     except NotImplementedError:
         raise InputError(f"'{path}': is a .mat file of version 7.3: save it with '-v7'") from None
     except FAULTS as error:
-        raise InputError(f"'{path}': is no readable .mat file: {str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
+        raise InputError(f"'{path}': is no readable .mat file: "
+                         f"{str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
 
 
 def _numbers(path, variables, name):
@@ -93,7 +98,8 @@ def write(matrices, path, options):
 def _script(body, name, modes):
     units = f"{body.length_unit or 'the length unit of the file'}, {body.mass_unit or 'its mass unit'}"
     return (f"% {body.name}: a body for the block Reduced Order Flexible Solid, units {units}.\n"
-            f"% {counted(len(body.numbers), 'frame')} ({', '.join(body.interfaces) or 'in the order of the nodes'}) and {counted(modes, 'mode')}.\n"
+            f"% {counted(len(body.numbers), 'frame')} ({', '.join(body.interfaces) or 'in the order of the nodes'}) "
+            f"and {counted(modes, 'mode')}.\n"
             f"body = load('{name}');\n"
             "% Parameters of the block:\n"
             "%   Interface frames, origins: body.origins; orientations: those of the body\n"
