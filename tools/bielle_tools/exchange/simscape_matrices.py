@@ -5,9 +5,12 @@ ry rz of each frame in axes of the body, then amplitudes of modes. A script FILE
 block. (MathWorks, "Reduced Order Flexible Solid".)
 """
 
+import multiprocessing
 import os
 import re
 import zlib
+from concurrent.futures import ProcessPoolExecutor, TimeoutError
+from concurrent.futures.process import BrokenProcessPool
 
 import numpy as np
 import scipy.io
@@ -20,6 +23,7 @@ from .matrix_set import MatrixSet, sparse
 FAULTS = (ValueError, TypeError, OSError, EOFError, KeyError, IndexError, NotImplementedError, zlib.error, OverflowError, MemoryError,
           AttributeError, AssertionError, UnboundLocalError, ArithmeticError, scipy.io.matlab.MatReadError)
 ORIGINS = ("origins", "P")
+LONGEST = 600  # [s] of reading
 
 
 def read(path, options):
@@ -51,21 +55,31 @@ def read(path, options):
 
 
 def _load(path):
-    """The variables of a file, or the fields of its only structure."""
+    """The variables of a file, or the fields of its only structure. SciPy crashes on some damaged files: it reads in a process
+    of its own."""
+    if not os.path.isfile(path):
+        raise InputError(f"cannot read '{path}': there is no such file")
+    with ProcessPoolExecutor(1, multiprocessing.get_context("fork")) as pool:
+        try:
+            variables = pool.submit(_loaded, path).result(LONGEST)
+        except (BrokenProcessPool, TimeoutError):
+            raise InputError(f"'{path}': is a damaged .mat file") from None
+    if len(variables) == 1:
+        only = next(iter(variables.values()))
+        if getattr(only, "dtype", None) is not None and only.dtype.names and only.size == 1:
+            return {name: only.flat[0][name] for name in only.dtype.names}
+    return variables
+
+
+def _loaded(path):
+    """The variables of a file. @raises InputError"""
     try:
-        variables = {name: value for name, value in scipy.io.loadmat(path).items() if not name.startswith("__")}
-        if len(variables) == 1:
-            only = next(iter(variables.values()))
-            if getattr(only, "dtype", None) is not None and only.dtype.names and only.size == 1:
-                return {name: only.flat[0][name] for name in only.dtype.names}
-        return variables
-    except FileNotFoundError:
-        raise InputError(f"cannot read '{path}': there is no such file") from None
+        return {name: value for name, value in scipy.io.loadmat(path).items() if not name.startswith("__")}
     except NotImplementedError:
         raise InputError(f"'{path}': is a .mat file of version 7.3: save it with '-v7'") from None
     except FAULTS as error:
-        raise InputError(f"'{path}': is no readable .mat file: "
-                         f"{str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
+        told = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise InputError(f"'{path}': is no readable .mat file: {told}") from None
 
 
 def _numbers(path, variables, name):
