@@ -24,6 +24,7 @@
 #include "reduce/dense/blas.hpp"
 #include "reduce/distributed/distributed_matrices.hpp"
 #include "reduce/distributed/greeting.hpp"
+#include "reduce/matrices/reduce_matrices.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/describe.hpp"
 #include "reduce/mesh/import.hpp"
@@ -107,6 +108,22 @@ void reduce_in_pieces(const Mesh& mesh, const BodyFile& file, const std::string&
   }
 }
 
+/// Reduces the matrices of another program.
+void reduce_matrices_of(const MatrixBody& body, const std::string& output, const CommonOptions& common,
+                        Progress& progress) {
+  progress.start("reading");
+  MatrixSet matrices = read_foreign_matrices(body.files, progress);
+  ReductionReport report;
+  const Superelement result = reduce_matrices(matrices, body.options, progress, common.threads, &report);
+  progress.start("writing");
+  write_superelement(result, output);
+  progress.finish();
+  if (!common.quiet) {
+    fmt::print("{}\n{}{}{}{}", matrices.source, describe(result), describe(report.checks),
+               describe(report, progress.phases()), written(output));
+  }
+}
+
 /// Executes the requests of a body file.
 void reduce(const BodyFile& file, const std::string& output, const CommonOptions& common, const MatrixMaker& matrices) {
   start_blas(common.threads);
@@ -119,10 +136,28 @@ void reduce(const BodyFile& file, const std::string& output, const CommonOptions
   for (const std::string& warning : file.warnings) {
     progress.warn(warning);
   }
+  if (file.matrices) {
+    reduce_matrices_of(*file.matrices, output, common, progress);
+    return;
+  }
   const Mesh mesh = import_mesh(file.mesh, progress);
   check_integration(mesh, file.options.integration);
   file.pieces ? reduce_in_pieces(mesh, file, output, progress, common, matrices)
               : reduce_whole(mesh, file, output, progress, common, matrices);
+}
+
+/// Takes over the matrices of a file without a body file. @param units  of its numbers; empty: SI
+void reduce_from(const std::string& path, std::string output, const std::string& units, const CommonOptions& common) {
+  if (output.empty()) {
+    output = std::filesystem::path(path).replace_extension(".h5").string();
+  }
+  check_output(output, path, path);
+  start_blas(common.threads);
+  Progress progress(common.quiet);
+  MatrixBody body;
+  body.files.path = path;
+  body.files.units = units;
+  reduce_matrices_of(body, output, common, progress);
 }
 
 /// Reads a body file and executes its requests, whose errors get the line of their key.
@@ -133,7 +168,7 @@ void reduce(const std::string& input, std::string output, bool system_calls, con
   if (output.empty()) {
     output = std::filesystem::path(input).replace_extension(".h5").string();
   }
-  check_output(output, input, file.mesh.path);
+  check_output(output, input, file.matrices ? file.matrices->files.path : file.mesh.path);
   try {
     reduce(file, output, common, matrices);
   } catch (const InputError& error) {
@@ -198,7 +233,7 @@ void list(const std::string& path, std::optional<std::string> length_unit, bool 
 
 int body(int argc, char** argv) {
   CLI::App app{"Reduces a solid body to the motions of its interfaces and its lowest modes.", "bielle-reduce"};
-  std::string input, output, geometry, superelement, keys_of;
+  std::string input, output, geometry, superelement, keys_of, foreign, units;
   std::optional<std::string> length_unit;
   bool system_calls = false;
   int ranks_at = -1;
@@ -211,6 +246,10 @@ int body(int argc, char** argv) {
                      "show what a geometry or mesh (or that of a body file) offers: volumes, surfaces, groups, units");
   const auto* unit = app.add_option("--length-unit", length_unit,
                                     "with --list: unit of a geometry that carries none: m mm cm um km in ft");
+  const auto* from_option =
+      app.add_option("--from", foreign, "make a superelement of another program's matrices (DMIG, OUTPUT4, .mtx ...)");
+  const auto* units_option =
+      app.add_option("--units", units, "with --from: units of its numbers, as mm-t-s (default: SI)");
   const auto* inspect_option =
       app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
   const auto* keys_option =
@@ -229,11 +268,15 @@ int body(int argc, char** argv) {
                                               : write_key_schema(body_file_keys(), "body file of bielle-reduce"));
     return 0;
   }
-  if (input_option->count() + list_option->count() + inspect_option->count() != 1) {
-    throw InputError("expected one of: a body file, --list GEOMETRY, --inspect SUPERELEMENT; see --help");
+  if (input_option->count() + list_option->count() + inspect_option->count() + from_option->count() != 1) {
+    throw InputError(
+        "expected one of: a body file, --from MATRICES, --list GEOMETRY, --inspect SUPERELEMENT; see --help");
   }
-  if (output_option->count() > 0 && input_option->count() == 0) {
-    throw InputError("-o goes with a body file: --list and --inspect write nothing");
+  if (output_option->count() > 0 && input_option->count() + from_option->count() == 0) {
+    throw InputError("-o goes with a body file or --from: --list and --inspect write nothing");
+  }
+  if (units_option->count() > 0 && from_option->count() == 0) {
+    throw InputError("--units goes with --from; a body file has 'matrices: {file: .., units: ..}'");
   }
   if (unit->count() > 0 && list_option->count() == 0) {
     throw InputError("--length-unit goes with --list; a body file has its own length_unit");
@@ -247,6 +290,10 @@ int body(int argc, char** argv) {
   }
   if (inspect_option->count() > 0) {
     inspect(superelement);
+    return 0;
+  }
+  if (from_option->count() > 0) {
+    reduce_from(foreign, output, units, common);
     return 0;
   }
   const Workplace workplace(ranks_at);

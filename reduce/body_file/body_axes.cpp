@@ -28,4 +28,10 @@ Eigen::Matrix3d triad(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const 
   return axes;
 }
 
+Eigen::Matrix3d read_rotation_vector(const YamlValue& value) {
+  const Eigen::Vector3d psi = value.vector3();
+  if (psi.norm() == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(psi.norm(), psi.normalized()).toRotationMatrix();
+}
+
 }  // namespace bielle::reduce

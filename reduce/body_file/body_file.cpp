@@ -15,41 +15,14 @@
 #include "reduce/body_file/body_points.hpp"
 #include "reduce/body_file/deck_materials.hpp"
 #include "reduce/body_file/deck_ties.hpp"
+#include "reduce/body_file/matrix_body.hpp"
+#include "reduce/body_file/requested_modes.hpp"
 #include "reduce/common/input/plausible.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-const KeyTable& modes_keys() {
-  using namespace keys;
-  static const KeyTable table{
-      "the modes",
-      "Fixed-boundary modes to keep: a number, all below a frequency, or the lowest of these.",
-      {{"count", integer().non_negative(), optional, "Number of modes, the lowest."},
-       {"below", number("Hz").positive(), optional,
-        "Frequency below which modes are kept; without `count`, up to 1000 of them."},
-       {"method", word({"auto", "arpack", "block_lanczos"}, "a method for modes"), otherwise("auto"),
-        "Method that computes the modes."},
-       {"proof", boolean(), otherwise("false"), "The modes are counted, which proves that none was missed."}}};
-  return table;
-}
-
-const KeyTable& damping_keys() {
-  using namespace keys;
-  static const KeyTable table{
-      "the damping",
-      "Damping of the reduced body, by ratios or by Rayleigh's two numbers.",
-      {{"ratio",
-        {number().non_negative(), list_of(number().non_negative()).items_at_least(1)},
-        optional,
-        "Damping ratio of the eigenmodes of the reduced body; in a list, the last ratio holds for all further modes. A "
-        "body in pieces has one ratio, that of the first free mode of all pieces together."},
-       {"rayleigh", tuple({{number("1/s").non_negative()}, {number("s").non_negative()}}), optional,
-        "Rayleigh damping: `[alpha, beta]`, factors of the mass and of the stiffness."}}};
-  return table;
-}
 
 const KeyTable& recovery_keys() {
   using namespace keys;
@@ -111,33 +84,6 @@ void read_regions(const YamlValue& root, BodyFile& body) {
     regions.fail("'all' is the whole body: with other regions, cells would have two materials");
 }
 
-void read_modes(const YamlValue& value, ReductionOptions& options) {
-  if (const auto count = value.find("count")) options.mode_count = count->integer();
-  if (const auto below = value.find("below")) options.modes_below = below->number();
-  const std::string method = value.at("method").word();
-  options.mode_method = method == "arpack"          ? EigenMethod::arpack
-                        : method == "block_lanczos" ? EigenMethod::block_lanczos
-                                                    : EigenMethod::automatic;
-  options.modes_proven = value.at("proof").boolean();
-  if (!options.mode_count && !options.modes_below) value.fail("expected how many modes: count, or below [Hz], or both");
-}
-
-void read_damping(const YamlValue& value, ReductionOptions& options) {
-  if (value.has("ratio") + value.has("rayleigh") != 1) value.fail("expected either ratio or rayleigh");
-  if (const auto ratio = value.find("ratio")) {
-    if (ratio->is_sequence())
-      for (const YamlValue& item : ratio->items()) options.damping_ratios.push_back(item.number());
-    else
-      options.damping_ratios.push_back(ratio->number());
-    if (options.damping_ratios.empty()) ratio->fail("expected a number or a list of numbers");
-    for (const double each : options.damping_ratios) warn_outside(*ratio, each, plausible_damping_ratio);
-    return;
-  }
-  const YamlValue rayleigh = value.at("rayleigh");
-  if (rayleigh.size() != 2) rayleigh.fail("expected [alpha, beta]: alpha [1/s] of the mass, beta [s] of the stiffness");
-  options.rayleigh = {rayleigh.at(0).number(), rayleigh.at(1).number()};
-}
-
 RecoveryExtent read_extent(const YamlValue& value) {
   const std::string word = value.word();
   return word == "none" ? RecoveryExtent::none : word == "surface" ? RecoveryExtent::surface : RecoveryExtent::all;
@@ -169,9 +115,20 @@ BodyFile read(const YamlValue& file) {
   const YamlValue root = file.keyed(body_file_keys());
   read_parameters(root);
   BodyFile body;
+  body.lines = KeyLines(file);
+  if (root.has("matrices")) {
+    body.matrices = read_matrix_body(root);
+    body.warnings = root.warnings();
+    return body;
+  }
+  for (const char* key : {"geometry", "materials", "interfaces", "modes"})
+    if (!root.has(key))
+      root.fail(
+          fmt::format("the key '{}' is missing{}", key,
+                      std::string(key) == "geometry" ? "; a body of another program's matrices has `matrices`" : ""));
+  if (const auto spin = root.find("spin")) spin->fail("it belongs to the geometric stiffness of `matrices`");
   body.options.name = root.at("body").text();
   body.options.input_text = root.source_text();
-  body.lines = KeyLines(file);
   read_mesh(root, body.mesh);
   read_regions(root, body);
   const std::string integration = root.at("integration").word();
@@ -186,9 +143,17 @@ BodyFile read(const YamlValue& file) {
     interfaces.fail(
         "expected at least one: a mechanism moves a body by its interfaces, and one with 'tie: average' on "
         "any surface leaves the body free");
-  read_modes(root.at("modes"), body.options);
+  const RequestedModes modes = read_modes(root.at("modes"));
+  body.options.mode_count = modes.count;
+  body.options.modes_below = modes.below;
+  body.options.mode_method = modes.method;
+  body.options.modes_proven = modes.proven;
   body.options.inertia_relief = root.at("inertia_relief").boolean();
-  if (const auto damping = root.find("damping")) read_damping(*damping, body.options);
+  if (const auto damping = root.find("damping")) {
+    const RequestedDamping requested = read_damping(*damping);
+    body.options.damping_ratios = requested.ratios;
+    body.options.rayleigh = requested.rayleigh;
+  }
   if (const auto loads = root.find("loads"))
     for (const auto& [name, value] : loads->entries()) body.options.loads.push_back(read_load(name, value, body.mesh));
   if (const auto masses = root.find("masses"))
@@ -213,7 +178,13 @@ const KeyTable& body_file_keys() {
       {{"body", text(), required, "Name of the body."},
        {"parameters", entries("parameter", {number("any")}), optional,
         "Numbers that expressions may use; each may use those above it."},
-       {"geometry", file("geometry or mesh"), required, "File of the geometry or the mesh."},
+       {"geometry", file("geometry or mesh"), computed("required without `matrices`"),
+        "File of the geometry or the mesh."},
+       {"matrices",
+        {file("matrices"), nested(matrices_keys)},
+        optional,
+        "File with the stiffness and mass of the body as another program computed them, full or reduced, in place of "
+        "`geometry`. Then `body`, `parameters`, `interfaces`, `modes`, `damping`, `points` and `spin` alone are used."},
        {"length_unit", word({"m", "mm", "cm", "um", "km", "in", "ft"}, "a unit of length"),
         computed("the unit that the geometry declares, otherwise m"),
         "Unit of a geometry that declares none. It scales the geometry alone, no other value of this file."},
@@ -229,7 +200,7 @@ const KeyTable& body_file_keys() {
        {"mesh", nested(mesh_keys), optional, "The mesh of a geometry."},
        {"materials",
         {entries("material", material_forms()), word({"from_file"}, "a source of materials")},
-        required,
+        computed("required with a geometry"),
         "Materials by their names; `from_file` takes those of the Nastran, Abaqus or CalculiX file that is the "
         "geometry."},
        {"mass_unit", word(mass_units(), "a unit of mass"), otherwise("kg"),
@@ -243,9 +214,11 @@ const KeyTable& body_file_keys() {
        {"regions", entries("physical volume", {name_of("material")}), computed("those of the file, with `from_file`"),
         "Materials of the physical volumes, or of the solids by their names if there are none; `all` is the whole "
         "body."},
-       {"interfaces", entries("interface", {nested(interface_keys)}), required,
+       {"interfaces", entries("interface", {nested(interface_keys)}),
+        computed("required with a geometry; of matrices: the nodes that their file declares, or all"),
         "Interfaces by their names, at least one."},
-       {"modes", nested(modes_keys), required, "Fixed-boundary modes to keep."},
+       {"modes", nested(modes_keys), computed("required with a geometry; of small or reduced matrices: all"),
+        "Fixed-boundary modes to keep."},
        {"inertia_relief", boolean(), otherwise("false"),
         "Residual vectors for the accelerations of the body itself are added."},
        {"damping", nested(damping_keys), optional, "Damping of the body, which is undamped without it."},
@@ -261,6 +234,8 @@ const KeyTable& body_file_keys() {
         "scaled "
         "diagonal for cells of order 2. Frequencies become less accurate."},
        {"recovery", nested(recovery_keys), optional, "Fields that the mechanism can recover."},
+       {"spin", vector3("rad/s"), optional,
+        "Angular velocity about one axis of the body to which the geometric stiffness of `matrices` belongs."},
        {"pieces", nested(pieces_keys), optional,
         "Cuts that divide the body into several superelements; it is one without them."}}};
   return table;

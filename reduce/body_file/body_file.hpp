@@ -8,14 +8,23 @@
 
 #include "reduce/body_file/key_lines.hpp"
 #include "reduce/common/input/key_table.hpp"
+#include "reduce/matrices/foreign_matrices.hpp"
+#include "reduce/matrices/matrix_options.hpp"
 #include "reduce/mesh/mesh_request.hpp"
 #include "reduce/reduction/options.hpp"
 #include "reduce/reduction/piece_options.hpp"
 
 namespace bielle::reduce {
 
-/// The contents of a body file: the request for a mesh, then that for its reduction.
+/// A body whose matrices are files of another program.
+struct MatrixBody {
+  ForeignMatrices files;
+  MatrixOptions options;
+};
+
+/// The contents of a body file: the request for a mesh, then that for its reduction; or that for matrices.
 struct BodyFile {
+  std::optional<MatrixBody> matrices;  ///< in place of `mesh`, `options` and `pieces`
   MeshRequest mesh;
   ReductionOptions options;
   std::optional<PiecesRequest> pieces;  ///< at the planes `mesh.cuts`; absent: the body stays whole

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -64,6 +63,11 @@ const KeyTable& interface_keys() {
        {"surface", surface_forms(), computed("required without `from`"),
         "The surface: a physical surface by its name, a shape, or a list of both, which is their union. Surfaces of "
         "different interfaces must not touch."},
+       {"node", integer().positive(), optional, "With `matrices`: a node, in place of `surface`."},
+       {"nodes", list_of(integer().positive()).items_at_least(1), optional,
+        "With `matrices`: nodes that are tied to the interface, in place of `surface`."},
+       {"weights", list_of(number().positive()).items_at_least(1), computed("equal ones"),
+        "Weights of the `nodes` of an average tie."},
        {"tie", tie_form(), otherwise("rigid"),
         "The relation of the surface to the node: `rigid` (RBE2, kinematic coupling): the surface moves with the node "
         "as a rigid body; `average` (RBE3, distributing coupling): the node moves as the area-weighted mean of the "
@@ -104,6 +108,8 @@ InterfaceRequest read_interface(const std::string& name, const YamlValue& value,
   InterfaceRequest interface;
   interface.name = name;
   interface.subject = value.path();
+  for (const char* key : {"node", "nodes", "weights"})
+    if (value.has(key)) value.at(key).fail("it belongs to a body of `matrices`; this body has a geometry");
   if (const auto from = value.find("from")) {
     read_from_deck(value, *from, deck, interface);
     return interface;
@@ -121,10 +127,7 @@ InterfaceRequest read_interface(const std::string& name, const YamlValue& value,
   const auto axes = value.find("axes"), rotation = value.find("rotation_vector");
   if (axes && rotation) value.fail("expected either axes or rotation_vector, not both");
   if (axes) interface.rotation = read_axes(*axes);
-  if (rotation) {
-    const Eigen::Vector3d psi = rotation->vector3();
-    if (psi.norm() > 0) interface.rotation = Eigen::AngleAxisd(psi.norm(), psi.normalized()).toRotationMatrix();
-  }
+  if (rotation) interface.rotation = read_rotation_vector(*rotation);
   if (const auto directions = value.find("directions")) interface.kept = read_directions(*directions, interface.tie);
   return interface;
 }

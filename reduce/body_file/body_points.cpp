@@ -20,6 +20,7 @@ PointRequest read_point(const std::string& name, const YamlValue& value, MeshReq
   PointRequest point;
   point.name = name;
   point.subject = value.path();
+  if (const auto node = value.find("node")) node->fail("it belongs to a body of `matrices`; this body has a geometry");
   if (value.has("group") == value.has("at"))
     value.fail("expected either `group`, a surface whose mean the point follows, or `at`, its place [x, y, z in m]");
   if (value.has("group")) {
@@ -40,7 +41,8 @@ const KeyTable& point_keys() {
   static const KeyTable table{
       "a point",
       "A named point inside the body, which a mechanism uses without the displacements of the mesh.",
-      {{"group", surface_forms(), optional,
+      {{"node", integer().positive(), optional, "With `matrices`: a node, in place of `group`."},
+       {"group", surface_forms(), optional,
         "A surface, which may touch interfaces; the point moves as its area-weighted mean, as the node of an interface "
         "with `tie: average` does, but does not constrain it."},
        {"at", vector3("m"), optional,

@@ -27,20 +27,20 @@ namespace {
 constexpr const char* python = "/usr/bin/python3";  // the one whose meshio is packaged
 constexpr const char* converter = "convert_mesh.py";
 
-std::filesystem::path find_converter() {
+std::filesystem::path find_tool(const std::string& tool) {
   if (const char* folder = std::getenv("BIELLE_TOOLS"); folder != nullptr && *folder != '\0') {
-    const auto path = std::filesystem::path(folder) / converter;
+    const auto path = std::filesystem::path(folder) / tool;
     if (std::filesystem::exists(path)) return path;
-    throw ComputationError(fmt::format("BIELLE_TOOLS is '{}', but there is no {} in it", folder, converter));
+    throw ComputationError(fmt::format("BIELLE_TOOLS is '{}', but there is no {} in it", folder, tool));
   }
   std::error_code ignored;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
   const std::array<std::filesystem::path, 2> folders = {program.parent_path().parent_path() / "share/bielle/tools",
                                                         BIELLE_TOOLS_FOLDER};
   for (const auto& folder : folders)
-    if (std::filesystem::exists(folder / converter)) return folder / converter;
+    if (std::filesystem::exists(folder / tool)) return folder / tool;
   throw ComputationError(fmt::format("{} is missing from '{}' and '{}'; set BIELLE_TOOLS to the folder where it is",
-                                     converter, folders[0].string(), folders[1].string()));
+                                     tool, folders[0].string(), folders[1].string()));
 }
 
 // Runs a program without a shell; its standard output is discarded, its standard error written to a file. Returns its
@@ -73,26 +73,15 @@ std::vector<std::string> lines_of(const std::string& path) {
 }
 
 // Removes the label of the program that printed the sentence: "convert_mesh.py: ..." or "note: ...".
-std::string without_label(const std::string& line) {
-  for (const std::string& label : {std::string(converter) + ": ", std::string("note: ")})
+std::string without_label(const std::string& line, const std::string& tool) {
+  for (const std::string& label : {tool + ": ", std::string("note: ")})
     if (line.starts_with(label)) return line.substr(label.size());
   return line;
 }
 
-// Runs the converter; the last argument is the file that it writes. Returns its notes.
+// Runs the converter of meshes; the last argument is the file that it writes. Returns its notes.
 std::vector<std::string> converted(const std::vector<std::string>& arguments, const std::string& source) {
-  std::vector<std::string> command = {python, find_converter().string()};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  const std::string said_file = arguments.back() + ".stderr";
-  const int status = run(command, said_file);
-  const std::vector<std::string> said = lines_of(said_file);
-  if (status == 1 && !said.empty()) throw InputError(without_label(said.back()));
-  if (status != 0)
-    throw ComputationError(fmt::format("the conversion of '{}' failed with status {}{}", source, status,
-                                       said.empty() ? "" : ": " + said.back()));
-  std::vector<std::string> notes;
-  for (const std::string& line : said) notes.push_back(without_label(line));
-  return notes;
+  return run_tool(converter, arguments, arguments.back(), source);
 }
 
 // The JSON that the converter writes with an option. @param notes  gets its notes
@@ -118,6 +107,22 @@ ScratchFolder::ScratchFolder() {
 ScratchFolder::~ScratchFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+}
+
+std::vector<std::string> run_tool(const std::string& tool, const std::vector<std::string>& arguments,
+                                  const std::string& target, const std::string& source) {
+  std::vector<std::string> command = {python, find_tool(tool).string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const std::string said_file = target + ".stderr";
+  const int status = run(command, said_file);
+  const std::vector<std::string> said = lines_of(said_file);
+  if (status == 1 && !said.empty()) throw InputError(without_label(said.back(), tool));
+  if (status != 0)
+    throw ComputationError(fmt::format("the conversion of '{}' failed with status {}{}", source, status,
+                                       said.empty() ? "" : ": " + said.back()));
+  std::vector<std::string> notes;
+  for (const std::string& line : said) notes.push_back(without_label(line, tool));
+  return notes;
 }
 
 bool gmsh_reads(const std::string& path) {

@@ -190,7 +190,7 @@ std::string describe(const ReductionReport& report, const std::vector<PhaseRepor
     total += phase.seconds;
     if (phase.name == "fixed-boundary modes") modes += phase.seconds;
   }
-  if (!report.method.empty())
+  if (!report.method.empty() && report.solves > 0)
     result += fmt::format("modes by {}: {} in {}{}\n", report.method, counted(report.solves, "solution"),
                           counted(report.sweeps, "sweep"), other_method(report.method, modes, total));
   for (const PhaseReport& phase : phases)

@@ -27,8 +27,10 @@ WITHOUT_ROWS = ("eigen", "campbell", "frequency_response", "state_space")  # ana
 # Purpose of other files of Bielle.
 OTHERS = {"bielle superelement": "'bielle-reduce --inspect {0}' describes it",
           "bielle cut body": "'bielle-reduce --inspect {0}' describes it",
+          "bielle matrices": "'bielle-exchange {0} OUT' writes them in another format",
           "bielle study": "its runs are the groups /runs/1, /runs/2, ...; h5py and HDFView show them"}
 WORDS = {"bielle superelement": "a superelement", "bielle cut body": "a body in pieces", "bielle study": "a study",
+         "bielle matrices": "matrices of another program",
          "bielle results": "results of bielle-mechanism"}
 
 

@@ -229,18 +229,5 @@ def _write_table(plan, status, numbers):
             writer.writerow([index + 1, *row, status[index], *("" if np.isnan(value) else repr(float(value)) for value in values)])
 
 
-def find_program():
-    """bielle-mechanism in BIELLE_BIN, in this repository's build, next to an installed tool, or on the PATH."""
-    tools = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    folders = [os.environ.get("BIELLE_BIN", ""), os.path.join(tools, "..", "build", "release", "bin"),
-               os.path.join(tools, "..", "..", "..", "bin"), *os.environ.get("PATH", "").split(os.pathsep)]
-    for folder in filter(None, folders):
-        path = os.path.join(folder, "bielle-mechanism")
-        if os.access(path, os.X_OK):
-            return path
-    raise InputError("bielle-mechanism is not built: run 'cmake --preset release && cmake --build build/release', "
-                     "or say where it is with BIELLE_BIN=FOLDER")
-
-
 def _text(file, name, value):
     file.create_dataset(name, data=value, dtype=h5py.string_dtype())

@@ -13,8 +13,11 @@ from ..messages import InputError, did_you_mean
 # By name: module, endings. The first format that has the ending and recognises the file reads it (`recognises(path)`, where the
 # module has it).
 FORMATS = {
-    "superelement": ("superelement_set", [".h5"]),
     "matrices": ("matrix_file", [".h5"]),
+    "superelement": ("superelement_set", [".h5"]),
+    "dmig": ("dmig", [".pch", ".dmig", ".bdf", ".nas"]),
+    "op4": ("op4", [".op4"]),        # binary when it is written
+    "op4-text": ("op4", [".op4"]),
     "calculix": ("calculix_matrices", [".sti"]),
     "abaqus": ("abaqus_matrices", [".mtx"]),
     "matrix_input": ("abaqus_matrix_input", [".mtx"]),
@@ -31,7 +34,7 @@ FORMATS = {
 class Options:
     """The options of the command that a format may use."""
 
-    format: str = ""                       # name of the format; empty: by the file
+    format: str = ""                       # name of the format that is read or written
     nodes: str = ""                        # another file with the nodes (a deck, a table)
     mass: str = ""                         # another file with the mass matrix
     names: dict[str, str] = field(default_factory=dict)  # names of matrices in the file: {"stiffness": "KAAX", "mass": "MAAX"}
@@ -49,15 +52,17 @@ def module_of(name):
 
 def format_of(path, chosen="", writing=False):
     """Name of the format of a file. @raises InputError when none has its ending"""
+    direction = "write" if writing else "read"
     if chosen:
-        module_of(chosen)
+        if not hasattr(module_of(chosen), direction):
+            raise InputError(f"the format '{chosen}' cannot be {'written' if writing else 'read'}")
         return chosen
     ending = os.path.splitext(path)[1].lower()
     for name, (_, endings) in FORMATS.items():
         if ending not in endings:
             continue
         module = module_of(name)
-        if hasattr(module, "write" if writing else "read") and (writing or not hasattr(module, "recognises") or module.recognises(path)):
+        if hasattr(module, direction) and (writing or not hasattr(module, "recognises") or module.recognises(path)):
             return name
     known = ", ".join(sorted({ending for _, endings in FORMATS.values() for ending in endings}))
     raise InputError(f"'{path}': no format of matrices is known by this ending; known ones: {known}")

@@ -8,14 +8,15 @@ import h5py
 import numpy as np
 import scipy.sparse
 
+from ..results_file import open_hdf5, reading
 from .matrix_set import MassProperties, MatrixSet, Shapes
 
 FORMAT, VERSION = "bielle matrices", 1
 MATRICES = {"stiffness": "stiffness", "mass": "mass", "damping": "damping", "geometric_stiffness": "geometric_stiffness"}
 
 
-def write(matrices, path):
-    """Writes a MatrixSet."""
+def write(matrices, path, _options=None):
+    """Writes a MatrixSet. @returns list of the path"""
     matrices.check()
     with h5py.File(path, "w") as file:
         attributes = {"format": FORMAT, "version": VERSION, "name": matrices.name, "source": matrices.source,
@@ -39,11 +40,21 @@ def write(matrices, path):
                 file[f"mass_properties/{name}"] = getattr(matrices.mass_properties, name)
         if matrices.shapes is not None:
             _write_shapes(file, matrices.shapes)
+    return [path]
 
 
-def read(path):
-    """A MatrixSet that `write` wrote."""
-    with h5py.File(path) as file:
+def recognises(path):
+    """Tells whether a file is a matrix file rather than another file of HDF5."""
+    try:
+        with h5py.File(path) as file:
+            return file.attrs.get("format") == FORMAT
+    except (OSError, RuntimeError, ValueError):
+        return False
+
+
+def read(path, _options=None):
+    """A MatrixSet that `write` wrote. @raises InputError for a damaged file"""
+    with open_hdf5(path, FORMAT, "matrices of another program") as file, reading(path, "/"):
         def array(name):
             return file[name][()] if name in file else None
 

@@ -2,18 +2,15 @@
 
 import os
 
-import h5py
 import numpy as np
 
-from ..messages import InputError
+from ..results_file import open_hdf5, reading
 from .matrix_set import MassProperties, MatrixSet, Shapes, sparse
 
 
-def read(path):
-    """@raises InputError for a body in pieces, and for interfaces that are not held in whole."""
-    with h5py.File(path) as file:
-        if file.attrs.get("format") != "bielle superelement":
-            raise InputError(f"'{path}' is no superelement of one piece")
+def read(path, _options=None):
+    """@raises InputError for a body in pieces, and for a damaged file."""
+    with open_hdf5(path, "bielle superelement", "a superelement of one piece") as file, reading(path, "/"):
         kept = file["interface/dofs"][()].astype(bool)
         nodes, components = np.nonzero(kept)
         modes = len(file["reduced/stiffness"]) - len(nodes)

@@ -1,0 +1,38 @@
+// The `modes` and the `damping` of a body file.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "reduce/spectral/eigenpairs.hpp"
+
+namespace bielle {
+class YamlValue;
+struct KeyTable;
+}  // namespace bielle
+
+namespace bielle::reduce {
+
+/// As in ReductionOptions.
+struct RequestedModes {
+  std::optional<int> count;
+  std::optional<double> below;  ///< [Hz]
+  EigenMethod method = EigenMethod::automatic;
+  bool proven = false;
+};
+
+/// Damping ratios of the free modes, or Rayleigh damping, as in ReductionOptions.
+struct RequestedDamping {
+  std::vector<double> ratios;
+  std::optional<std::array<double, 2>> rayleigh;
+};
+
+const KeyTable& modes_keys();
+const KeyTable& damping_keys();
+
+/// @throws InputError `file:line: key: what was expected`
+RequestedModes read_modes(const YamlValue& value);
+RequestedDamping read_damping(const YamlValue& value);
+
+}  // namespace bielle::reduce

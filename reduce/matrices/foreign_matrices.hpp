@@ -1,0 +1,29 @@
+// Matrices in the files of other programs: tools/bielle-exchange converts them to a matrix file in SI units.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "reduce/matrices/matrix_set.hpp"
+
+namespace bielle {
+class Progress;
+}
+
+namespace bielle::reduce {
+
+/// The files that hold the matrices of a body.
+struct ForeignMatrices {
+  std::string path;                          ///< of both matrices, or of the stiffness; or a matrix file
+  std::string mass;                          ///< another file with the mass; empty: none
+  std::string nodes;                         ///< another file with the nodes (a deck, a table); empty: none
+  std::string format;                        ///< its name in tools/README.md; empty: known by the file
+  std::map<std::string, std::string> names;  ///< of matrices in the file: "stiffness" -> "KAAX"
+  std::string units;                         ///< units of its numbers, "mm-t-s"; empty: SI, or what the file declares
+};
+
+/// Reads a matrix file, or converts another program's file to one. The converter's notes are shown.
+/// @throws InputError with the converter's own sentence; ComputationError when there is no converter
+MatrixSet read_foreign_matrices(const ForeignMatrices& request, Progress& progress);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,117 @@
+#include "reduce/matrices/matrix_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/common/leading_component.hpp"
+#include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
+#include "reduce/matrices/reduce_matrices.hpp"
+#include "reduce/spectral/eigenpairs.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+constexpr double massless = 1e-14;  // eigenvalue of M_ii relative to its largest, or of 1/omega^2
+
+/// All modes with mass: with M = B B^T and the flexibility F of the held body, B^T F B w = omega^-2 w and
+/// phi = omega^2 F B w. It needs neither a regular M nor a regular K.
+Eigenpairs all_modes(const HeldMatrices& held) {
+  const Eigen::Index n = held.size();
+  Eigenpairs result;
+  result.method = "dense algebra";
+  const Eigen::MatrixXd mass = held.inertia(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd scale = mass.diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd inverse = (scale.array() > 0).select(scale.cwiseInverse(), 0.0);
+  const SymmetricEigenpairs masses = symmetric_eigenpairs(inverse.asDiagonal() * mass * inverse.asDiagonal());
+  const Eigen::Index inertial = (masses.values.array() > massless * masses.values.cwiseAbs().maxCoeff()).count();
+  const Eigen::MatrixXd root =
+      scale.asDiagonal() * masses.vectors.rightCols(inertial) * masses.values.tail(inertial).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd moved = held.solve(root);
+  const Eigen::MatrixXd compliance = transposed_product(root, moved);
+  const SymmetricEigenpairs pairs = symmetric_eigenpairs((compliance + compliance.transpose()) / 2);
+  const double least = massless * std::max(pairs.values.size() > 0 ? pairs.values.maxCoeff() : 0, 0.0);
+  const Eigen::Index count = (pairs.values.array() > least).count();
+  result.values = pairs.values.tail(count).reverse().cwiseInverse();
+  result.vectors = product(moved, pairs.vectors.rightCols(count).rowwise().reverse());
+  result.vectors = Eigen::MatrixXd(result.vectors * result.values.asDiagonal());
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (leading_component(result.vectors.col(k)) < 0) result.vectors.col(k) *= -1;
+  return result;
+}
+
+Eigenpairs lowest_modes(const HeldMatrices& held, const MatrixOptions& options, Progress& progress, int threads) {
+  const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(z); }};
+  EigenpairOptions how;
+  how.threads = threads;
+  how.method = options.mode_method;
+  how.on_solve = [&](int solves) { progress.update(std::min(0.99, solves / 200.0), counted(solves, "solution")); };
+  const auto search = [&](int count) { return shift_invert_eigenpairs(problem, count, how); };
+  if (!options.modes_below) return search(*options.mode_count);
+  const double limit = std::pow(2 * std::numbers::pi * *options.modes_below, 2);
+  Eigenpairs pairs = eigenpairs_below(search, problem, limit, 20, options.mode_count.value_or(1000));
+  return pairs;
+}
+
+void keep_requested(Eigenpairs& pairs, const MatrixOptions& options) {
+  Eigen::Index count = pairs.values.size();
+  if (options.modes_below) {
+    const double limit = std::pow(2 * std::numbers::pi * *options.modes_below, 2);
+    count = (pairs.values.array() <= limit).count();
+  }
+  if (options.mode_count) count = std::min<Eigen::Index>(count, *options.mode_count);
+  pairs.values.conservativeResize(count);
+  pairs.vectors.conservativeResize(Eigen::NoChange, count);
+  if (pairs.residuals.size() > count) pairs.residuals.conservativeResize(count);
+}
+
+Eigenpairs requested_modes(const HeldMatrices& held, const MatrixOptions& options, Progress& progress, int threads) {
+  const bool asked = options.mode_count || options.modes_below;
+  if (held.size() == 0 || options.mode_count == 0) return {};
+  if (!asked && held.size() > most_unasked_modes)
+    throw InputError(
+        fmt::format("the body has {} inside: tell how many modes to keep, by 'modes: {{count: 20}}' in a "
+                    "body file with the key `matrices`",
+                    counted(held.size(), "unknown")));
+  if (options.mode_count.value_or(0) > held.size())
+    throw InputError("modes", fmt::format("{} are asked for, but the body has only {} inside", *options.mode_count,
+                                          counted(held.size(), "unknown")));
+  Eigenpairs pairs =
+      held.size() <= most_unasked_modes ? all_modes(held) : lowest_modes(held, options, progress, threads);
+  keep_requested(pairs, options);
+  return pairs;
+}
+
+}  // namespace
+
+MatrixBasis matrix_basis(const MatrixSet& set, const NodeTies& ties, const HeldMatrices& held,
+                         const MatrixOptions& options, Progress& progress, int threads) {
+  progress.start("constraint modes");
+  const Eigen::Index kept = ties.carry.cols();
+  const Eigen::MatrixXd loads = -Eigen::MatrixXd(ties.inside.transpose() * SparseColumns(set.stiffness * ties.carry));
+  Eigen::MatrixXd averages = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(ties.averages.size()), kept);
+  for (std::size_t k = 0; k < ties.averages.size(); ++k) averages(static_cast<Eigen::Index>(k), ties.averages[k]) = 1;
+  const Eigen::MatrixXd answers = held.solve(loads, averages);
+
+  progress.start("fixed-boundary modes");
+  const Eigenpairs pairs = requested_modes(held, options, progress, threads);
+  MatrixBasis basis;
+  basis.eigenvalues = pairs.values;
+  basis.residuals = pairs.residuals;
+  basis.method = pairs.method;
+  basis.solves = pairs.solves;
+  basis.sweeps = pairs.sweeps;
+  basis.shapes.resize(set.size(), kept + pairs.values.size());
+  basis.shapes.leftCols(kept) = ties.inside * answers + Eigen::MatrixXd(ties.carry);
+  if (pairs.values.size() > 0) basis.shapes.rightCols(pairs.values.size()) = ties.inside * pairs.vectors;
+  return basis;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,52 @@
+// The request for the reduction of matrices, independent of any file format. The `subject` of a request is the key by
+// which the user makes it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reduce/reduction/options.hpp"
+
+namespace bielle::reduce {
+
+/// An interface: a node of the matrices, or several nodes tied to a node of its own.
+struct NodeInterface {
+  std::string name;
+  std::vector<std::int64_t> nodes;          ///< their numbers in the file
+  std::vector<double> weights;              ///< of an average tie; empty: equal ones
+  Tie tie = Tie::rigid;                     ///< of several nodes
+  std::optional<Eigen::Vector3d> position;  ///< of a tie [m]; default: the mean of its nodes
+  std::optional<Eigen::Matrix3d> rotation;  ///< interface axes -> body axes; default: axes of the node, of the body
+  std::optional<std::array<bool, 6>> kept;  ///< default: all directions that the node has
+  std::string subject;                      ///< "interfaces.hub"
+};
+
+/// A named point: a node, or a place among the nodes.
+struct NodePoint {
+  std::string name;
+  std::optional<std::int64_t> node;
+  std::optional<Eigen::Vector3d> place;  ///< [m]
+  std::string subject;                   ///< "points.tip"
+};
+
+struct MatrixOptions {
+  std::string name;  ///< of the body; empty: that of the file
+  std::string input_text;
+  /// None: the nodes that the file declares as interfaces, or else all nodes.
+  std::vector<NodeInterface> interfaces;
+  std::optional<int> mode_count;      ///< with neither: all modes of a small body
+  std::optional<double> modes_below;  ///< [Hz]
+  EigenMethod mode_method = EigenMethod::automatic;
+  std::vector<double> damping_ratios;  ///< as in ReductionOptions; without both: the file's damping, if it has one
+  std::optional<std::array<double, 2>> rayleigh;
+  std::vector<NodePoint> points;
+  /// Angular velocity about one axis of the body to which the file's geometric stiffness belongs [rad/s].
+  std::optional<Eigen::Vector3d> spin;
+};
+
+}  // namespace bielle::reduce

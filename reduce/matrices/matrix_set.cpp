@@ -1,0 +1,101 @@
+#include "reduce/matrices/matrix_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reduce/reduction/rigid_motions.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// (n, kept): columns of the identity.
+SparseColumns selection(Eigen::Index n, const std::vector<Eigen::Index>& kept) {
+  Triplets entries;
+  for (std::size_t j = 0; j < kept.size(); ++j)
+    entries.emplace_back(static_cast<int>(kept[j]), static_cast<int>(j), 1.0);
+  SparseColumns result(n, static_cast<Eigen::Index>(kept.size()));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+Eigen::VectorXd largest_in_columns(const SparseColumns& matrix) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(matrix.cols());
+  for (Eigen::Index j = 0; j < matrix.outerSize(); ++j)
+    for (SparseColumns::InnerIterator entry(matrix, j); entry; ++entry) {
+      result(j) = std::max(result(j), std::abs(entry.value()));
+      result(entry.row()) = std::max(result(entry.row()), std::abs(entry.value()));
+    }
+  return result;
+}
+
+}  // namespace
+
+Eigen::Index MatrixSet::scalars() const {
+  return std::count_if(unknowns.begin(), unknowns.end(), [](const NodalUnknown& u) { return u.is_scalar(); });
+}
+
+std::string MatrixSet::name_of(Eigen::Index unknown) const {
+  constexpr std::array<const char*, 6> words = {"x", "y", "z", "rx", "ry", "rz"};
+  const NodalUnknown& u = unknowns[static_cast<std::size_t>(unknown)];
+  if (u.is_scalar()) return fmt::format("scalar {}", u.component + 1);
+  return fmt::format("node {} {}", numbers[static_cast<std::size_t>(u.node)],
+                     words[static_cast<std::size_t>(u.component)]);
+}
+
+Eigen::Index remove_empty_unknowns(MatrixSet& set) {
+  const Eigen::VectorXd largest = largest_in_columns(set.stiffness).cwiseMax(largest_in_columns(set.mass));
+  std::vector<Eigen::Index> kept;
+  std::vector<NodalUnknown> unknowns;
+  for (Eigen::Index k = 0; k < set.size(); ++k) {
+    if (largest(k) == 0) continue;
+    kept.push_back(k);
+    unknowns.push_back(set.unknowns[static_cast<std::size_t>(k)]);
+  }
+  const Eigen::Index removed = set.size() - static_cast<Eigen::Index>(kept.size());
+  if (removed == 0) return 0;
+  const SparseColumns chosen = selection(set.size(), kept);
+  for (SparseColumns* matrix : {&set.stiffness, &set.mass, &set.damping, &set.geometric_stiffness})
+    if (matrix->size() > 0) *matrix = SparseColumns(chosen.transpose() * *matrix * chosen);
+  for (Eigen::MatrixXd& matrix : set.inertia_components)
+    if (matrix.size() > 0) matrix = Eigen::MatrixXd(matrix(kept, kept));
+  if (set.shapes) {
+    set.shapes->displacement = Eigen::MatrixXd(set.shapes->displacement(Eigen::all, kept));
+    if (set.shapes->rotation.size() > 0) set.shapes->rotation = Eigen::MatrixXd(set.shapes->rotation(Eigen::all, kept));
+  }
+  set.unknowns = std::move(unknowns);
+  return removed;
+}
+
+SparseColumns nodal_motions(const MatrixSet& set, bool rotations) {
+  Triplets entries;
+  for (Eigen::Index k = 0; k < set.size(); ++k) {
+    const NodalUnknown& u = set.unknowns[static_cast<std::size_t>(k)];
+    if (u.is_scalar() || u.is_rotation() != rotations) continue;
+    const Eigen::Vector3d direction = set.axes[static_cast<std::size_t>(u.node)].col(u.component % 3);
+    for (int i = 0; i < 3; ++i)
+      if (direction(i) != 0) entries.emplace_back(3 * u.node + i, static_cast<int>(k), direction(i));
+  }
+  SparseColumns result(3 * set.positions.cols(), set.size());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+Eigen::MatrixXd nodal_rigid_motions(const MatrixSet& set, const Eigen::Vector3d& about) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(set.size(), 6);
+  for (Eigen::Index k = 0; k < set.size(); ++k) {
+    const NodalUnknown& u = set.unknowns[static_cast<std::size_t>(k)];
+    if (u.is_scalar()) continue;
+    Interface node;
+    node.position = set.positions.col(u.node);
+    node.rotation = set.axes[static_cast<std::size_t>(u.node)];
+    result.row(k) = interface_rigid_motion(node, u.component, about);
+  }
+  return result;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,331 @@
+#include "reduce/matrices/reduce_matrices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "reduce/common/counted.hpp"
+#include "reduce/common/error.hpp"
+#include "reduce/dense/dense_products.hpp"
+#include "reduce/dense/symmetric_factors.hpp"
+#include "reduce/fe/elasticity.hpp"
+#include "reduce/matrices/held_matrices.hpp"
+#include "reduce/matrices/matrix_basis.hpp"
+#include "reduce/matrices/node_interfaces.hpp"
+#include "reduce/reduction/basis.hpp"
+#include "reduce/reduction/reduced_matrices.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/superelement/point_weights.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// |a_ij - a_ji| <= this times sqrt(a_ii a_jj): text formats have at least eight digits.
+constexpr double symmetric_digits = 1e-6;
+/// Force of a rigid motion relative to the stiffness it would meet without cancellation: text formats leave 1e-8.
+constexpr double grounded = 1e-5;
+
+/// Replaces a matrix by its symmetric part. @throws InputError that names the worst pair
+void make_symmetric(const MatrixSet& set, const char* name, SparseColumns& matrix) {
+  if (matrix.size() == 0) return;
+  const SparseColumns mirrored = matrix.transpose();
+  const SparseColumns difference = matrix - mirrored;
+  const Eigen::VectorXd diagonal = matrix.diagonal().cwiseAbs();
+  const double least = diagonal.size() > 0 ? 1e-12 * diagonal.maxCoeff() : 0;
+  for (Eigen::Index j = 0; j < difference.outerSize(); ++j)
+    for (SparseColumns::InnerIterator entry(difference, j); entry; ++entry) {
+      const double scale = std::sqrt(std::max(diagonal(entry.row()), least) * std::max(diagonal(j), least));
+      if (!(std::abs(entry.value()) > symmetric_digits * scale)) continue;
+      throw InputError(
+          fmt::format("{}: the {} is not symmetric: its entries ({}, {}) and ({}, {}) are {:.9g} and {:.9g}; a file "
+                      "with one triangle "
+                      "alone must say so in its header",
+                      set.source, name, set.name_of(entry.row()), set.name_of(j), set.name_of(j),
+                      set.name_of(entry.row()), matrix.coeff(entry.row(), j), matrix.coeff(j, entry.row())));
+    }
+  matrix = SparseColumns(0.5 * (matrix + mirrored));
+}
+
+void prepare(MatrixSet& set, Progress& progress) {
+  make_symmetric(set, "stiffness", set.stiffness);
+  make_symmetric(set, "mass", set.mass);
+  make_symmetric(set, "damping", set.damping);
+  make_symmetric(set, "geometric stiffness", set.geometric_stiffness);
+  if (const Eigen::Index removed = remove_empty_unknowns(set); removed > 0)
+    progress.note(fmt::format("{} without any stiffness and mass {} left out", counted(removed, "unknown"),
+                              removed == 1 ? "is" : "are"));
+  if (set.size() == 0) throw InputError(fmt::format("{}: stiffness and mass are zero", set.source));
+}
+
+/// Mass properties of M~ under rigid motions about the origin.
+MassProperties mass_of(const MatrixSet& set, const Eigen::MatrixXd& mass, const std::vector<Interface>& interfaces) {
+  const Eigen::MatrixXd u = interface_rigid_motions(interfaces, Eigen::Vector3d::Zero());
+  const Eigen::MatrixXd m = congruent(mass.topLeftCorner(u.rows(), u.rows()), u);
+  MassProperties result;
+  result.mass = m.topLeftCorner(3, 3).trace() / 3;
+  if (!(result.mass > 0))
+    throw InputError(fmt::format("{}: moved as a whole, the body has the mass {:.6g} kg; a mass matrix is needed",
+                                 set.source, result.mass));
+  const Eigen::Matrix3d coupling = m.topRightCorner(3, 3);
+  result.centre = Eigen::Vector3d(coupling(1, 2) - coupling(2, 1), coupling(2, 0) - coupling(0, 2),
+                                  coupling(0, 1) - coupling(1, 0)) /
+                  (2 * result.mass);
+  const Eigen::Matrix3d about_origin = m.bottomRightCorner(3, 3);
+  result.inertia = about_origin + result.mass * skew(result.centre) * skew(result.centre);
+  result.inertia = Eigen::Matrix3d((result.inertia + result.inertia.transpose()) / 2);
+  return result;
+}
+
+/// A mechanism needs inertia in every coordinate. Lumped masses leave rotations of nodes without any: these get a
+/// hundred-millionth of the body's own.
+void add_missing_inertia(const MassProperties& whole, Superelement& body, Progress& progress) {
+  constexpr double share = 1e-8;
+  const Eigen::VectorXd scale = body.mass.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  if (body.mass.diagonal().minCoeff() > 0 &&
+      is_positive_definite(scale.asDiagonal() * body.mass * scale.asDiagonal() -
+                           1e-13 * Eigen::MatrixXd::Identity(body.size(), body.size())))
+    return;
+  Eigen::Index row = 0;
+  for (const Interface& interface : body.interfaces)
+    for (std::size_t axis = 0; axis < 6; ++axis)
+      if (interface.kept[axis]) {
+        body.mass(row, row) += share * (axis < 3 ? whole.mass : whole.inertia.trace() / 3);
+        ++row;
+      }
+  progress.note(
+      fmt::format("some directions of interfaces move no mass, as with lumped masses: each direction gets "
+                  "{:.0e} of the mass or inertia of the body",
+                  share));
+}
+
+/// K~_bb without the forces of rigid motions. @throws InputError if these are more than rounding
+Eigen::MatrixXd boundary_stiffness(const MatrixSet& set, const NodeTies& ties, const Eigen::MatrixXd& condensed,
+                                   const MassProperties& body) {
+  const Eigen::Index kept = condensed.rows();
+  const Eigen::MatrixXd rigid = interface_rigid_motions(ties.interfaces, body.centre);
+  const double length = radius_of_gyration(body);
+  // Forces are compared with those that a direction would meet if all else were held.
+  const SparseColumns alone = ties.carry.transpose() * set.stiffness * ties.carry;
+  Eigen::VectorXd unit(kept);
+  Eigen::Index row = 0;
+  for (const Interface& interface : ties.interfaces)
+    for (std::size_t axis = 0; axis < 6; ++axis)
+      if (interface.kept[axis]) unit(row++) = axis < 3 ? 1 : length;
+  Eigen::VectorXd stiffness = alone.diagonal().cwiseMax(condensed.diagonal()).cwiseQuotient(unit.cwiseAbs2());
+  const Eigen::MatrixXd forces = product(condensed, rigid);
+  double worst = 0;
+  Eigen::Index at = 0, motion = 0;
+  for (Eigen::Index k = 0; k < 6; ++k)
+    for (Eigen::Index i = 0; i < kept; ++i) {
+      const double relative =
+          std::abs(forces(i, k)) / (unit(i) * (k < 3 ? 1 : length) * std::max(stiffness.maxCoeff(), 1e-300));
+      if (relative > worst) {
+        worst = relative;
+        at = i;
+        motion = k;
+      }
+    }
+  const bool averages_alone = ties.averages.size() == static_cast<std::size_t>(kept);
+  if (worst > grounded && !(averages_alone && kept <= 6)) {
+    constexpr std::array<const char*, 6> motions = {"translation along x", "translation along y", "translation along z",
+                                                    "rotation about x",    "rotation about y",    "rotation about z"};
+    std::string where;
+    Eigen::Index next = 0;
+    for (const Interface& interface : ties.interfaces)
+      for (std::size_t axis = 0; axis < 6; ++axis)
+        if (interface.kept[axis] && next++ == at)
+          where =
+              fmt::format("{} {}", interface.name, std::array<const char*, 6>{"x", "y", "z", "rx", "ry", "rz"}[axis]);
+    throw InputError(
+        fmt::format("{}: a rigid {} of the body causes forces, {:.2g} of its largest stiffness, most at {}: the "
+                    "stiffness is held to "
+                    "the ground, or it does not belong to these positions, axes and units of the nodes. bielle-reduce "
+                    "--verify tells "
+                    "which",
+                    set.source, motions[static_cast<std::size_t>(motion)], worst, where));
+  }
+  if (kept <= 6) return Eigen::MatrixXd::Zero(kept, kept);  // rigid motions alone: no rounding is left
+  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(kept, kept) -
+                               product(rigid, nearest_rigid_motion(ties.interfaces, body.centre, length));
+  const Eigen::MatrixXd elastic = congruent(condensed, rest);
+  return (elastic + elastic.transpose()) / 2;
+}
+
+/// Displacements whose rigid motions are exact: the columns of the interfaces lose theirs and get the geometric ones.
+void put_exact_rigid_motions(const std::vector<Interface>& interfaces, const MassProperties& body,
+                             const Eigen::Matrix3Xd& points, Eigen::MatrixXd& displacement) {
+  const Eigen::MatrixXd rigid = interface_rigid_motions(interfaces, body.centre);
+  const Eigen::MatrixXd nearest = nearest_rigid_motion(interfaces, body.centre, radius_of_gyration(body));
+  const Eigen::Index kept = rigid.rows();
+  const Eigen::MatrixXd found = product(displacement.leftCols(kept), rigid);
+  const Eigen::MatrixXd missing = Eigen::MatrixXd(rigid_motions(points, body.centre)) - found;
+  displacement.leftCols(kept) += product(missing, nearest);
+}
+
+void add_shapes(const MatrixSet& set, const Eigen::MatrixXd& shapes, const MassProperties& properties,
+                Superelement& body) {
+  if (set.shapes) {
+    body.mesh.points = set.shapes->points;
+    body.mesh.cells = set.shapes->cells;
+    body.displacement_recovery = product(set.shapes->displacement, shapes);
+  } else {
+    std::vector<Eigen::Index> rows;
+    std::vector<int> movable;
+    std::vector<int> translations(set.numbers.size(), 0);
+    for (const NodalUnknown& u : set.unknowns)
+      if (!u.is_scalar() && !u.is_rotation()) ++translations[static_cast<std::size_t>(u.node)];
+    for (std::size_t a = 0; a < translations.size(); ++a) {
+      if (translations[a] < 3) continue;
+      movable.push_back(static_cast<int>(a));
+      for (int i = 0; i < 3; ++i) rows.push_back(3 * static_cast<Eigen::Index>(a) + i);
+    }
+    const Eigen::MatrixXd all = nodal_motions(set, false) * shapes;
+    body.mesh.points = set.positions(Eigen::all, movable);
+    body.displacement_recovery = all(rows, Eigen::all);
+  }
+  if (body.mesh.points.cols() > 0)
+    put_exact_rigid_motions(body.interfaces, properties, body.mesh.points, body.displacement_recovery);
+}
+
+/// The motion of a named point: that of its node, with the rotation of the nodes around it if it has none of its own.
+NamedPoint named_point(const MatrixSet& set, const NodePoint& request, const Superelement& body) {
+  NamedPoint result;
+  const int node = request.node ? node_index(set, *request.node) : -1;
+  result.position = node >= 0 ? Eigen::Vector3d(set.positions.col(node)) : *request.place;
+  const PointWeights around = point_weights(body.mesh.points, result.position, set.name);
+  Eigen::MatrixXd motions(3 * static_cast<Eigen::Index>(around.nodes.size()), body.size());
+  for (std::size_t a = 0; a < around.nodes.size(); ++a)
+    motions.middleRows(3 * static_cast<Eigen::Index>(a), 3) =
+        body.displacement_recovery.middleRows(3 * around.nodes[a], 3);
+  result.shapes = product(around.rows, motions);
+  return result;
+}
+
+void add_points(const MatrixSet& set, const MatrixOptions& options, const Eigen::MatrixXd& shapes, Superelement& body) {
+  const Eigen::MatrixXd turns = options.points.empty() ? Eigen::MatrixXd() : nodal_motions(set, true) * shapes;
+  std::set<int> turning;
+  for (const NodalUnknown& u : set.unknowns)
+    if (u.is_rotation()) turning.insert(u.node);
+  for (const NodePoint& request : options.points)
+    about(request.subject, [&] {
+      NamedPoint point = named_point(set, request, body);
+      if (request.node)
+        if (const int node = node_index(set, *request.node); turning.contains(node))
+          point.shapes.bottomRows(3) = turns.middleRows(3 * node, 3);
+      body.points[request.name] = point;
+    });
+}
+
+/// The file's damping acts on deformation alone, as all damping of a superelement.
+Eigen::MatrixXd damping_of(const MatrixSet& set, const MatrixOptions& options, const Eigen::MatrixXd& shapes,
+                           const FreeModes& free, const Superelement& body, const Eigen::MatrixXd& rigid) {
+  if (options.rayleigh) return (*options.rayleigh)[0] * body.mass + (*options.rayleigh)[1] * body.stiffness;
+  if (!options.damping_ratios.empty() || set.damping.size() == 0)
+    return modal_damping(free, body.mass, options.damping_ratios);
+  const Eigen::Index kept = body.interface_directions();
+  Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(body.size(), body.size());
+  rest.topLeftCorner(kept, kept) -=
+      product(rigid.topRows(kept),
+              nearest_rigid_motion(body.interfaces, body.centre, radius_of_gyration(mass_properties(body))));
+  const Eigen::MatrixXd whole = congruent(transposed_product(shapes, set.damping * shapes), rest);
+  return (whole + whole.transpose()) / 2;
+}
+
+void add_spin_stiffness(const MatrixSet& set, const MatrixOptions& options, const Eigen::MatrixXd& shapes,
+                        Superelement& body, Progress& progress) {
+  if (!options.spin) {
+    progress.note(
+        set.geometric_stiffness.size() > 0
+            ? "the geometric stiffness of the file is left out, since its load is not known: `spin` tells the "
+              "angular velocity it belongs to"
+            : "geometric stiffness is left out: the matrices do not have it, so that neither spin nor load "
+              "stiffens or softens the body");
+    return;
+  }
+  if (set.geometric_stiffness.size() == 0)
+    throw InputError("spin", "the file has no geometric stiffness that could belong to it");
+  Eigen::Index axis = 0;
+  const double rate = options.spin->cwiseAbs().maxCoeff(&axis);
+  if (!(rate > 0) || std::abs(options.spin->norm() - rate) > 1e-9 * rate)
+    throw InputError("spin", "expected an angular velocity along one axis of the body, e.g. [0, 0, 100]");
+  const Eigen::MatrixXd reduced = transposed_product(shapes, set.geometric_stiffness * shapes) / (rate * rate);
+  for (Eigen::MatrixXd& matrix : body.spin_stiffness) matrix.setZero(body.size(), body.size());
+  body.spin_stiffness[static_cast<std::size_t>(axis)] = (reduced + reduced.transpose()) / 2;
+}
+
+std::vector<Check> checks_of(const Superelement& body) {
+  std::vector<Check> checks;
+  for (const Check& check : check_superelement(body))
+    if (check.name.find("spin") == std::string::npos && check.name.find("geometric") == std::string::npos)
+      checks.push_back(check);
+  return checks;
+}
+
+}  // namespace
+
+Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progress& progress, int threads,
+                             ReductionReport* report) {
+  progress.start("matrices");
+  prepare(set, progress);
+  const NodeTies ties = tie_nodes(set, options.interfaces.empty() ? default_interfaces(set) : options.interfaces);
+  progress.start("factorisation");
+  const HeldMatrices held(set, ties, threads);
+  const MatrixBasis basis = matrix_basis(set, ties, held, options, progress, threads);
+
+  progress.start("reduced matrices");
+  const Eigen::MatrixXd& T = basis.shapes;
+  const Eigen::Index kept = ties.carry.cols(), modes = basis.eigenvalues.size(), size = kept + modes;
+  Superelement body;
+  body.name = options.name.empty() ? set.name : options.name;
+  body.created_by = "bielle-reduce " BIELLE_VERSION;
+  body.input = options.input_text.empty() ? fmt::format("# from {}\n", set.source) : options.input_text;
+  body.interfaces = ties.interfaces;
+  body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);
+  const Eigen::MatrixXd mass = transposed_product(T, set.mass * T);
+  body.mass = (mass + mass.transpose()) / 2;
+  add_missing_inertia(mass_of(set, body.mass, body.interfaces), body, progress);
+  const MassProperties properties = mass_of(set, body.mass, body.interfaces);
+  body.total_mass = properties.mass;
+  body.centre = properties.centre;
+  body.inertia = properties.inertia;
+  const Eigen::MatrixXd boundary = T.leftCols(kept);
+  body.stiffness.setZero(size, size);
+  body.stiffness.topLeftCorner(kept, kept) =
+      boundary_stiffness(set, ties, transposed_product(boundary, set.stiffness * boundary), properties);
+  body.stiffness.bottomRightCorner(modes, modes) = basis.eigenvalues.asDiagonal();
+
+  const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
+  const FreeModes free = free_modes(body.stiffness, body.mass, rigid);
+  const BodyInertia inertia = body_inertia(set, T, body.interfaces, body.mass, properties, rigid, free.vectors);
+  body.inertia_components = inertia.components;
+  body.effective_mass = (body.mass.bottomLeftCorner(modes, kept) * rigid.topRows(kept)).cwiseAbs2();
+  body.damping = about(
+      "damping", [&] { return damping_of(set, options, T, free, body, rigid); }, Subject::hidden);
+  add_spin_stiffness(set, options, T, body, progress);
+  progress.note(inertia.told());
+  progress.start("points and recovery");
+  add_shapes(set, T, properties, body);
+  add_points(set, options, T, body);
+
+  progress.start("checks");
+  const std::vector<Check> checks = checks_of(body);
+  for (const Check& check : checks) body.checks[check.name] = check.value;
+  body.checks["unknown_inertia_share"] = inertia.unknown_share;
+  progress.finish();
+  fail_when_a_check_does(checks, "the reduced body");
+  if (report) {
+    report->points = set.positions.cols();
+    report->factor = held.statistics();
+    report->method = basis.method;
+    report->solves = basis.solves;
+    report->sweeps = basis.sweeps;
+    report->checks = checks;
+  }
+  return body;
+}
+
+}  // namespace bielle::reduce

@@ -1,0 +1,56 @@
+// Motions of a reduced body split into their rigid part and a rest without momentum, and inertia components joined from
+// both. The rigid part of M~ is known exactly, whatever is known of the inside.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "reduce/reduction/checks.hpp"
+
+namespace bielle::reduce {
+
+/// q = U r + d with U^T M~ d = 0; r are three translations and three rotations about the centre, body axes.
+struct RigidSplit {
+  Eigen::MatrixXd rigid;   ///< U (N,6)
+  Eigen::MatrixXd rates;   ///< r in terms of q (6,N)
+  Eigen::MatrixXd rest;    ///< d in terms of q (N,N)
+  double mass = 0;         ///< [kg]
+  Eigen::Matrix3d second;  ///< P = integral of rho x x^T about the centre [kg m^2]
+};
+
+RigidSplit split_rigid(const Eigen::MatrixXd& mass, const MassProperties& body, const Eigen::MatrixXd& rigid);
+
+/// N_kl = integral of rho d_k x_l for each coordinate (N), symmetric in k and l.
+using RestMoments = std::array<std::array<Eigen::RowVectorXd, 3>, 3>;
+
+/// S_kl of the rest d alone, as far as they are known, so that they add up to M~ of the rest.
+struct RestInertia {
+  std::array<Eigen::MatrixXd, 6> components;  ///< (N,N)
+  RestMoments moments;
+  Eigen::MatrixXd open;  ///< the part of M~ of the rest (N,N) without known directions, of which each got a third
+};
+
+/// Whether no direction has negative kinetic energy. Matrices of beams with inertia of torsion alone have, since no
+/// cloud of mass turns about one axis only.
+bool is_semidefinite(const std::array<Eigen::MatrixXd, 6>& components);
+
+/// The rest of components that may not add up to M~. In the basis of M~ and their sum (eigenvalues l, 1 where they add
+/// up) motions with l above one half are scaled by l^-1/2, the others get the missing 1 - l in thirds. Components of
+/// which one has negative energy tell nothing.
+RestInertia rest_inertia(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass,
+                         const RigidSplit& split);
+
+/// S_11 S_22 S_33 S_23 S_13 S_12 of rigid part and rest together. The linear field nearest to the rest follows from its
+/// moments; what remains of the energy has the directions of the rest's components.
+std::array<Eigen::MatrixXd, 6> joined_inertia(const RigidSplit& split, const RestInertia& rest,
+                                              const Eigen::MatrixXd& mass);
+
+/// Components that add up to M~ but for the digits of a text file, made to do so exactly.
+std::array<Eigen::MatrixXd, 6> normalised_inertia(const std::array<Eigen::MatrixXd, 6>& components,
+                                                  const Eigen::MatrixXd& mass);
+
+/// The moments A^T N A along axes A.
+RestMoments turned_moments(const RestMoments& moments, const Eigen::Matrix3d& axes);
+
+}  // namespace bielle::reduce

@@ -1,0 +1,115 @@
+// The inertia of large rotations of foreign matrices.
+#include <catch2/catch.hpp>
+
+#include "reduce/matrices/rigid_split.hpp"
+#include "reduce/reduction/checks.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
+#include "tests/unit/reduce/matrices/matrix_bodies.hpp"
+
+using namespace bielle;
+using namespace bielle::reduce;
+
+namespace {
+
+/// S_kl U of rigid motions about the centre: the first moments that momentum and centrifugal forces consist of.
+Eigen::MatrixXd moments(const Superelement& body, std::size_t component) {
+  return body.inertia_components[component] * rigid_coordinates(body, body.centre);
+}
+
+/// Kinetic energy per square of the rate of a rigid spin about an axis, from the inertia components alone.
+double spin_energy(const Superelement& body, const Eigen::Vector3d& axis) {
+  Eigen::VectorXd turn = rigid_coordinates(body, body.centre).rightCols(3) * axis;
+  return 0.5 * turn.dot((body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2]) * turn);
+}
+
+}  // namespace
+
+TEST_CASE("Blocks of nodes give a beam's inertia in all directions") {
+  // Each node moves in its own directions: lateral motion has its mass there, to the order of the element's length.
+  const int elements = GENERATE(1, 10);
+  const Superelement body = test::reduced(test::beam_set(elements), {});
+  const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
+  const double most = elements == 1 ? 0.05 : 0.005;
+  for (int k = 0; k < 3; ++k) CHECK(spin_energy(body, Eigen::Vector3d::Unit(k)) == Approx(body.inertia(k, k) / 2));
+  CHECK((rigid.col(1).transpose() * body.inertia_components[1] * rigid.col(1)).value() == Approx(6));
+  CHECK(std::abs((rigid.col(1).transpose() * body.inertia_components[0] * rigid.col(1)).value()) < 1e-9);
+  // A spin about z moves along y: m L^2 / 12 = 2 in S_22, and the torsional inertia is shared by S_22 and S_33.
+  CHECK((rigid.col(5).transpose() * body.inertia_components[1] * rigid.col(5)).value() == Approx(2.0).epsilon(0.01));
+  CHECK(body.checks.at("unknown_inertia_share") < most);
+}
+
+TEST_CASE("Points with masses and inertia give the inertia components exactly") {
+  NodalShapes points;
+  points.points = Eigen::Matrix3Xd::Random(3, 7);
+  points.masses = Eigen::VectorXd::LinSpaced(7, 1, 2);
+  Eigen::Matrix3d J = Eigen::Vector3d(2, 3, 4).asDiagonal();
+  points.inertias.assign(7, J);
+  const Eigen::MatrixXd u = rigid_motions(points.points, Eigen::Vector3d::Zero());
+  Eigen::MatrixXd turns = Eigen::MatrixXd::Zero(21, 6);
+  for (int a = 0; a < 7; ++a) turns.block<3, 3>(3 * a, 3).setIdentity();
+  const auto S = inertia_of_points(points, u, turns);
+  const Eigen::MatrixXd sum = S[0] + S[1] + S[2];
+  Eigen::Matrix3d expected = 7 * J;
+  for (int a = 0; a < 7; ++a) expected -= points.masses(a) * skew(points.points.col(a)) * skew(points.points.col(a));
+  CHECK((sum.bottomRightCorner(3, 3) - expected).norm() < 1e-12);
+}
+
+TEST_CASE("Of reduced matrices with scalars the rigid part and the stretching of a beam are exact") {
+  MatrixSet set = test::beam_set(2);
+  for (int k = 0; k < 6; ++k) set.unknowns[static_cast<std::size_t>(6 + k)] = {-1, k};
+  const Superelement body = test::reduced(set, {});
+  for (int k = 0; k < 3; ++k) CHECK(spin_energy(body, Eigen::Vector3d::Unit(k)) == Approx(body.inertia(k, k) / 2));
+  // Momentum of any motion along k: the row of M~ with the translation along k.
+  const Eigen::MatrixXd rigid = rigid_coordinates(body, body.centre);
+  CHECK((moments(body, 0).col(0) - body.mass * rigid.col(0)).norm() < 1e-9);
+  CHECK((moments(body, 1).col(1) - body.mass * rigid.col(1)).norm() < 1e-9);
+  // Stretched by 1 at the right end, u_x = x / L: the integral of rho (x - L/2) u_x is rho L^2 / 12 = 1, and a spin
+  // about z moves the centre line along y by x - L/2. The torsional inertia of 0.004 counts as mass across the line.
+  CHECK(std::abs(moments(body, 5)(6, 5)) == Approx(1).epsilon(0.01));
+  CHECK(std::abs(moments(body, 4)(6, 4)) == Approx(1).epsilon(0.01));
+  CHECK(body.checks.at("unknown_inertia_share") > 0.1);  // bending: said to be unknown
+}
+
+TEST_CASE("Equal masses at the points of shapes tell the directions of an even mesh") {
+  // A bar of equal cells; its points have equal masses but for its surface.
+  const Mesh mesh = test::box_mesh({{0.4, 0.1, 0.15}, {12, 3, 4}});
+  ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 4);
+  const Superelement exact = test::reduced(mesh, options);
+  MatrixSet set;
+  set.name = "bar";
+  set.source = "test";
+  set.positions.resize(3, 2);
+  for (int a = 0; a < 2; ++a) {
+    const Interface& interface = exact.interfaces[static_cast<std::size_t>(a)];
+    set.positions.col(a) = interface.position;
+    set.axes.push_back(interface.rotation);
+    set.numbers.push_back(a + 1);
+    for (int c = 0; c < 6; ++c) set.unknowns.push_back({a, c});
+  }
+  for (int k = 0; k < 4; ++k) set.unknowns.push_back({-1, k});
+  set.stiffness = test::sparse(exact.stiffness);
+  set.mass = test::sparse(exact.mass);
+  const Superelement alone = test::reduced(set, {});
+  set.shapes.emplace();
+  set.shapes->points = mesh.points;
+  set.shapes->displacement = exact.displacement_recovery;
+  const Superelement shaped = test::reduced(set, {});
+  const auto error = [&](const Superelement& body) {
+    double worst = 0;
+    for (std::size_t k = 0; k < 6; ++k)
+      worst = std::max(worst, (body.inertia_components[k] - exact.inertia_components[k]).norm() / exact.mass.norm());
+    return worst;
+  };
+  CHECK(error(shaped) < 0.05);
+  CHECK(error(alone) > error(shaped));
+  CHECK(alone.checks.at("unknown_inertia_share") > 0.1);
+}
+
+TEST_CASE("The components add up to M~ wherever they come from") {
+  MatrixSet set = test::beam_set(3);
+  MatrixOptions options;
+  options.interfaces = {test::tied("a", {10}), test::tied("b", {40})};
+  const Superelement body = test::reduced(set, options);
+  const Eigen::MatrixXd sum = body.inertia_components[0] + body.inertia_components[1] + body.inertia_components[2];
+  CHECK((sum - body.mass).norm() < 1e-12 * body.mass.norm());
+}

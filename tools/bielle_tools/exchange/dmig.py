@@ -1,0 +1,122 @@
+"""Matrices of bodies as DMIG cards of Nastran: what EXTSEOUT(DMIGPCH) of Nastran and PARAM,EXTOUT of OptiStruct write."""
+
+import numpy as np
+import scipy.sparse
+
+from ..messages import InputError
+from ..nastran_cards import read_cards
+from .dmig_cards import arrays, read_dmig
+from .dmig_writer import write  # noqa: F401  (the second half of this format)
+from .matrix_set import sparse
+from .nastran_matrices import blocks_of_rows, matrix_set, shapes_of
+from .nastran_roles import left_out, matrices_by_role
+from .nastran_unknowns import SCALAR, Deck
+
+
+POINTS = ("GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S")
+
+
+def read(path, options):
+    """@returns MatrixSet @raises InputError"""
+    cards = read_cards(path)
+    found = read_dmig(cards)
+    if not found:
+        raise InputError(f"'{path}': the deck holds no DMIG")
+    chosen = matrices_by_role(found, read_dmig(read_cards(options.mass)) if options.mass else {}, options, path)
+    if options.nodes:
+        cards = read_cards(options.nodes) + [card for card in cards if card.name not in POINTS]
+    deck = Deck(cards)
+    squares = {role: matrix for role, matrix in chosen.items() if role != "shapes"}
+    unknowns = _unknowns(deck, list(squares.values()))
+    places = {pair: place for place, pair in enumerate(unknowns)}
+    members = {role: _square(deck, matrix, places) for role, matrix in squares.items()}
+    notes = left_out(found, chosen)
+    if "shapes" in chosen:
+        members["shapes"], more = _shapes(deck, chosen["shapes"], places)
+        notes += more
+    result = matrix_set(deck, unknowns, members, options, path, "Nastran DMIG")
+    result.notes += notes
+    return result
+
+
+def _unknowns(deck, matrices):
+    """Sorted pairs of all rows and columns of some matrices, and of the a-set if it is declared for them."""
+    pairs = set()
+    for matrix in matrices:
+        asking = f"'{matrix.header.path}': DMIG {matrix.name} "
+        if matrix.rectangular:
+            raise InputError(f"'{matrix.header.path}': line {matrix.header.line}: DMIG {matrix.name} is rectangular (form {matrix.form}); "
+                             "expected 1 (square) or 6 (symmetric)")
+        own = {deck.named(*pair) for pair in matrix.columns} | {deck.named(*row) for row, _, _ in matrix.entries}
+        deck.check(sorted(own), asking)
+        pairs |= own
+    if deck.a_set >= pairs:
+        deck.check(sorted(deck.a_set), f"'{matrices[0].header.path}': the a-set ")
+        pairs = deck.a_set
+    return sorted(pairs)
+
+
+def _square(deck, matrix, places):
+    by_name = _Named(deck, places)
+    rows, columns, values = arrays(matrix, by_name, by_name)
+    keys = rows * len(places) + columns
+    order = np.argsort(keys, kind="stable")
+    twice = np.flatnonzero(np.diff(keys[order]) == 0)
+    if len(twice):
+        _refuse(matrix, order[twice[0]], "has a row twice, once as component 0 and once as 1")
+    if matrix.form == 6:
+        return _completed(matrix, rows, columns, values, len(places))
+    return sparse(scipy.sparse.coo_matrix((values, (rows, columns)), shape=(len(places),) * 2))
+
+
+def _completed(matrix, rows, columns, values, size):
+    """A symmetric matrix out of entries on either side of its diagonal."""
+    low, high = np.minimum(rows, columns), np.maximum(rows, columns)
+    keys = low * size + high
+    order = np.argsort(keys, kind="stable")
+    same = np.diff(keys[order]) == 0
+    differing = np.flatnonzero(same & (np.diff(values[order]) != 0))
+    if len(differing):
+        _refuse(matrix, order[differing[0] + 1], "has an entry on both sides of the diagonal, with two values, but the form 6 (symmetric)")
+    kept = order[np.concatenate([[True], ~same])] if len(order) else order
+    low, high, values = low[kept], high[kept], values[kept]
+    upper = low != high
+    rows, columns = np.concatenate([low, high[upper]]), np.concatenate([high, low[upper]])
+    return sparse(scipy.sparse.coo_matrix((np.concatenate([values, values[upper]]), (rows, columns)), shape=(size, size)))
+
+
+def _refuse(matrix, entry, told):
+    row, column, _ = matrix.entries[entry]
+    raise InputError(f"'{matrix.header.path}': DMIG {matrix.name}, column {column[0]} {column[1]}, row {row[0]} {row[1]}: {told}")
+
+
+def _shapes(deck, matrix, places):
+    """Shapes and notes. Columns of a rectangular matrix are counted in the order of the unknowns."""
+    if matrix.rectangular:
+        columns = {(number, 0): number - 1 for number in range(1, len(places) + 1)}
+    else:
+        columns = _Named(deck, places)
+    strange = next((column for column in sorted(matrix.columns) if column not in columns), None)
+    if strange is not None:
+        raise InputError(f"'{matrix.header.path}': DMIG {matrix.name} has the column {strange[0]} {strange[1]}, which is none of the "
+                         f"{len(places)} unknowns of the stiffness")
+    pairs = sorted({row for row, _, _ in matrix.entries if row[1] != SCALAR})
+    rows = {pair: row for row, pair in enumerate(pairs)}
+    kept = [entry for entry in matrix.entries if entry[0] in rows]
+    values = scipy.sparse.coo_matrix(([value for _, _, value in kept], ([rows[row] for row, _, _ in kept], [columns[column] for _, column, _ in kept])),
+                                     shape=(len(pairs), len(places)))
+    return shapes_of(deck, blocks_of_rows(rows), values)
+
+
+class _Named(dict):
+    """Places of unknowns, by pairs as a deck names them."""
+
+    def __init__(self, deck, places):
+        super().__init__(places)
+        self.deck = deck
+
+    def __missing__(self, pair):
+        return self[self.deck.named(*pair)] if self.deck.named(*pair) != pair else dict.__getitem__({}, pair)
+
+    def __contains__(self, pair):
+        return super().__contains__(self.deck.named(*pair))
