@@ -3,12 +3,14 @@
 import struct
 import unittest
 
+import h5py
 import numpy as np
 import scipy.io
 
 from exchange_bodies import Exchange, cloud_body, turned
 from bielle_tools.exchange import formats
 from bielle_tools.exchange.axes import in_body_axes
+from bielle_tools.exchange.superelement_set import shapes_of
 
 
 class Npz(Exchange):
@@ -56,6 +58,21 @@ class Npz(Exchange):
         self.refuse("npz", self.path("none.npz"), "cannot read")
         with self.assertRaisesRegex(Exception, "the unknown node 1 x stands twice"):
             self.read("npz", self.saved(**given | {"unknown_nodes": [1, 1, 1], "unknown_components": [0, 0, 1]}))
+
+
+class Superelement(Exchange):
+    def test_recovery_of_some_nodes(self):
+        """A file that keeps four of five nodes, with and without cells: a tetrahedron of them, and another one."""
+        for cells in (True, False):
+            with h5py.File(self.path("s.h5"), "w") as file:
+                file["mesh/points"], displacement = np.arange(15.0).reshape(5, 3), np.arange(72.0).reshape(12, 6)
+                if cells:
+                    file["mesh/cells/4"] = [[0, 1, 3, 4], [0, 1, 2, 3]]
+                file["recovery/displacement"], file["recovery/displacement_nodes"] = displacement, [0, 1, 3, 4]
+                found = shapes_of(file)
+            np.testing.assert_array_equal(found.numbers, [1, 2, 4, 5])
+            np.testing.assert_array_equal(found.points, np.arange(15.0).reshape(5, 3)[[0, 1, 3, 4]])
+            self.assertEqual({kind: block.tolist() for kind, block in found.cells.items()}, {4: [[0, 1, 2, 3]]} if cells else {})
 
 
 class Simscape(Exchange):

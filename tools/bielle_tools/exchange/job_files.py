@@ -22,6 +22,7 @@ def used_nodes(nodes, place):
 
 
 def stem(path):
+    """Name of a file without folder and ending."""
     return os.path.splitext(os.path.basename(path))[0]
 
 
