@@ -19,7 +19,8 @@ FOLDERS = ("../../bin", "../../../../bin")  # folders of the programs from here:
 def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C: Any = None,
                  interfaces: Mapping[str, int] | None = None, scalars: int = 0, nodes: Sequence[int] | None = None,
                  unknowns: Sequence[tuple[int, int]] | None = None, axes: Any = None, name: str | None = None,
-                 length_unit: str = "m", mass_unit: str = "kg", arguments: Sequence[str] = (), program: str | os.PathLike | None = None) -> str:
+                 length_unit: str = "m", mass_unit: str = "kg", arguments: Sequence[str] = (),
+                 program: str | os.PathLike | None = None) -> str:
     """Makes a superelement file of stiffness and mass of a free linear body: `bielle-reduce --from`.
 
     output: the superelement file (.h5); a name that ends in `.matrices.h5` gets the matrices alone, for bielle-reduce.
@@ -36,7 +37,8 @@ def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C
         from bielle_tools.exchange import matrix_file, npz_matrices
         from bielle_tools.messages import InputError
     except ImportError as error:
-        raise _core.Error(f"superelement: {error}; it needs python3-h5py, python3-scipy and the folder bielle_tools of the package") from None
+        raise _core.Error(f"superelement: {error}; it needs python3-h5py, python3-scipy and the folder bielle_tools "
+                          "of the package") from None
     try:
         matrices = npz_matrices.matrices_of("superelement", _arrays(K, M, C, positions, scalars, nodes, unknowns, axes, interfaces),
                                             name or os.path.basename(os.fspath(output)).partition(".")[0], "Python")
@@ -50,8 +52,8 @@ def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "body.matrices.h5")
         matrix_file.write(matrices, path)
-        done = subprocess.run([_program(program), "--from", path, "-o", os.fspath(output), "--quiet", *arguments], capture_output=True, text=True,
-                              check=False)
+        command = [_program(program), "--from", path, "-o", os.fspath(output), "--quiet", *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         kind = _core.InputError if done.returncode == 1 else _core.ComputationError
         raise kind(done.stderr.strip() or f"bielle-reduce ends with the status {done.returncode}")
@@ -76,7 +78,8 @@ def _arrays(K: Any, M: Any, C: Any, positions: Any, scalars: int, nodes: Any, un
         size, count = K.shape[0] if hasattr(K, "shape") else len(K), len(positions)
         each = 6 if size - scalars == 6 * count else 3
         if size - scalars != each * count:
-            raise _core.InputError(f"superelement: {size} rows are not 3 or 6 unknowns of each of {count} nodes and {scalars} scalars; give "
+            raise _core.InputError(f"superelement: {size} rows are not 3 or 6 unknowns of each of {count} nodes and "
+                                   f"{scalars} scalars; give "
                                    "`unknowns`")
         labels = np.arange(1, count + 1) if nodes is None else np.asarray(nodes)
         unknowns = [*((label, k) for label in labels for k in range(each)), *((0, k) for k in range(scalars))]
@@ -93,5 +96,6 @@ def _program(given: str | os.PathLike | None) -> str:
     found = [os.path.join(here, folder, "bielle-reduce") for folder in FOLDERS] if given is None else [os.fspath(given)]
     path = next((each for each in found if os.access(each, os.X_OK)), None) or (None if given else shutil.which("bielle-reduce"))
     if path is None:
-        raise _core.InputError(f"superelement: there is no program {found[0] if given else 'bielle-reduce'}; `program` gives its path")
+        raise _core.InputError(f"superelement: there is no program {found[0] if given else 'bielle-reduce'}; "
+                               "`program` gives its path")
     return path

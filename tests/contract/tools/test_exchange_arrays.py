@@ -3,12 +3,14 @@
 import struct
 import unittest
 
+import h5py
 import numpy as np
 import scipy.io
 
 from exchange_bodies import Exchange, cloud_body, turned
 from bielle_tools.exchange import formats
 from bielle_tools.exchange.axes import in_body_axes
+from bielle_tools.exchange.superelement_set import shapes_of
 
 
 class Npz(Exchange):
@@ -23,6 +25,12 @@ class Npz(Exchange):
             found = self.read_back("npz", body, self.path("b.npz"))
             self.same(found, body)
             self.assertEqual((found.interfaces, found.length_unit, found.mass_unit, found.name), (body.interfaces, "mm", None, "cloud"))
+            for name in ("mass", "centre", "inertia") if body.mass_properties else ():
+                np.testing.assert_array_equal(getattr(found.mass_properties, name), getattr(body.mass_properties, name))
+            if body.shapes is not None:
+                np.testing.assert_array_equal(found.inertia_components, body.inertia_components)
+                for name in ("numbers", "points", "displacement", "masses"):
+                    np.testing.assert_array_equal(getattr(found.shapes, name), getattr(body.shapes, name))
             if body.axes is not None:
                 np.testing.assert_array_equal(found.axes, body.axes)
         self.assertEqual(formats.format_of(self.path("b.npz")), "npz")
@@ -42,12 +50,29 @@ class Npz(Exchange):
                               ({"unknown_nodes": [1, 1, 1]}, "'unknown_components' is missing"), ({"nodes": [0]}, "'nodes' must be numbers from 1"),
                               ({"unknown_nodes": [1, 1, 2], "unknown_components": [0, 1, 2]}, "names node 2"),
                               ({"unknown_nodes": [1, 1, 1], "unknown_components": [0, 1, 6]}, "holds 6; 0 to 5"),
-                              ({"interface_names": ["a", "b"], "interface_nodes": [1]}, "2 numbers are expected")):
+                              ({"interface_names": ["a", "b"], "interface_nodes": [1]}, "2 numbers are expected"),
+                              ({"mass": 1.0}, "the array 'centre' is missing"), ({"inertia_components": np.zeros((6, 2, 2))}, "6 x 3 x 3 numbers are expected"),
+                              ({"points": np.zeros((2, 3)), "displacement": np.zeros((3, 3))}, "6 x 3 numbers are expected")):
             with self.subTest(told):
                 self.refuse("npz", self.saved(**{key: array for key, array in (given | changed).items() if array is not None}), told)
         self.refuse("npz", self.path("none.npz"), "cannot read")
         with self.assertRaisesRegex(Exception, "the unknown node 1 x stands twice"):
             self.read("npz", self.saved(**given | {"unknown_nodes": [1, 1, 1], "unknown_components": [0, 0, 1]}))
+
+
+class Superelement(Exchange):
+    def test_recovery_of_some_nodes(self):
+        """A file that keeps four of five nodes, with and without cells: a tetrahedron of them, and another one."""
+        for cells in (True, False):
+            with h5py.File(self.path("s.h5"), "w") as file:
+                file["mesh/points"], displacement = np.arange(15.0).reshape(5, 3), np.arange(72.0).reshape(12, 6)
+                if cells:
+                    file["mesh/cells/4"] = [[0, 1, 3, 4], [0, 1, 2, 3]]
+                file["recovery/displacement"], file["recovery/displacement_nodes"] = displacement, [0, 1, 3, 4]
+                found = shapes_of(file)
+            np.testing.assert_array_equal(found.numbers, [1, 2, 4, 5])
+            np.testing.assert_array_equal(found.points, np.arange(15.0).reshape(5, 3)[[0, 1, 3, 4]])
+            self.assertEqual({kind: block.tolist() for kind, block in found.cells.items()}, {4: [[0, 1, 2, 3]]} if cells else {})
 
 
 class Simscape(Exchange):

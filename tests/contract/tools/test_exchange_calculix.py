@@ -103,6 +103,22 @@ class Runs(Exchange):
         self.check_rigid(found, mass, legs / 4, np.trace(second) * np.eye(3) - second, 1e-12)
         self.assertEqual(np.count_nonzero(np.linalg.eigvalsh(found.stiffness.toarray()) > 1), 24)
 
+    def test_internal_modes(self):
+        """C3D8I: the unknowns of internal nodes are condensed, against the dense Schur complement of CalculiX' own entries."""
+        corners = [(x, y, z) for z in (0, 1, 2) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        nodes = "".join(f"{k}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(corners, 1))
+        self.run_job(f"*NODE\n{nodes}*ELEMENT, TYPE=C3D8I, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n2, 5, 6, 7, 8, 9, 10, 11, 12\n"
+                     f"*SOLID SECTION, ELSET=E, MATERIAL=M\n{MATERIAL}{STORE}")
+        found = self.read("calculix", self.path("job.sti"))
+        self.assertEqual(found.notes, ["the internal modes of C3D8I are condensed, without their mass"])
+        full = np.zeros((54, 54))
+        for i, j, value in np.loadtxt(self.path("job.sti")):
+            full[int(i) - 1, int(j) - 1] = full[int(j) - 1, int(i) - 1] = value
+        schur = full[:36, :36] - full[:36, 36:] @ np.linalg.solve(full[36:, 36:], full[36:, :36])
+        np.testing.assert_allclose(found.stiffness.toarray(), schur, rtol=0, atol=1e-12 * np.abs(full).max())
+        second = np.array([[8 / 3, 2, 4], [2, 8 / 3, 4], [4, 4, 32 / 3]])
+        self.check_rigid(found, 8, (0.5, 0.5, 1), np.trace(second) * np.eye(3) - second, 1e-12)
+
     def test_plate(self):
         self.run_job(PLATE + MATERIAL + EXPANDED + STORE)
         found = self.read("calculix", self.path("job.sti"))

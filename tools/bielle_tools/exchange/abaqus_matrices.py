@@ -1,9 +1,9 @@
 """Matrices in text files of Abaqus (.mtx).
 
 Read are substructures (`user_element`), assembled matrices of *MATRIX GENERATE (`abaqus_matrix_input`), each line
-`node, component, node, component, value`, and FORMAT=COORDINATE, `row column value` in the order of the unknowns. Nodes come from
-`options.nodes` or the deck of the same name. Written is a *USER ELEMENT with a deck of its nodes (FILE_nodes.inp), in whose set SCALARS
-are the nodes that carry scalar coordinates.
+`node, component, node, component, value`, and FORMAT=COORDINATE, `row column value` in the order of the unknowns. Nodes
+come from `options.nodes` or the deck of the same name. Written is a *USER ELEMENT with a deck of its nodes
+(FILE_nodes.inp), in whose set SCALARS are the nodes that carry scalar coordinates.
 """
 
 import os
@@ -44,7 +44,8 @@ def read_substructure(path, options, program):
             raise InputError(f"'{path}': holds no {name} matrix (*MATRIX, TYPE={name.upper()})" +
                              ("; --mass names a file that does" if name == "mass" else ""))
     place, components = places_of(path, element.labels, element.components, nodes)
-    return MatrixSet(name=options.name or stem(path), source=f"{program} substructure, {os.path.basename(path)}", notes=element.notes,
+    return MatrixSet(name=options.name or stem(path), source=f"{program} substructure, "
+                                                             f"{os.path.basename(path)}", notes=element.notes,
                      **used_nodes(nodes, place), unknown_components=components, **element.matrices)
 
 

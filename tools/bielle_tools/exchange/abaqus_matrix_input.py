@@ -1,8 +1,9 @@
 """Assembled matrices of Abaqus' *MATRIX GENERATE as text, which *MATRIX INPUT and CalculiX' *MATRIX ASSEMBLE read.
 
-JOB_STIF2.mtx holds the stiffness, JOB_MASS2.mtx the mass, JOB_DMPV2.mtx the viscous damping. A line is `node, component, node, component,
-value`; one triangle is enough. With FORMAT=COORDINATE it is `row column value`: the unknowns are those of the nodes in ascending order, or of
-a table (`options.unknowns`). Nodes with negative numbers are Abaqus' own: Lagrange multipliers are refused.
+JOB_STIF2.mtx holds the stiffness, JOB_MASS2.mtx the mass, JOB_DMPV2.mtx the viscous damping. A line is `node,
+component, node, component, value`; one triangle is enough. With FORMAT=COORDINATE it is `row column value`: the
+unknowns are those of the nodes in ascending order, or of a table (`options.unknowns`). Nodes with negative numbers are
+Abaqus' own: Lagrange multipliers are refused.
 """
 
 import os
@@ -35,7 +36,8 @@ def read(path, options):
     entries = {name: _entries(each) for name, each in paths.items()}
     widths = {found.shape[1] for found in entries.values()}
     if len(widths) > 1:
-        raise InputError(f"'{path}': one file has rows and columns, the other nodes and components: generate both in one form")
+        raise InputError(f"'{path}': one file has rows and columns, the other nodes and components: generate both in "
+                         "one form")
     labelled = widths == {5}
     read_all = _labelled if labelled else _numbered
     place, components, found = read_all(paths, entries, nodes, options)
@@ -53,8 +55,8 @@ def _files(path, options):
         elif other != path and os.path.exists(other):
             found[name] = other
         elif name == "mass":
-            raise InputError(f"'{path}': the file of the mass matrix is missing" + (f" ('{other}')" if other != path else "") + ": --mass FILE "
-                             "names it")
+            where = f" ('{other}')" if other != path else ""
+            raise InputError(f"'{path}': the file of the mass matrix is missing{where}: --mass FILE names it")
     return found
 
 
@@ -75,7 +77,8 @@ def _labelled(paths, entries, nodes, _):
         wrong = (pairs[:, 1::2] < 1) | (pairs[:, 1::2] > 6)
         if wrong.any():
             row, side = np.argwhere(wrong)[0]
-            raise InputError(f"'{paths[name]}': node {pairs[row, 2 * side]} has the component {pairs[row, 2 * side + 1]}; those of mechanics are 1 "
+            raise InputError(f"'{paths[name]}': node {pairs[row, 2 * side]} has the component "
+                             f"{pairs[row, 2 * side + 1]}; those of mechanics are 1 "
                              "to 6")
         keys[name] = 8 * pairs[:, 0::2] + pairs[:, 1::2]
     unknowns = np.unique(np.concatenate([each.ravel() for each in keys.values()]))
@@ -95,11 +98,13 @@ def _check_free(path, stiffness, unknowns):
     diagonal = stiffness.diagonal()
     held = unknowns[np.abs(diagonal) >= HELD]
     if len(held):
-        raise InputError(f"'{path}': {counted(len(held), 'unknown')} held by boundary conditions (node {held[0][0]}, component {held[0][1]}): "
+        raise InputError(f"'{path}': {counted(len(held), 'unknown')} held by boundary conditions (node {held[0][0]}, "
+                         f"component {held[0][1]}): "
                          "a superelement is a free body; generate the matrices without them")
     multipliers = unknowns[(unknowns[:, 0] < 0) & (diagonal == 0)]
     if len(multipliers):
-        raise InputError(f"'{path}': node {multipliers[0][0]} is a Lagrange multiplier of Abaqus' (of a coupling, a tie or a hybrid element): "
+        raise InputError(f"'{path}': node {multipliers[0][0]} is a Lagrange multiplier of Abaqus' (of a coupling, a "
+                         "tie or a hybrid element): "
                          "matrices with multipliers are not read; generate a substructure")
 
 
@@ -115,7 +120,8 @@ def _numbered(paths, entries, nodes, options):
     if options.unknowns:
         place, components = read_unknowns(options.unknowns, nodes.numbers)
         if len(place) < size:
-            raise InputError(f"'{options.unknowns}': has {counted(len(place), 'unknown')} for matrices of {counted(size, 'row')}")
+            raise InputError(f"'{options.unknowns}': has {counted(len(place), 'unknown')} for matrices of "
+                             f"{counted(size, 'row')}")
     else:
         order = np.argsort(nodes.numbers)
         row, components = unknowns_in_order(nodes.path, len(order), size)
@@ -142,8 +148,8 @@ def write(matrices, path, options):
         with open(paths[-1], "w", encoding="utf-8") as file:
             kept = entries.row >= entries.col
             rows, columns = entries.row[kept], entries.col[kept]
-            lines = zip(*(each.tolist() for each in (labels[rows], components[rows], labels[columns], components[columns], entries.data[kept])))
-            file.writelines("%d, %d, %d, %d, %.16e\n" % line for line in lines)
+            words = labels[rows], components[rows], labels[columns], components[columns], entries.data[kept]
+            file.writelines("%d, %d, %d, %d, %.16e\n" % line for line in zip(*(each.tolist() for each in words)))
     paths.append(base + "_nodes.inp")
     with open(paths[-1], "w", encoding="utf-8") as file:
         file.write(deck)

@@ -1,20 +1,22 @@
 """Matrices of CalculiX: those of *FREQUENCY, SOLVER=MATRIXSTORAGE (JOB.sti, JOB.mas, JOB.dof), and substructures (.mtx).
 
-A line of JOB.sti or JOB.mas is `row column value` of one triangle, one of JOB.dof is `node.component` of a row. Nodes of solids come from
-JOB.inp. Shells and beams are expanded into solids: their nodes are those of JOB.frd, which another *FREQUENCY step before, with
-*NODE FILE, OUTPUT=3D, writes. Unknowns that are held or depend on others are not in JOB.dof. (CalculiX, "*FREQUENCY".)
+A line of JOB.sti or JOB.mas is `row column value` of one triangle, one of JOB.dof is `node.component` of a row. Nodes
+of solids come from JOB.inp; the internal modes of C3D8I, nodes above those of the deck, are condensed. Shells and beams
+are expanded into solids: their nodes are those of JOB.frd, which another *FREQUENCY step before, with *NODE FILE,
+OUTPUT=3D, writes. Unknowns that are held or depend on others are not in JOB.dof. (CalculiX, "*FREQUENCY".)
 """
 
 import os
 
 import numpy as np
+import scipy.sparse
 
 from ..messages import InputError, counted
 from ..text_lines import lines_of
 from .abaqus_matrices import read_substructure, write_substructure
 from .entries import matrix_of
 from .job_files import stem, used_nodes
-from .matrix_set import MatrixSet
+from .matrix_set import MatrixSet, sparse
 from .node_table import Nodes, places_of, read_nodes
 from .text_tables import number_rows, whole
 
@@ -31,6 +33,12 @@ def read(path, options):
     notes = []
     if len(set(labels[starts])) == len(starts):
         nodes = read_nodes(options.nodes or _other(path, ".inp"))
+        inner = labels > nodes.numbers.max()
+        if inner.any() and len(labels) > len(nodes.numbers):
+            stiffness, mass = _condensed(path, stiffness, mass, inner, labels)
+            labels, components, starts = labels[~inner], components[~inner], starts[~inner[starts]]
+            size = len(labels)
+            notes.append("the internal modes of C3D8I are condensed, without their mass")
         place, components = places_of(base + ".dof", labels, components, nodes)
     else:
         nodes = _expanded(options.nodes if options.nodes.lower().endswith(".frd") else _other(path, ".frd"), base + ".dof", starts, size)
@@ -39,8 +47,28 @@ def read(path, options):
     short = np.count_nonzero(np.diff([*starts, size]) < 3)
     if short:
         notes.append(f"{counted(short, 'node')} with less than three unknowns: they are held, or depend on others")
-    return MatrixSet(name=options.name or stem(path), source=f"CalculiX matrices, {os.path.basename(path)}", stiffness=stiffness, mass=mass,
+    return MatrixSet(name=options.name or stem(path), source="CalculiX matrices, "
+                                                             f"{os.path.basename(path)}", stiffness=stiffness, mass=mass,
                      **used_nodes(nodes, place), unknown_components=components, notes=notes)
+
+
+def _condensed(path, stiffness, mass, inner, labels):
+    """Stiffness and mass without the unknowns of the nodes that CalculiX gives each C3D8I: three each, which no other cell has.
+
+    @raises InputError if the unknowns are none of these
+    """
+    outer, inside = np.flatnonzero(~inner), np.flatnonzero(inner)
+    blocks = scipy.sparse.bsr_matrix(stiffness[inside][:, inside], blocksize=(9, 9)) if len(inside) % 9 == 0 else None
+    if blocks is None or len(blocks.indices) != len(inside) // 9 or (blocks.indices != np.arange(len(blocks.indices))).any():
+        raise InputError(f"'{path}': node {labels[inner][0]} has no position, and is none of the internal ones of "
+                         "C3D8I: the deck is that of "
+                         "another job")
+    try:
+        inverse = scipy.sparse.bsr_matrix((np.linalg.inv(blocks.data), blocks.indices, blocks.indptr), shape=blocks.shape)
+    except np.linalg.LinAlgError:
+        raise InputError(f"'{path}': the stiffness of internal modes is singular") from None
+    coupling = stiffness[outer][:, inside]
+    return sparse(stiffness[outer][:, outer] - coupling @ inverse @ coupling.T), mass[outer][:, outer]
 
 
 def write(matrices, path, options):
@@ -53,7 +81,8 @@ def _other(path, ending):
     other = os.path.splitext(path)[0] + ending
     if not os.path.exists(other):
         raise InputError(f"'{path}': the file '{other}' of the same job is missing" + (
-            ": a step *FREQUENCY with *NODE FILE, OUTPUT=3D before that with MATRIXSTORAGE writes it" if ending == ".frd" else ""))
+            ": a step *FREQUENCY with *NODE FILE, OUTPUT=3D before that with MATRIXSTORAGE writes "
+            "it" if ending == ".frd" else ""))
     return other
 
 
@@ -67,7 +96,8 @@ def _unknowns(path):
         if len(words) != 2 or not all(word.isdecimal() for word in words):
             raise InputError(f"{path}:{line}: expected node.component, found '{text.strip()}'")
         if words[1] not in "123456":
-            raise InputError(f"{path}:{line}: node {words[0]} has the component {words[1]}; those of mechanics are 1 to 6")
+            raise InputError(f"{path}:{line}: node {words[0]} has the component {words[1]}; those of mechanics are 1 "
+                             "to 6")
         labels.append(int(words[0]))
         components.append(int(words[1]) - 1)
     if not labels:
@@ -82,7 +112,8 @@ def _matrix(path, size):
     entries = number_rows(path, lines_of(path), 3)
     places = whole(path, entries[:, :2], "a row or column") - 1
     if len(places) and not 0 <= places.min() <= places.max() < size:
-        raise InputError(f"'{path}': has the rows and columns {places.min() + 1} to {places.max() + 1}, but the .dof file has "
+        raise InputError(f"'{path}': has the rows and columns {places.min() + 1} to {places.max() + 1}, but the .dof "
+                         "file has "
                          f"{counted(size, 'unknown')}")
     missing = np.setdiff1d(np.arange(size), places[places[:, 0] == places[:, 1], 0])
     if len(missing):
@@ -103,9 +134,11 @@ def _expanded(path, dofs, starts, size):
                 numbers.append(int(text[3:13]))
                 positions.append([float(text[13 + 12 * k:25 + 12 * k]) for k in range(3)])
             except ValueError:
-                raise InputError(f"{path}:{line}: expected a node and its three coordinates, found '{text.strip()}'") from None
+                raise InputError(f"{path}:{line}: expected a node and its three coordinates, found "
+                                 f"'{text.strip()}'") from None
     if len(numbers) != len(starts):
-        raise InputError(f"'{dofs}': has unknowns of {counted(len(starts), 'node')}, but '{path}' has {len(numbers)}: *NODE FILE needs "
+        raise InputError(f"'{dofs}': has unknowns of {counted(len(starts), 'node')}, but '{path}' has {len(numbers)}: "
+                         "*NODE FILE needs "
                          "OUTPUT=3D, and no node may be held in all directions")
     order = np.argsort(numbers, kind="stable")
     return Nodes(path, np.array(numbers, np.int64)[order], np.array(positions)[order])

@@ -22,7 +22,8 @@ def packed_matrix(path, values, size, what):
     """
     wanted = size * (size + 1) // 2
     if len(values) != wanted:
-        raise InputError(f"'{path}': {what} has {counted(len(values), 'number')}, but a triangle of {size} rows has {wanted}")
+        raise InputError(f"'{path}': {what} has {counted(len(values), 'number')}, but a triangle of {size} rows has "
+                         f"{wanted}")
     full = np.zeros((size, size))
     full[np.tril_indices(size)] = values
     return sparse(full + np.tril(full, -1).T)

@@ -1,8 +1,9 @@
 """Exudyn's reduced body of a floating frame (.npz): the file of ObjectFFRFreducedOrderInterface.SaveToFile.
 
-modeBasis (3p,m) are the shapes at all nodes, xRef their places, and the other keys inertia integrals with the mass of the mesh, which is
-equal in all directions. Written are all free modes at the nodes and recovery points. (Exudyn, FEM.py, GetDictionary; A. Zwoelfer, J. Gerstmayr,
-"The nodal-based floating frame of reference formulation with modal reduction", Acta Mech. 232 (2021) 835.)
+modeBasis (3p,m) are the shapes at all nodes, xRef their places, and the other keys inertia integrals with the mass of
+the mesh, which is equal in all directions. Written are all free modes at the nodes and recovery points. (Exudyn,
+FEM.py, GetDictionary; A. Zwoelfer, J. Gerstmayr, "The nodal-based floating frame of reference formulation with modal
+reduction", Acta Mech. 232 (2021) 835.)
 """
 
 import os
@@ -30,7 +31,8 @@ def recognises(path):
 def read(path, options):
     """@raises InputError"""
     if "massMatrix" in names_in(path):
-        raise InputError(f"'{path}': holds Exudyn's FEMinterface; reduce it, and save the ObjectFFRFreducedOrderInterface")
+        raise InputError(f"'{path}': holds Exudyn's FEMinterface; reduce it, and save the "
+                         "ObjectFFRFreducedOrderInterface")
     arrays = load(path, SHAPES)
     for name, dimensions in SHAPES.items():
         array = arrays.get(name)
@@ -44,14 +46,15 @@ def read(path, options):
               "mPsiTildePsiTilde": (3 * modes, 3 * modes)}
     for name, shape in wanted.items():
         if arrays[name].shape != shape or rows % 3 or not modes:
-            raise InputError(f"'{path}': '{name}' has the shape {arrays[name].shape}, expected {shape} for {rows // 3} nodes and {modes} modes")
+            raise InputError(f"'{path}': '{name}' has the shape {arrays[name].shape}, expected {shape} for "
+                             f"{rows // 3} nodes and {modes} modes")
     inertia = _moments(path, arrays, modes)
     shapes = np.zeros((rows // 3, 6, modes))
     shapes[:, :3] = arrays["modeBasis"].reshape(-1, 3, modes)
     coupling = np.column_stack([inertia.linear, inertia.turning()])
     mass = np.block([[rigid_mass(inertia), coupling.T], [coupling, arrays["massMatrixReduced"]]])
-    body = body_of_modes(path, options, np.arange(1, rows // 3 + 1), arrays["xRef"].reshape(-1, 3), shapes, arrays["stiffnessMatrixReduced"],
-                         mass, None, components_of(inertia))
+    body = body_of_modes(path, options, np.arange(1, rows // 3 + 1), arrays["xRef"].reshape(-1, 3), shapes,
+                         arrays["stiffnessMatrixReduced"], mass, None, components_of(inertia))
     body.name, body.source = options.name or stem(path), f"Exudyn, {os.path.basename(path)}"
     body.mass_properties = MassProperties(inertia.mass, inertia.centre, inertia_about(inertia.inertia, -inertia.mass, inertia.centre))
     return body
@@ -74,7 +77,8 @@ def write(matrices, path, options):
     free = free_modes(matrices)
     known = moments(free)
     if known is None:
-        raise InputError("the inertia inside the body is not known, which Exudyn's file needs: take the file of a superelement")
+        raise InputError("the inertia inside the body is not known, which Exudyn's file needs: take the file of a "
+                         "superelement")
     points = slice(free.nodes, None) if len(free.positions) > free.nodes else slice(None)
     if free.damping is not None:
         note("Exudyn's file has no damping: it is left out; the object has factors for it")

@@ -1,8 +1,9 @@
 """FEDEM's files of a reduced part: PART_S.fmx holds the stiffness, PART_M.fmx the mass (.fmx).
 
-A file is a tag of 30 letters, a mark of the order of bytes, a checksum, the line `;1.0;` and all numbers of a square matrix. It tells no
-nodes: they come from `options.nodes` or PART_nodes.csv, with 6 unknowns each in their order, then amplitudes of modes; `options.unknowns` may
-name another order. (openfedem: src/vpmUtilities/binaryDB.c, FFaLib/FFaOS/FFaTag.C, vpmReducer/reducer.f90.)
+A file is a tag of 30 letters, a mark of the order of bytes, a checksum, the line `;1.0;` and all numbers of a square
+matrix. It tells no nodes: they come from `options.nodes` or PART_nodes.csv, with 6 unknowns each in their order, then
+amplitudes of modes; `options.unknowns` may name another order. (openfedem: src/vpmUtilities/binaryDB.c,
+FFaLib/FFaOS/FFaTag.C, vpmReducer/reducer.f90.)
 """
 
 import math
@@ -32,7 +33,8 @@ def read(path, options):
         raise InputError(f"'{path}': the file of the mass matrix is missing: --mass FILE names it")
     table = options.nodes or (base + "_nodes.csv" if os.path.exists(base + "_nodes.csv") else "")
     if not table:
-        raise InputError(f"'{path}': FEDEM's file has no nodes: --nodes FILE names a table of them (node,x,y,z) in their order")
+        raise InputError(f"'{path}': FEDEM's file has no nodes: --nodes FILE names a table of them (node,x,y,z) in "
+                         "their order")
     matrices = {name: _matrix(each, KINDS[name][1]) for name, each in files.items()}
     size, nodes = matrices["stiffness"].shape[0], read_nodes(table)
     if matrices["mass"].shape[0] != size:
@@ -45,8 +47,10 @@ def read(path, options):
         place = np.concatenate([np.repeat(np.arange(count), 6), np.full(len(modes), -1)])
         components = np.concatenate([np.tile(np.arange(6), count), modes])
     if len(place) != size:
-        raise InputError(f"'{path}': {counted(size, 'row')} do not fit the {counted(len(place), 'unknown')} of '{options.unknowns or table}'")
-    return MatrixSet(name=options.name or stem(base), source=f"FEDEM reduced part, {os.path.basename(path)}", **matrices,
+        raise InputError(f"'{path}': {counted(size, 'row')} do not fit the {counted(len(place), 'unknown')} of "
+                         f"'{options.unknowns or table}'")
+    return MatrixSet(name=options.name or stem(base), source="FEDEM reduced part, "
+                                                             f"{os.path.basename(path)}", **matrices,
                      **used_nodes(nodes, place), unknown_components=components)
 
 

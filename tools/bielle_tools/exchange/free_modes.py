@@ -1,6 +1,7 @@
 """A body in free motion: rigid motions and elastic modes of its matrices.
 
-Formats of a floating frame hold amplitudes of elastic shapes. They get all n - 6 free modes of K and M, so that nothing is lost.
+Formats of a floating frame hold amplitudes of elastic shapes. They get all n - 6 free modes of K and M, so that nothing
+is lost.
 """
 
 from dataclasses import dataclass
@@ -39,23 +40,26 @@ def free_modes(matrices):
     """FreeModes of a MatrixSet. @raises InputError if it is no free body, or too large"""
     body = in_body_axes(matrices)
     if body.size > LARGEST:
-        raise InputError(f"a body with {counted(body.size, 'unknown')} is too large for a format of modes: reduce it first")
+        raise InputError(f"a body with {counted(body.size, 'unknown')} is too large for a format of modes: reduce it "
+                         "first")
     K, M = (symmetric_part(matrix.toarray()) for matrix in (body.stiffness, body.mass))
     rigid = rigid_motions(body, K)
     forces, parts = np.abs(K @ rigid).max(axis=0), (np.abs(K) @ np.abs(rigid)).max(axis=0)
     held = forces > np.maximum(FREE * parts, ROUNDING * np.abs(K).max() * np.abs(rigid).max(axis=0))
     if held.any():
-        raise InputError(f"a rigid motion of the body has forces of {(forces[held] / parts[held]).max():.1g} of their parts: it is held, or "
+        raise InputError(f"a rigid motion of the body has forces of {(forces[held] / parts[held]).max():.1g} of their "
+                         "parts: it is held, or "
                          "positions of nodes are wrong")
     try:
         modes = scipy.linalg.eigh(K, M)[1][:, 6:]
     except np.linalg.LinAlgError:
-        raise InputError("the mass matrix is not positive definite: a format of modes needs mass in each unknown") from None
+        raise InputError("the mass matrix is not positive definite: a format of modes needs mass in each "
+                         "unknown") from None
     modes = modes - rigid @ np.linalg.solve(rigid.T @ M @ rigid, rigid.T @ M @ modes)
     damping = None if body.damping is None else modes.T @ body.damping.toarray() @ modes
     numbers, positions, motions = _places(body)
-    return FreeModes(rigid, modes, symmetric_part(modes.T @ K @ modes), symmetric_part(modes.T @ M @ modes), damping, numbers, positions, motions,
-                     len(body.numbers), body)
+    return FreeModes(rigid, modes, symmetric_part(modes.T @ K @ modes), symmetric_part(modes.T @ M @ modes), damping, numbers,
+                     positions, motions, len(body.numbers), body)
 
 
 def rigid_motions(body, K):

@@ -1,8 +1,9 @@
 """Inertia of a body in free motion: its moments of mass with rigid motions and elastic shapes, and the components S_kl.
 
 With the mass dm at x and the shapes phi_j: mass, first = sum x dm, second = sum x x^T dm, linear_j = sum phi_j dm,
-product_j = sum phi_j x^T dm, square_kl = sum phi_k^T phi_l dm (row k of all shapes with row l). S_kl = sum u_k^T u_l dm of the
-coordinates (rigid motions: 3 displacements, 3 rotations about the origin, then the shapes) holds the same numbers.
+product_j = sum phi_j x^T dm, square_kl = sum phi_k^T phi_l dm (row k of all shapes with row l). S_kl = sum u_k^T u_l dm
+of the coordinates (rigid motions: 3 displacements, 3 rotations about the origin, then the shapes) holds the same
+numbers.
 """
 
 from dataclasses import dataclass

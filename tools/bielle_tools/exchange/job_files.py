@@ -22,6 +22,7 @@ def used_nodes(nodes, place):
 
 
 def stem(path):
+    """Name of a file without folder and ending."""
     return os.path.splitext(os.path.basename(path))[0]
 
 
@@ -30,7 +31,8 @@ def beside(path, endings):
     base = os.path.splitext(path)[0]
     found = [base + ending for ending in endings if os.path.exists(base + ending)]
     if not found:
-        raise InputError(f"'{path}': the positions of the nodes are missing: --nodes FILE names a deck (.inp) or a table (.csv) with them")
+        raise InputError(f"'{path}': the positions of the nodes are missing: --nodes FILE names a deck (.inp) or a "
+                         "table (.csv) with them")
     return found[0]
 
 

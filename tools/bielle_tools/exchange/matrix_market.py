@@ -1,8 +1,9 @@
 """Matrix Market files (.mtx) of the stiffness and the mass, with a table of the nodes.
 
-`options.mass` names the file of the mass, `options.nodes` the nodes (node, x, y, z; a deck is possible), `options.unknowns` the order of the
-rows (node, component); without it, all nodes have 3 or 6 unknowns in their order. For ARM_stiffness.mtx the files ARM_mass.mtx,
-ARM_damping.mtx, ARM_nodes.csv and ARM_unknowns.csv need not be named. (NIST, "Matrix Market Exchange Formats".)
+`options.mass` names the file of the mass, `options.nodes` the nodes (node, x, y, z; a deck is possible),
+`options.unknowns` the order of the rows (node, component); without it, all nodes have 3 or 6 unknowns in their order.
+For ARM_stiffness.mtx the files ARM_mass.mtx, ARM_damping.mtx, ARM_nodes.csv and ARM_unknowns.csv need not be named.
+(NIST, "Matrix Market Exchange Formats".)
 """
 
 import io
@@ -87,7 +88,8 @@ def write(matrices, path, options):
     paths = []
     for name, matrix in matrices.matrices().items():
         paths.append(f"{base}_{name.replace(' ', '_')}{ending}")
-        scipy.io.mmwrite(paths[-1], matrix.tocoo(), comment=f" {matrices.name}, of {matrices.source}", precision=17, symmetry="general")
+        scipy.io.mmwrite(paths[-1], matrix.tocoo(), comment=f" {matrices.name}, of "
+                                                            f"{matrices.source}", precision=17, symmetry="general")
     paths += [base + "_nodes.csv", base + "_unknowns.csv"]
     with open(paths[-2], "w", encoding="utf-8") as file:
         file.write(node_table_text(matrices))

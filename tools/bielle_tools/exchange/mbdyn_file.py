@@ -1,6 +1,7 @@
 """The groups of MBDyn's file of a modal joint (.fem): their numbers, one group after another.
 
-A group begins with the line `** RECORD GROUP n`; other lines that begin with `**` are comments. (MBDyn Input Manual, "FEM File Format".)
+A group begins with the line `** RECORD GROUP n`; other lines that begin with `**` are comments. (MBDyn Input Manual,
+"FEM File Format".)
 """
 
 import re
@@ -28,7 +29,8 @@ class ModalFile:
             if head:
                 group = int(head[1])
                 if group in self.groups or group not in KNOWN:
-                    raise InputError(f"{path}:{line}: there is {'a second' if group in self.groups else 'no'} RECORD GROUP {group}")
+                    raise InputError(f"{path}:{line}: there is {'a second' if group in self.groups else 'no'} RECORD "
+                                     f"GROUP {group}")
                 self.groups[group] = []
             elif group and not text.startswith("**"):
                 self.groups[group] += [(line, word) for word in text.split()]
@@ -54,7 +56,8 @@ class ModalFile:
         """@raises InputError unless the group has so many"""
         found = self.groups[group]
         if len(found) != count:
-            raise InputError(f"'{self.path}': RECORD GROUP {group} has {counted(len(found), 'number')}, but {count} are expected for "
+            raise InputError(f"'{self.path}': RECORD GROUP {group} has {counted(len(found), 'number')}, but {count} "
+                             "are expected for "
                              f"{counted(self.nodes, 'node')} and {counted(self.modes, 'mode')}")
         return found
 
@@ -80,7 +83,8 @@ def write_groups(path, name, numbers, groups):
     """Writes a file. @param name: of the body; numbers: of the nodes; groups: {group: (title, array)}, shapes of group 8: (m,p,6)"""
     modes = len(groups[8][1])
     with open(path, "w", encoding="utf-8") as file:
-        file.write(f"** {name}\n**\n** RECORD GROUP 1, HEADER\n**   REVISION, NODES, NORMAL, ATTACHMENT, CONSTRAINT, REJECTED MODES.\n"
+        file.write(f"** {name}\n**\n** RECORD GROUP 1, HEADER\n**   REVISION, NODES, NORMAL, ATTACHMENT, CONSTRAINT, "
+                   "REJECTED MODES.\n"
                    f"   REV0 {len(numbers)} {modes} 0 0 0\n**\n** RECORD GROUP 2, FINITE ELEMENT NODE LIST\n")
         for begin in range(0, len(numbers), 6):
             file.write(" ".join(map(str, numbers[begin:begin + 6])) + "\n")

@@ -1,8 +1,9 @@
 """MBDyn's modal joint (.fem): shapes of a body in its floating frame, with their mass, stiffness and inertia invariants.
 
-Written are all free modes at the nodes and recovery points, the global inertia (group 12) and, if the inertia inside is known, the invariants
-3, 4, 8, 5 and 9 (groups 14 to 18); MBDyn takes lumped masses of nodes (group 11) in their place. Read are all of them.
-(MBDyn Input Manual, "Modal joint"; the invariants are those of its theory manual, as mbdyn/struct/modal.cc computes them.)
+Written are all free modes at the nodes and recovery points, the global inertia (group 12) and, if the inertia inside is
+known, the invariants 3, 4, 8, 5 and 9 (groups 14 to 18); MBDyn takes lumped masses of nodes (group 11) in their place.
+Read are all of them. (MBDyn Input Manual, "Modal joint"; the invariants are those of its theory manual, as
+mbdyn/struct/modal.cc computes them.)
 """
 
 import os
@@ -10,14 +11,21 @@ import os
 import numpy as np
 
 from ..messages import InputError, note
+from ..text_lines import lines_of
 from .free_modes import free_modes, moments, rigid_moments
 from .inertia_moments import EPSILON, Moments, components_of, inertia_about, moments_of_points, second_moment
 from .job_files import stem
 from .matrix_set import MassProperties
-from .mbdyn_file import ModalFile, write_groups
+from .mbdyn_file import GROUP, ModalFile, write_groups
 from .modal_body import body_of_modes, rigid_mass
 
 INVARIANTS = (14, 15, 16, 18)
+
+
+def recognises(path):
+    """Whether a file has groups, or no text: decks of OptiStruct have the same ending."""
+    texts = lines_of(path)
+    return any(GROUP.match(text) for text in texts) or not any(text.strip() for text in texts)
 
 
 def read(path, options):
@@ -30,7 +38,8 @@ def read(path, options):
     damping = file.array(13, file.modes, file.modes) if file.has(13) else None
     inertia, coupling, components, lumped = _inertia(file, positions, shapes)
     if not file.has(11) and not file.has(14, 15):
-        notes.append("the file tells no coupling of the shapes with rigid motions: it is taken to be zero, as of free modes")
+        notes.append("the file tells no coupling of the shapes with rigid motions: it is taken to be zero, as of free "
+                     "modes")
     if file.has(19):
         notes.append("the geometric stiffness (group 19) is left out")
     mass = np.block([[rigid_mass(inertia), coupling.T], [coupling, modal_mass]])
@@ -126,7 +135,8 @@ def write(matrices, path, options):
     if free.damping is not None:
         groups[13] = ("MODAL DAMPING MATRIX. COLUMN-MAJOR FORM", free.damping)
     if known is None:
-        note("the inertia inside the body is not known: the file has no invariants, and MBDyn takes the body's inertia to be constant")
+        note("the inertia inside the body is not known: the file has no invariants, and MBDyn takes the body's "
+             "inertia to be constant")
     else:
         groups |= _invariants(known)
     write_groups(path, matrices.name, free.numbers, groups)

@@ -1,7 +1,7 @@
 """A body given by elastic shapes in a floating frame, as a MatrixSet with unknowns of nodes.
 
-The coordinates q (6 rigid motions about the origin, m amplitudes) become y = A q: displacements and rotations of the chosen nodes, and as
-many scalars as remain, orthogonal to them.
+The coordinates q (6 rigid motions about the origin, m amplitudes) become y = A q: displacements and rotations of the
+chosen nodes, and as many scalars as remain, orthogonal to them.
 """
 
 from dataclasses import dataclass
@@ -38,7 +38,8 @@ def node_unknowns(motions, mass, names):
     scale = np.sqrt(np.where(np.diag(mass) > 0, np.diag(mass), 1))
     rows = motions[:, :kept].reshape(kept * count, size) / scale
     norms = np.linalg.norm(rows, axis=1)
-    told = (f"{counted(kept * count, 'motion')} of the nodes {', '.join(map(str, names))} do not follow from 6 rigid motions and "
+    told = (f"{counted(kept * count, 'motion')} of the nodes {', '.join(map(str, names))} do not follow from 6 rigid "
+            "motions and "
             f"{counted(size - 6, 'shape')}: name fewer nodes (--interfaces), or more shapes are needed")
     if kept * count > size or (norms == 0).any():
         raise InputError(told)
@@ -64,7 +65,8 @@ def chosen_rows(path, numbers, wanted, most):
     @raises InputError"""
     if not wanted:
         if 3 * len(numbers) > most:
-            raise InputError(f"'{path}': {counted(len(numbers), 'node')} are more than {most - 6} shapes can move: name those that become "
+            raise InputError(f"'{path}': {counted(len(numbers), 'node')} are more than {most - 6} shapes can move: "
+                             "name those that become "
                              "interfaces (--interfaces 12,40)")
         return np.arange(len(numbers))
     place = {int(number): row for row, number in enumerate(numbers)}

@@ -1,7 +1,9 @@
-"""Positions of nodes and order of unknowns from files besides the matrices: decks of Abaqus and CalculiX, and tables (.csv).
+"""Positions of nodes and order of unknowns from files besides the matrices: decks of Abaqus and CalculiX, and tables
+(.csv).
 
-A table of nodes has the columns node, x, y, z; one of unknowns node, component (x y z rx ry rz or 1 to 6; node 0: a scalar
-coordinate), a row for each row of the matrices. A first line with these names is optional, unless the columns stand in another order.
+A table of nodes has the columns node, x, y, z; one of unknowns node, component (x y z rx ry rz or 1 to 6; node 0: a
+scalar coordinate), a row for each row of the matrices. A first line with these names is optional, unless the columns
+stand in another order.
 """
 
 import csv
@@ -52,11 +54,13 @@ def _nodes_of_deck(path):
     """Numbers, positions and the set SCALARS. @raises InputError for decks whose unknowns or numbers are not those of the matrices"""
     deck = read_deck(path)
     if deck.constraints.transforms:
-        raise InputError(f"{deck.constraints.transforms[0].where}: *TRANSFORM turns the unknowns of nodes: matrices are read in global axes; "
+        raise InputError(f"{deck.constraints.transforms[0].where}: *TRANSFORM turns the unknowns of nodes: matrices "
+                         "are read in global axes; "
                          "remove it and generate them again")
     numbers = list(deck.numbers)
     if any(not 0 < each < LABELS for each in numbers):
-        raise InputError(f"'{path}': several instances have nodes, whose numbers are not those of the matrices: give a table of nodes "
+        raise InputError(f"'{path}': several instances have nodes, whose numbers are not those of the matrices: give "
+                         "a table of nodes "
                          "(node,x,y,z)")
     return numbers, deck.points, frozenset(deck.labels_of("NSET", "SCALARS") if "SCALARS" in deck.sets["NSET"] else ())
 
@@ -82,7 +86,8 @@ def unknowns_in_order(path, count, size):
     """Node and component of each of `size` unknowns, those of one node after another. @raises InputError unless each of the `count`
     nodes has 3 or 6; path: file of the nodes"""
     if size not in (3 * count, 6 * count):
-        raise InputError(f"'{path}': {counted(count, 'node')} with 3 or 6 unknowns each do not make the {counted(size, 'row')} of the "
+        raise InputError(f"'{path}': {counted(count, 'node')} with 3 or 6 unknowns each do not make the "
+                         f"{counted(size, 'row')} of the "
                          "matrices: give a table of the unknowns (node,component)")
     each = size // count
     return np.repeat(np.arange(count), each), np.tile(np.arange(each), count)
@@ -100,7 +105,8 @@ def places_of(path, labels, components, nodes):
     rows = order[np.minimum(at, len(order) - 1)]
     missing = (nodes.numbers[rows] != labels) & ~scalar
     if missing.any():
-        raise InputError(f"'{path}': node {labels[missing][0]} has no position in '{nodes.path}' ({counted(len(set(labels[missing])), 'node')} "
+        raise InputError(f"'{path}': node {labels[missing][0]} has no position in '{nodes.path}' "
+                         f"({counted(len(set(labels[missing])), 'node')} "
                          "missing)")
     return np.where(scalar, -1, rows), np.where(scalar, np.cumsum(scalar) - 1, components)
 
@@ -125,7 +131,8 @@ def _table(path, columns):
         order = [names.index(column) for column in columns]
     for line, words in rows:
         if len(words) <= max(order):
-            raise InputError(f"{path}:{line}: expected the columns {', '.join(columns)}, found {counted(len(words), 'word')}")
+            raise InputError(f"{path}:{line}: expected the columns {', '.join(columns)}, found "
+                             f"{counted(len(words), 'word')}")
     return [(line, [words[k] for k in order]) for line, words in rows]
 
 

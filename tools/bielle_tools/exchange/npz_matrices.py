@@ -9,9 +9,14 @@
 | unknown_nodes | n | number of the node of each unknown; 0: a scalar coordinate |
 | unknown_components | n | 0 to 5: x y z rx ry rz; of scalar coordinates: any |
 | interface_names, interface_nodes | k | names and numbers of nodes that are interfaces; default: the user names them |
+| mass, centre, inertia | (), 3, 3 x 3 | mass properties, inertia about the centre; default: those of the matrices |
+| inertia_components | 6, n, n | S_11 S_22 S_33 S_23 S_13 S_12 of the superelement file; default: found or estimated |
+| points, displacement | p, 3; 3p, n | points inside, and x y z of each as functions of the unknowns; may be absent |
+| point_numbers, point_masses | p | their numbers (default 1, 2, ..), and masses that sum up to the body's |
 | length_unit, mass_unit | | texts; default: as the command says |
 
-Without unknown_nodes and unknown_components, the rows are x y z (rx ry rz if they are enough) of all nodes in order, then scalar coordinates.
+Without unknown_nodes and unknown_components, the rows are x y z (rx ry rz if they are enough) of all nodes in order,
+then scalar coordinates.
 """
 
 import os
@@ -23,14 +28,15 @@ import scipy.sparse
 
 from ..messages import InputError, counted, did_you_mean
 from .job_files import stem
-from .matrix_set import MatrixSet, sparse
+from .matrix_set import MassProperties, MatrixSet, Shapes, sparse
 
 MATRICES = {"K": "stiffness", "M": "mass", "C": "damping"}
 PARTS = ("data", "indices", "indptr")
 KEYS = [*MATRICES, *(f"{name}.{part}" for name in MATRICES for part in PARTS), "positions", "nodes", "axes", "unknown_nodes",
-        "unknown_components", "interface_names", "interface_nodes", "length_unit", "mass_unit", "name"]
-FAULTS = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error, KeyError, TypeError, NotImplementedError, RuntimeError, MemoryError,
-          SyntaxError, OverflowError, IndexError, AttributeError)
+        "unknown_components", "interface_names", "interface_nodes", "mass", "centre", "inertia", "inertia_components",
+        "points", "displacement", "point_numbers", "point_masses", "length_unit", "mass_unit", "name"]
+FAULTS = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error, KeyError, TypeError, NotImplementedError,
+          RuntimeError, MemoryError, SyntaxError, OverflowError, IndexError, AttributeError)
 
 
 def load(path, wanted=None):
@@ -41,7 +47,8 @@ def load(path, wanted=None):
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
     except FAULTS as error:
-        raise InputError(f"'{path}': is no readable .npz file: {str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
+        raise InputError(f"'{path}': is no readable .npz file: "
+                         f"{str(error).splitlines()[0] if str(error) else type(error).__name__}") from None
 
 
 def names_in(path):
@@ -85,10 +92,27 @@ def matrices_of(path, arrays, name, source):
     names = arrays.get("interface_names", np.array([], str)).reshape(-1)
     interfaces = _rows(path, "interface_nodes", _numbers(path, arrays, "interface_nodes", (len(names),), np.zeros(len(names))), numbers)
     axes = _numbers(path, arrays, "axes", (count, 3, 3)) if "axes" in arrays else None
-    return MatrixSet(name=name or _text(arrays, "name") or stem(path), source=source, numbers=numbers, positions=positions, axes=axes, unknown_nodes=nodes,
-                     unknown_components=components, **matrices,
-                     interfaces={str(each): int(row) for each, row in zip(names, interfaces)}, length_unit=_text(arrays, "length_unit"),
-                     mass_unit=_text(arrays, "mass_unit"))
+    return MatrixSet(name=name or _text(arrays, "name") or stem(path), source=source, numbers=numbers, positions=positions,
+                     axes=axes, unknown_nodes=nodes, unknown_components=components, **matrices,
+                     interfaces={str(each): int(row) for each, row in zip(names, interfaces)}, **_inside(path, arrays, size),
+                     length_unit=_text(arrays, "length_unit"), mass_unit=_text(arrays, "mass_unit"))
+
+
+def _inside(path, arrays, size):
+    """Mass properties, S_kl and points, if the file has them."""
+    found = {}
+    if any(key in arrays for key in ("mass", "centre", "inertia")):
+        mass, centre, inertia = (_numbers(path, arrays, key, shape) for key, shape in (("mass", ()), ("centre", (3,)), ("inertia", (3, 3))))
+        found["mass_properties"] = MassProperties(float(mass), centre, inertia)
+    if "inertia_components" in arrays:
+        found["inertia_components"] = _numbers(path, arrays, "inertia_components", (6, size, size))
+    if "points" in arrays or "displacement" in arrays:
+        points = _numbers(path, arrays, "points", (-1, 3))
+        count = len(points)
+        numbers = _numbers(path, arrays, "point_numbers", (count,), np.arange(1, count + 1)).astype(np.int64)
+        found["shapes"] = Shapes(numbers, points, _numbers(path, arrays, "displacement", (3 * count, size)),
+                                 masses=_numbers(path, arrays, "point_masses", (count,)) if "point_masses" in arrays else None)
+    return found
 
 
 def _text(arrays, name):
@@ -123,7 +147,8 @@ def _matrix(path, arrays, name):
         return None
     array = _numbers(path, arrays, name, (-1, -1))
     if array.shape[0] != array.shape[1]:
-        raise InputError(f"'{path}': '{name}' has {counted(array.shape[0], 'row')} and {counted(array.shape[1], 'column')}")
+        raise InputError(f"'{path}': '{name}' has {counted(array.shape[0], 'row')} and "
+                         f"{counted(array.shape[1], 'column')}")
     return sparse(array)
 
 
@@ -139,7 +164,8 @@ def _unknowns(path, arrays, numbers, size):
     count = len(numbers)
     each = 6 if size >= 6 * count else 3
     if size < 3 * count:
-        raise InputError(f"'{path}': {counted(count, 'node')} with 3 unknowns each need {3 * count} rows, 'K' has {size}; give 'unknown_nodes' "
+        raise InputError(f"'{path}': {counted(count, 'node')} with 3 unknowns each need {3 * count} rows, 'K' has "
+                         f"{size}; give 'unknown_nodes' "
                          "and 'unknown_components'")
     scalars = size - each * count
     return (np.concatenate([np.repeat(np.arange(count), each), np.full(scalars, -1)]),
@@ -169,6 +195,14 @@ def write(matrices, path, options):
     if matrices.interfaces:
         arrays["interface_names"] = np.array(list(matrices.interfaces))
         arrays["interface_nodes"] = matrices.numbers[list(matrices.interfaces.values())]
+    if matrices.mass_properties is not None:
+        arrays |= {name: getattr(matrices.mass_properties, name) for name in ("mass", "centre", "inertia")}
+    if matrices.inertia_components is not None:
+        arrays["inertia_components"] = matrices.inertia_components
+    if matrices.shapes is not None:
+        shapes = matrices.shapes
+        arrays |= {"points": shapes.points, "displacement": shapes.displacement, "point_numbers": shapes.numbers}
+        arrays |= {"point_masses": shapes.masses} if shapes.masses is not None else {}
     arrays |= {name: getattr(matrices, name) for name in ("length_unit", "mass_unit") if getattr(matrices, name)}
     np.savez(path, **arrays)
     return [path]

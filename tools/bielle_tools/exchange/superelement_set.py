@@ -14,11 +14,7 @@ def read(path, _options=None):
         kept = file["interface/dofs"][()].astype(bool)
         nodes, components = np.nonzero(kept)
         modes = len(file["reduced/stiffness"]) - len(nodes)
-        shapes = None
-        if "recovery/displacement" in file:
-            points = file["mesh/points"][()]
-            shapes = Shapes(numbers=np.arange(1, len(points) + 1), points=points, displacement=file["recovery/displacement"][()],
-                            cells={int(kind): cells[()] for kind, cells in file["mesh/cells"].items()})
+        shapes = shapes_of(file) if "recovery/displacement" in file else None
         names = file["interface/names"].asstr()[()]
         return MatrixSet(
             name=file.attrs["name"], source=f"superelement, {os.path.basename(path)}",
@@ -30,3 +26,15 @@ def read(path, _options=None):
             interfaces={name: k for k, name in enumerate(names)},
             mass_properties=MassProperties(*(file[f"mass_properties/{name}"][()] for name in ("mass", "centre", "inertia"))),
             shapes=shapes, length_unit="m", mass_unit="kg")
+
+
+def shapes_of(file):
+    """Displacements of the nodes of the mesh that the file keeps, and the cells whose nodes are all among them."""
+    points = file["mesh/points"][()]
+    kept = file["recovery/displacement_nodes"][()] if "recovery/displacement_nodes" in file else np.arange(len(points))
+    row = np.full(len(points), -1)
+    row[kept] = np.arange(len(kept))
+    cells = {int(kind): row[block[()]] for kind, block in file.get("mesh/cells", {}).items()}
+    cells = {kind: block[(block >= 0).all(axis=1)] for kind, block in cells.items()}
+    return Shapes(numbers=kept + 1, points=points[kept], displacement=file["recovery/displacement"][()],
+                  cells={kind: block for kind, block in cells.items() if len(block)})

@@ -8,9 +8,10 @@
     *MATRIX, TYPE=STIFFNESS
     ...
 
-The first line of data lists the components of the first node; a line `k, ..` those of the k-th node and the following ones.
-A matrix is its lower triangle row by row, each row on lines of its own; with UNSYMM all columns. CalculiX lists a node once for each
-of its unknowns. (Abaqus Keywords Guide, "*USER ELEMENT", "*MATRIX"; CalculiX, "Substructure generation".)
+The first line of data lists the components of the first node; a line `k, ..` those of the k-th node and the following
+ones. A matrix is its lower triangle row by row, each row on lines of its own; with UNSYMM all columns. CalculiX lists a
+node once for each of its unknowns. (Abaqus Keywords Guide, "*USER ELEMENT", "*MATRIX"; CalculiX, "Substructure
+generation".)
 """
 
 import re
@@ -77,8 +78,10 @@ def _nodes(path, keywords, head):
         if keyword.name == "ELEMENT" and not found:
             found = [int(word) for word in number_list(path, keyword.rows, keyword.line)][1:]
     if len(found) != count:
-        raise InputError(f"{head.where}: *USER ELEMENT has NODES={count}, but {counted(len(found), 'node')} are listed below it"
-                         if found else f"{head.where}: the nodes of the element are not listed (** ELEMENT NODES, or *ELEMENT)")
+        raise InputError(f"{head.where}: *USER ELEMENT has NODES={count}, but {counted(len(found), 'node')} are "
+                         "listed below it"
+                         if found else f"{head.where}: the nodes of the element are not listed (** ELEMENT NODES, or "
+                                       "*ELEMENT)")
     return np.array(found, np.int64)
 
 
@@ -90,7 +93,8 @@ def _components(head, count):
         numbers = [_integer(head, word, f"{path}:{line}: ") for word in words]
         position = 1 if not found else numbers.pop(0)
         if not len(found) < position <= count or not numbers or not all(1 <= each <= 6 for each in numbers):
-            raise InputError(f"{path}:{line}: *USER ELEMENT: expected the position of a node and components from 1 to 6, found '{row}'")
+            raise InputError(f"{path}:{line}: *USER ELEMENT: expected the position of a node and components from 1 to "
+                             f"6, found '{row}'")
         found += [found[-1]] * (position - 1 - len(found)) if found else []
         found.append(np.array(numbers, np.int64) - 1)
     if not found:
