@@ -1,0 +1,50 @@
+#include "reduce/matrices/held_modes.hpp"
+
+#include <algorithm>
+
+#include "reduce/dense/dense_products.hpp"
+
+namespace bielle::reduce {
+
+Unknowns held_unknowns(const MatrixSet& set) {
+  std::vector<int> components(set.numbers.size(), 0);
+  for (const NodalUnknown& u : set.unknowns)
+    if (!u.is_scalar()) ++components[static_cast<std::size_t>(u.node)];
+  std::vector<bool> held(set.numbers.size(), false);
+  for (const auto& [name, node] : set.interfaces) held[static_cast<std::size_t>(node)] = true;
+  if (set.interfaces.empty())
+    std::transform(components.begin(), components.end(), held.begin(), [](int count) { return count == 6; });
+  Unknowns result;
+  for (Eigen::Index k = 0; k < set.size(); ++k)
+    if (const NodalUnknown& u = set.unknowns[static_cast<std::size_t>(k)];
+        !u.is_scalar() && held[static_cast<std::size_t>(u.node)])
+      result.push_back(k);
+  return result;
+}
+
+std::optional<HeldModes> held_modes(const MatrixStudy& study, int count) {
+  HeldModes result;
+  result.held = held_unknowns(study.set);
+  for (Eigen::Index k = 0; k < study.size(); ++k)
+    if (!std::binary_search(result.held.begin(), result.held.end(), k)) result.free.push_back(k);
+  const SparseColumns mass = submatrix(study.mass, result.free, result.free);
+  const auto with_mass = static_cast<int>((Eigen::VectorXd(mass.diagonal()).array() > 0).count());
+  if (result.held.empty() || with_mass == 0) return std::nullopt;
+  const SparseColumns stiffness = submatrix(study.stiffness, result.free, result.free);
+  definite_factor(stiffness, study.threads);
+  // The held body is definite, and any small shift serves; one far below the first mode changes no digit.
+  const Eigen::VectorXd k = stiffness.diagonal(), m = mass.diagonal();
+  double shift = 0;
+  for (Eigen::Index i = 0; i < k.size(); ++i)
+    if (m(i) > 0) shift = shift == 0 ? k(i) / m(i) : std::min(shift, k(i) / m(i));
+  result.modes = natural_modes(stiffness, mass, std::min(count, with_mass), 1e-3 * shift, study.threads);
+  if (!study.geometric) return result;
+  Unknowns all(static_cast<std::size_t>(study.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Eigen::Index>(i);
+  // The static answer of the free unknowns to rigid motions of the held ones is the rigid motion itself.
+  const Eigen::MatrixXd momenta = submatrix(study.mass, result.free, all) * *study.geometric;
+  result.effective_mass = transposed_product(result.modes.vectors, momenta).cwiseAbs2();
+  return result;
+}
+
+}  // namespace bielle::reduce
