@@ -32,6 +32,7 @@
 #include "reduce/report/summary.hpp"
 #include "reduce/report/summary_of_pieces.hpp"
 #include "reduce/report/verdict.hpp"
+#include "reduce/verify_command.hpp"
 
 namespace {
 
@@ -213,6 +214,14 @@ int body(int argc, char** argv) {
                                     "with --list: unit of a geometry that carries none: m mm cm um km in ft");
   const auto* inspect_option =
       app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
+  VerifyRequest verified;
+  const auto* verify_option = app.add_option("--verify", verified.path,
+                                             "prove a superelement or matrices: rigid motions, mass, positions, modes");
+  const auto* against =
+      app.add_option("--against", verified.against, "with --verify: compare with another file of the same body");
+  const auto* units =
+      app.add_option("--units", verified.units,
+                     "with --verify: units of a file that declares none: m-kg-s mm-t-s mm-kg-ms mm-kg-s in-slinch-s");
   const auto* keys_option =
       app.add_option("--keys", keys_of, "explain the keys of a part of the body file (`mesh`), or `all`");
   bool schema = false;
@@ -229,17 +238,22 @@ int body(int argc, char** argv) {
                                               : write_key_schema(body_file_keys(), "body file of bielle-reduce"));
     return 0;
   }
-  if (input_option->count() + list_option->count() + inspect_option->count() != 1) {
-    throw InputError("expected one of: a body file, --list GEOMETRY, --inspect SUPERELEMENT; see --help");
+  if (input_option->count() + list_option->count() + inspect_option->count() + verify_option->count() != 1) {
+    throw InputError(
+        "expected one of: a body file, --list GEOMETRY, --inspect SUPERELEMENT, --verify FILE; see --help");
   }
   if (output_option->count() > 0 && input_option->count() == 0) {
-    throw InputError("-o goes with a body file: --list and --inspect write nothing");
+    throw InputError("-o goes with a body file: --list, --inspect and --verify write nothing");
+  }
+  if (against->count() + units->count() > 0 && verify_option->count() == 0) {
+    throw InputError("--against and --units go with --verify FILE");
   }
   if (unit->count() > 0 && list_option->count() == 0) {
     throw InputError("--length-unit goes with --list; a body file has its own length_unit");
   }
-  if (system_calls && inspect_option->count() > 0) {
-    throw InputError("--allow-system-calls goes with a body file or --list: --inspect reads no geometry");
+  if (system_calls && inspect_option->count() + verify_option->count() > 0) {
+    throw InputError(fmt::format("--allow-system-calls goes with a body file or --list: {} reads no geometry",
+                                 inspect_option->count() > 0 ? "--inspect" : "--verify"));
   }
   if (list_option->count() > 0) {
     list(geometry, length_unit, system_calls);
@@ -248,6 +262,9 @@ int body(int argc, char** argv) {
   if (inspect_option->count() > 0) {
     inspect(superelement);
     return 0;
+  }
+  if (verify_option->count() > 0) {
+    return verify_file(verified, common) ? 0 : 1;
   }
   const Workplace workplace(ranks_at);
   if (app.count("--threads") == 0) common.threads = workplace.threads(common.threads);

@@ -27,7 +27,7 @@ VerifiedSubject remove_and_name_empty(MatrixSet& set) {
     kept ? void(++next) : empty.push_back(static_cast<Eigen::Index>(k));
   }
   subject.lines.push_back(fmt::format(
-      "{} neither stiffness nor mass, and left out: {}",
+      "{} neither stiffness nor mass: {}",
       empty.size() == 1 ? "1 unknown has" : fmt::format("{} unknowns have", empty.size()), names_of(names, empty)));
   return subject;
 }

@@ -66,10 +66,10 @@ void verify_presence(const MatrixStudy& study, VerifiedSubject& subject) {
     if (stiffness(k) == 0) limp.push_back(k);
     if (mass(k) == 0) massless.push_back(k);
   }
-  add_finding(subject,
-              {"unknowns_without_stiffness", static_cast<double>(limp.size()), 0, "no mass is without stiffness"},
-              fmt::format("{} have mass but no stiffness, so that nothing holds them to the body: {}",
-                          counted(limp.size(), "unknown"), names_of(study.set, limp)));
+  add_finding(
+      subject, {"unknowns_without_stiffness", static_cast<double>(limp.size()), 0, "no mass is without stiffness"},
+      fmt::format("{} {} mass but no stiffness, so that nothing holds them to the body: {}",
+                  counted(limp.size(), "unknown"), limp.size() == 1 ? "has" : "have", names_of(study.set, limp)));
   if (!massless.empty())
     subject.lines.push_back(
         fmt::format("{} stiffness but no mass: {}",

@@ -3,27 +3,17 @@
 // and 1 km; the first elastic frequency times the length is a velocity between 0.05 m/s (a whip) and 6000 m/s, about
 // that of sound in steel and aluminium.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "reduce/matrices/set_mass.hpp"
+#include "reduce/matrices/set_units.hpp"
 #include "reduce/matrices/verified_subjects.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-struct UnitSystem {
-  const char* name;
-  double length, mass, time;  ///< of its units [m, kg, s]
-};
-
-constexpr std::array<UnitSystem, 4> unit_systems = {{{"m-kg-s", 1, 1, 1},
-                                                     {"mm-t-s", 1e-3, 1e3, 1},
-                                                     {"mm-kg-ms", 1e-3, 1, 1e-3},
-                                                     {"in-slinch-s", 0.0254, 175.126836, 1}}};
 
 /// Numbers of a body in unknown units; 0: unknown.
 struct Sizes {
@@ -75,7 +65,7 @@ VerifiedSubject verify_units(const MatrixStudy& study) {
                   "--units {}",
                   sizes.length, sizes.density, sizes.frequency, likely->name));
   if (!certain)
-    subject.lines.push_back("the file declares no units: its numbers are taken as metres, kilograms and seconds");
+    subject.lines.emplace_back("the file declares no units: its numbers are taken as metres, kilograms and seconds");
   return subject;
 }
 
