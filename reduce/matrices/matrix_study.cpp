@@ -84,16 +84,15 @@ void find_geometric(MatrixStudy& study) {
   study.geometric = product(pseudo_inverse(set.shapes->displacement), wanted);
 }
 
-/// Six unknowns that determine the rigid motion best: by pivoting, so that they are far apart.
-Unknowns find_references(const MatrixStudy& study) {
-  Eigen::MatrixXd rows = *study.geometric;
-  rows.rightCols(3) /= study.length;
-  const Eigen::VectorXd diagonal = study.stiffness.diagonal();
-  for (Eigen::Index k = 0; k < study.size(); ++k) {
-    if (study.set.unknowns[static_cast<std::size_t>(k)].is_rotation()) rows.row(k) *= study.length;
-    if (!(diagonal(k) > 0)) rows.row(k).setZero();
-  }
-  Unknowns order = pivoted_columns(rows.transpose());
+/// Six unknowns that determine a combination of six motions best: by pivoting, so that they are far apart.
+Unknowns find_references(const MatrixStudy& study, const Eigen::MatrixXd& motions) {
+  const bool nodal = study.set.scalars() < study.size();
+  const Eigen::VectorXd diagonal = study.stiffness.diagonal(), mass = study.mass.diagonal();
+  Eigen::MatrixXd rows = nodal ? study.observed(motions) : mass.cwiseAbs().cwiseSqrt().asDiagonal() * motions;
+  const Eigen::VectorXd sizes = rows.colwise().norm().cwiseMax(1e-300);
+  for (Eigen::Index k = 0; k < study.size(); ++k)
+    if (nodal && !(diagonal(k) > 0)) rows.row(k).setZero();
+  Unknowns order = pivoted_columns(sizes.cwiseInverse().asDiagonal() * rows.transpose());
   order.resize(6);
   std::sort(order.begin(), order.end());
   return order;
@@ -114,13 +113,10 @@ double least_held_eigenvalue(const Factor& factor, const SparseColumns& mass) {
   return eigenvalue;
 }
 
+/// @param rigid  (n,6) rigid motions to choose the references by
 /// @returns an estimate of the least eigenvalue of the body held at the references; 0: unknown
-double find_statical(MatrixStudy& study) {
-  if (!study.geometric) {
-    study.no_statical = study.no_geometric;
-    return 0;
-  }
-  study.references = find_references(study);
+double find_statical(MatrixStudy& study, const Eigen::MatrixXd& rigid) {
+  study.references = find_references(study, rigid);
   const Eigen::VectorXd diagonal = study.stiffness.diagonal();
   Unknowns rest;
   for (Eigen::Index k = 0; k < study.size(); ++k)
@@ -214,7 +210,12 @@ MatrixStudy study_matrices(const MatrixSet& set, int threads) {
                     ""};
   measure_box(study);
   find_geometric(study);
-  find_modes(study, find_statical(study));
+  study.no_statical = study.no_geometric;
+  find_modes(study, study.geometric ? find_statical(study, *study.geometric) : 0);
+  // Positions may be wrong, so that the references do not determine the rigid motion: the modes choose others.
+  const bool nodal = set.scalars() < set.size();
+  if (nodal && !study.statical && study.modes && study.modes->eigenvalues.size() >= 6)
+    find_statical(study, study.modes->vectors.leftCols(6));
   return study;
 }
 

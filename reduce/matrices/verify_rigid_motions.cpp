@@ -60,7 +60,7 @@ void verify_forces(const MatrixStudy& study, VerifiedSubject& subject) {
 /// Kinds of rigid motions are equal to 0.1 % of their size: digits of text are magnified by the slenderness of a body.
 void verify_distances(const MatrixStudy& study, VerifiedSubject& subject) {
   constexpr double limit = 1e-3;
-  if (!study.geometric) return;
+  if (!study.geometric || is_grounded(study)) return;
   if (study.statical) {
     const double value = distance_of(study, *study.statical, *study.geometric);
     add_finding(

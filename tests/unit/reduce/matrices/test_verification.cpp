@@ -1,4 +1,5 @@
 // Sound matrices pass every check, and their mass properties are those of the body.
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "reduce/matrices/matrix_study.hpp"
@@ -80,4 +81,42 @@ TEST_CASE("Empty unknowns are left out by name") {
   CHECK(test::faults_of(found) == "");
   REQUIRE(found.subjects[0].lines.size() == 1);
   CHECK(found.subjects[0].lines[0] == "1 unknown has neither stiffness nor mass: node 77 y");
+}
+
+TEST_CASE("A body of modes alone, rigid ones included, is verified by its shapes") {
+  const MatrixSet beam = test::beam_set(10);
+  const MatrixStudy study = study_matrices(beam, 1);
+  REQUIRE(study.modes);
+  MatrixSet modal;
+  modal.name = "modal beam";
+  modal.source = "modes of the test";
+  modal.has_units = true;
+  modal.positions.resize(3, 0);
+  const Eigen::Index count = study.modes->eigenvalues.size();
+  for (int k = 0; k < count; ++k) modal.unknowns.push_back({-1, k});
+  Eigen::VectorXd squares = study.modes->eigenvalues;
+  squares.head(6).setZero();
+  modal.stiffness = test::sparse(squares.asDiagonal());
+  modal.mass = test::sparse(Eigen::MatrixXd::Identity(count, count));
+  NodalShapes shapes;
+  // Four points around each section: u = u_node + theta x arm.
+  const Eigen::MatrixXd u = nodal_motions(beam, false) * study.modes->vectors;
+  const Eigen::MatrixXd theta = nodal_motions(beam, true) * study.modes->vectors;
+  shapes.points.resize(3, 44);
+  shapes.displacement.resize(132, count);
+  for (Eigen::Index a = 0; a < 11; ++a)
+    for (Eigen::Index p = 0; p < 4; ++p) {
+      const Eigen::Vector3d arm = 0.1 * Eigen::Vector3d(0, p % 2 == 0 ? 1 : -1, p / 2 == 0 ? 1 : -1);
+      shapes.points.col(4 * a + p) = beam.positions.col(a) + arm;
+      for (Eigen::Index k = 0; k < count; ++k)
+        shapes.displacement.col(k).segment<3>(3 * (4 * a + p)) =
+            u.col(k).segment<3>(3 * a) + Eigen::Vector3d(theta.col(k).segment<3>(3 * a)).cross(arm);
+    }
+  for (int p = 0; p < 44; ++p) shapes.numbers.push_back(p + 1);
+  modal.shapes = shapes;
+  const Verification found = verify(modal);
+  CHECK(test::faults_of(found) == "");
+  CHECK(mass_of(study_matrices(modal, 1)).mass() == Approx(6).epsilon(1e-6));
+  modal.shapes->points *= 1000;
+  CHECK(test::faults_of(modal) != "");
 }

@@ -124,8 +124,7 @@ TEST_CASE("Mass without stiffness is named") {
   set.unknowns.push_back({-1, 0});
   for (SparseColumns* matrix : {&set.stiffness, &set.mass}) matrix->conservativeResize(67, 67);
   test::add_to(set.mass, 66, 66, 1);
-  CHECK_THAT(test::faults_of(set),
-             Contains("1 unknown has mass but no stiffness"));
+  CHECK_THAT(test::faults_of(set), Contains("1 unknown has mass but no stiffness"));
   CHECK_THAT(test::faults_of(set), Contains("scalar 1"));
 }
 
