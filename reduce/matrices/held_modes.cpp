@@ -31,13 +31,7 @@ std::optional<HeldModes> held_modes(const MatrixStudy& study, int count) {
   const auto with_mass = static_cast<int>((Eigen::VectorXd(mass.diagonal()).array() > 0).count());
   if (result.held.empty() || with_mass == 0) return std::nullopt;
   const SparseColumns stiffness = submatrix(study.stiffness, result.free, result.free);
-  definite_factor(stiffness, study.threads);
-  // The held body is definite, and any small shift serves; one far below the first mode changes no digit.
-  const Eigen::VectorXd k = stiffness.diagonal(), m = mass.diagonal();
-  double shift = 0;
-  for (Eigen::Index i = 0; i < k.size(); ++i)
-    if (m(i) > 0) shift = shift == 0 ? k(i) / m(i) : std::min(shift, k(i) / m(i));
-  result.modes = natural_modes(stiffness, mass, std::min(count, with_mass), 1e-3 * shift, study.threads);
+  result.modes = natural_modes(stiffness, mass, std::min(count, with_mass), 0, study.threads);
   if (!study.geometric) return result;
   Unknowns all(static_cast<std::size_t>(study.size()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Eigen::Index>(i);

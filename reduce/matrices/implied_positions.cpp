@@ -151,6 +151,15 @@ double median_of(Eigen::VectorXd values) {
   return *middle;
 }
 
+/// The quaternion with the largest q^T n q. Points on a line leave it open, and the one of the smallest angle is taken.
+Eigen::Vector4d least_turn(const Eigen::Matrix4d& n) {
+  const SymmetricEigenpairs pairs = symmetric_eigenpairs(n);
+  const auto equal = (pairs.values.array() > pairs.values(3) - 1e-6 * std::abs(pairs.values(3))).count();
+  const Eigen::MatrixXd largest = pairs.vectors.rightCols(equal);
+  const Eigen::Vector4d q = largest * largest.row(0).transpose();
+  return q.norm() > 1e-6 ? q.normalized() : Eigen::Vector4d(pairs.vectors.col(3));
+}
+
 /// Sum of the distances of points from their median.
 double spread_of(const Eigen::Matrix3Xd& points) {
   const Eigen::Vector3d centre(median_of(points.row(0)), median_of(points.row(1)), median_of(points.row(2)));
@@ -206,7 +215,7 @@ Similarity nearest_similarity(const Eigen::Matrix3Xd& from, const Eigen::Matrix3
         0, 0, s(1, 1) - s(0, 0) - s(2, 2), s(1, 2) + s(2, 1),                  //
         0, 0, 0, s(2, 2) - s(0, 0) - s(1, 1);
     n = Eigen::Matrix4d(n.selfadjointView<Eigen::Upper>());
-    const Eigen::Vector4d q = symmetric_eigenpairs(n).vectors.col(3);
+    const Eigen::Vector4d q = least_turn(n);
     result.turn = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix();
     const Eigen::Matrix3Xd turned = result.turn * a;
     const double squares = (turned.array().square().matrix() * weights).sum();

@@ -186,10 +186,11 @@ Eigen::MatrixXd MatrixStudy::observed(const Eigen::MatrixXd& motions) const {
 
 Eigen::MatrixXd MatrixStudy::relative_forces(const Eigen::MatrixXd& motions) const {
   Eigen::VectorXd root = Eigen::VectorXd(stiffness.diagonal()).cwiseMax(0).cwiseSqrt();
+  // Rigid amplitudes have no stiffness of their own: they count with a small one, or their motion would have no size.
+  constexpr double small = 1e-4;
+  const double largest = std::max(root.maxCoeff(), 1e-300);
+  root = Eigen::VectorXd((root.array() > 0).select(root, small * largest));
   const Eigen::VectorXd sizes = (root.asDiagonal() * motions).cwiseAbs().colwise().maxCoeff();
-  const double largest = root.maxCoeff();
-  // An unknown without stiffness of its own has no force either; the bound avoids 0 / 0.
-  root = Eigen::VectorXd(root.cwiseMax(1e-8 * largest).cwiseMax(1e-300));
   const Eigen::MatrixXd forces = stiffness * motions;
   return root.cwiseInverse().asDiagonal() * forces * sizes.cwiseMax(1e-300).cwiseInverse().asDiagonal();
 }

@@ -43,7 +43,7 @@ struct NaturalModes {
 
 /// The lowest modes of a body that may be free.
 /// @param count  at most so many are computed
-/// @param shift  positive, about the first elastic omega^2: K + shift M is factorised
+/// @param shift  about the first elastic omega^2, or 0 for a body that is held: K + shift M is factorised
 /// @throws NotPositiveDefinite if K + shift M is not definite; ComputationError if modes do not converge
 NaturalModes natural_modes(const SparseColumns& K, const SparseColumns& M, int count, double shift, int threads);
 

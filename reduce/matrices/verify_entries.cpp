@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/counted.hpp"
+#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/matrices/verified_subjects.hpp"
 
 namespace bielle::reduce {
@@ -45,8 +46,24 @@ void verify_symmetry(const MatrixStudy& study, const NamedMatrix& of, VerifiedSu
                           of.matrix.coeff(column, row)));
 }
 
-void verify_definiteness(const MatrixStudy& study, const NamedMatrix& of, VerifiedSubject& subject) {
-  const std::optional<LeastEigenvalue> least = least_scaled_eigenvalue(symmetric_part(of.matrix), study.threads);
+/// The least scaled eigenvalue of the stiffness. If the body held in six unknowns r is definite, as its static motions
+/// tell, K has the signs of that body and of the Schur complement at r (Sylvester), which takes no factorisation.
+std::optional<LeastEigenvalue> least_of_stiffness(const MatrixStudy& study) {
+  const Eigen::VectorXd diagonal = study.stiffness.diagonal();
+  // An unknown with a null diagonal takes no part in static motions; entries besides it make K indefinite.
+  const bool whole = (diagonal.array() > 0 || largest_in_rows(study.stiffness).array() == 0).all();
+  if (whole && study.statical) {
+    const Eigen::MatrixXd forces = study.stiffness * *study.statical;
+    const Eigen::VectorXd scale = diagonal(study.references).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd schur = scale.asDiagonal() * forces(study.references, Eigen::all) * scale.asDiagonal();
+    const double least = symmetric_eigenpairs((schur + schur.transpose()) / 2).values(0);
+    if (least > -text_rounding) return LeastEigenvalue{least, study.references[0]};
+  }
+  return least_scaled_eigenvalue(study.stiffness, study.threads);
+}
+
+void verify_definiteness(const MatrixStudy& study, const NamedMatrix& of, const std::optional<LeastEigenvalue>& least,
+                         VerifiedSubject& subject) {
   if (!least) return;
   add_finding(
       subject,
@@ -62,9 +79,12 @@ void verify_presence(const MatrixStudy& study, VerifiedSubject& subject) {
   const Eigen::VectorXd stiffness = largest_in_rows(study.stiffness), mass = largest_in_rows(study.mass);
   Unknowns limp, massless;
   for (Eigen::Index k = 0; k < study.size(); ++k) {
-    // A body that is a single rigid piece has no stiffness at all, and a rigid scalar none either.
     if (stiffness(k) == 0) limp.push_back(k);
     if (mass(k) == 0) massless.push_back(k);
+  }
+  if (study.set.scalars() == study.size()) {  // modes of a free body, with those of its rigid motions
+    if (!limp.empty()) subject.lines.push_back(fmt::format("{} without stiffness", counted(limp.size(), "scalar")));
+    limp.clear();
   }
   add_finding(
       subject, {"unknowns_without_stiffness", static_cast<double>(limp.size()), 0, "no mass is without stiffness"},
@@ -101,12 +121,13 @@ VerifiedSubject verify_entries(const MatrixStudy& study) {
   const NamedMatrix stiffness{"stiffness", study.set.stiffness}, mass{"mass", study.set.mass};
   verify_symmetry(study, stiffness, subject);
   verify_symmetry(study, mass, subject);
-  verify_definiteness(study, stiffness, subject);
-  verify_definiteness(study, mass, subject);
-  if (study.set.damping.size() > 0) {
+  verify_definiteness(study, stiffness, least_of_stiffness(study), subject);
+  verify_definiteness(study, mass, least_scaled_eigenvalue(study.mass, study.threads), subject);
+  if (study.set.damping.nonZeros() > 0) {
     const NamedMatrix damping{"damping", study.set.damping};
     verify_symmetry(study, damping, subject);
-    verify_definiteness(study, damping, subject);
+    const SparseColumns even = symmetric_part(study.set.damping);
+    verify_definiteness(study, damping, least_scaled_eigenvalue(even, study.threads), subject);
   }
   verify_presence(study, subject);
   return subject;

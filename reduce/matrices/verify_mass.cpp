@@ -21,17 +21,17 @@ void compare_mass(const SetMass& found, const StatedMass& other, const std::stri
                   bool with_inertia, VerifiedSubject& subject) {
   const double gyration = std::sqrt(std::max(found.inertia.trace() / 2 / found.mass(), 1e-300));
   add_finding(subject,
-              {prefix + "_mass", std::abs(other.mass / found.mass() - 1), stated_limit, "the mass is " + words},
+              {prefix + "_mass", std::abs(other.mass / found.mass() - 1), stated_limit, "the mass is what " + words},
               fmt::format("the mass matrix has {:.6g} kg, {} {:.6g} kg", found.mass(), words, other.mass));
   add_finding(subject,
               {prefix + "_centre", (other.centre - found.centre).norm() / gyration, stated_limit,
-               "the centre of mass is " + words},
+               "the centre of mass is what " + words},
               fmt::format("the mass matrix has its centre at ({}) m, {} ({}) m", three(found.centre), words,
                           three(other.centre)));
   if (!with_inertia) return;
   add_finding(subject,
               {prefix + "_inertia", (other.inertia - found.inertia).norm() / found.inertia.norm(), stated_limit,
-               "the inertia is " + words},
+               "the inertia is what " + words},
               fmt::format("the inertia about the centre is xx yy zz {} kg m^2 in the mass matrix, {} {} kg m^2",
                           three(found.inertia.diagonal()), words, three(other.inertia.diagonal())));
 }
@@ -76,9 +76,9 @@ VerifiedSubject verify_mass(const MatrixStudy& study) {
   subject.lines.push_back("inertia about the centre: " + inertia(found.inertia));
   subject.lines.push_back("inertia about the origin: " + inertia(found.at_origin));
   subject.lines.push_back(fmt::format("principal moments: {} kg m^2", three(found.principal())));
-  if (study.set.stated) compare_mass(found, *study.set.stated, "as the file states it:", "stated", true, subject);
+  if (study.set.stated) compare_mass(found, *study.set.stated, "the file states", "stated", true, subject);
   if (study.set.shapes && study.set.shapes->masses.size() > 0)
-    compare_mass(found, sum_of_points(*study.set.shapes), "by the sum of its point masses:", "point_masses",
+    compare_mass(found, sum_of_points(*study.set.shapes), "the sum of its point masses has", "point_masses",
                  !study.set.shapes->inertias.empty(), subject);
   return subject;
 }

@@ -11,7 +11,10 @@ namespace bielle::reduce {
 namespace {
 
 void verify_damping(const MatrixStudy& study, VerifiedSubject& subject) {
-  if (study.set.damping.size() == 0) return;
+  if (study.set.damping.nonZeros() == 0) {
+    subject.lines.emplace_back("no damping");
+    return;
+  }
   const SparseColumns damping = symmetric_part(study.set.damping);
   if (study.geometric) {
     const Eigen::VectorXd root = Eigen::VectorXd(damping.diagonal()).cwiseMax(0).cwiseSqrt();
