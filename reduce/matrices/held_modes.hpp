@@ -7,7 +7,7 @@ namespace bielle::reduce {
 
 struct HeldModes {
   Unknowns held, free;
-  NaturalModes modes;  ///< of the free unknowns
+  NaturalModes modes;  ///< modes of the free unknowns
   Eigen::MatrixXd
       effective_mass;  ///< (modes,6) x y z [kg], rx ry rz about the middle [kg m^2]; empty: no rigid motions
 };

@@ -28,7 +28,7 @@ Eigen::VectorXd weights_by(const Eigen::VectorXd& distances, double size) {
 struct NodalMotion {
   std::vector<Eigen::Index> nodes;
   std::vector<NodeRows> displacements;
-  std::vector<std::optional<NodeRows>> rotations;  // of nodes with all three
+  std::vector<std::optional<NodeRows>> rotations;  // present for nodes with all three
 };
 
 NodalMotion motions_of_nodes(const MatrixSet& set, const Eigen::MatrixXd& motions) {

@@ -32,7 +32,7 @@ struct Similarity {
   double factor = 1;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  Eigen::VectorXd distances;  ///< of each point from its image [m]
+  Eigen::VectorXd distances;  ///< distance of each point from its image [m]
 };
 
 /// The translation alone: the median of the differences.

@@ -23,7 +23,7 @@ constexpr double frequency_limit = 1e-2;
 constexpr double shape_limit = 0.1;
 /// Modes whose frequencies differ less count together, since any combination of them is a mode: 1 %.
 constexpr double multiple = 1e-2;
-constexpr double same_place = 1e-4;  // of the body's length
+constexpr double same_place = 1e-4;  // in lengths of the body
 
 std::string vector_text(const Eigen::Vector3d& x) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", x.x(), x.y(), x.z()); }
 

@@ -32,7 +32,7 @@ struct VerifiedSubject {
 };
 
 struct Verification {
-  std::string name;    ///< of the body
+  std::string name;    ///< name of the body
   std::string source;  ///< format and file
   Eigen::Index unknowns = 0, scalars = 0, nodes = 0;
   std::vector<VerifiedSubject> subjects;
