@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/matrices/set_mass.hpp"
+#include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
 
@@ -36,8 +38,12 @@ std::optional<HeldModes> held_modes(const MatrixStudy& study, int count) {
   Unknowns all(static_cast<std::size_t>(study.size()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Eigen::Index>(i);
   // The static answer of the free unknowns to rigid motions of the held ones is the rigid motion itself.
-  const Eigen::MatrixXd momenta = submatrix(study.mass, result.free, all) * *study.geometric;
+  Eigen::MatrixXd rigid = *study.geometric;
+  rigid.rightCols(3) -=
+      rigid.leftCols(3) * skew(study.middle - mass_of(study).centre);  // turns about the centre of mass
+  const Eigen::MatrixXd momenta = submatrix(study.mass, result.free, all) * rigid;
   result.effective_mass = transposed_product(result.modes.vectors, momenta).cwiseAbs2();
+  result.whole_mass = rigid.cwiseProduct(study.mass * rigid).colwise().sum();
   return result;
 }
 

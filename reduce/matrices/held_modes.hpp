@@ -7,9 +7,10 @@ namespace bielle::reduce {
 
 struct HeldModes {
   Unknowns held, free;
-  NaturalModes modes;  ///< modes of the free unknowns
-  Eigen::MatrixXd
-      effective_mass;  ///< (modes,6) x y z [kg], rx ry rz about the middle [kg m^2]; empty: no rigid motions
+  NaturalModes modes;              ///< modes of the free unknowns
+  Eigen::MatrixXd effective_mass;  ///< (modes,6) x y z [kg], rx ry rz about the centre of mass [kg m^2]; empty: no
+                                   ///< rigid motions
+  Eigen::RowVectorXd whole_mass;  ///< (6) the same numbers of the whole body
 };
 
 /// Unknowns of the interfaces that the set declares, or else of the nodes with six unknowns.

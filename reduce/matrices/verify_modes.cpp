@@ -35,12 +35,10 @@ void tell_held_frequencies(const MatrixStudy& study, VerifiedSubject& subject) {
   const Eigen::VectorXd& values = found->modes.eigenvalues;
   subject.lines.push_back(fmt::format("fixed-base, {} held:", counted(found->held.size(), "unknown")));
   const bool with_mass = found->effective_mass.rows() == values.size();
-  Eigen::Matrix<double, 1, 6> all = Eigen::Matrix<double, 1, 6>::Ones();
-  if (with_mass) {
-    const Eigen::MatrixXd momenta = study.mass * *study.geometric;
-    all = (study.geometric->array() * momenta.array()).colwise().sum();
-    subject.lines.push_back("        Hz   effective mass in % along x, y, z, about x, y, z");
-  }
+  const Eigen::RowVectorXd& all = found->whole_mass;
+  if (with_mass)
+    subject.lines.emplace_back(
+        "        Hz   effective mass in % along x, y, z, about x, y, z through the centre of mass");
   const auto shares = [&](const Eigen::MatrixXd& masses) {
     std::string text;
     for (int i = 0; i < 6; ++i) text += fmt::format(" {:6.2f}", all(i) > 0 ? 100 * masses(0, i) / all(i) : 0.0);

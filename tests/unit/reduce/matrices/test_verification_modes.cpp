@@ -45,6 +45,15 @@ TEST_CASE("Free and held frequencies are those of the beam") {
   CHECK(held->effective_mass(0, 0) < 1e-9);
 }
 
+TEST_CASE("Effective masses are those that the reduction found on the mesh") {
+  const Superelement body = test::reduced(test::twisted_block(), test::steel_body(Tie::rigid, Tie::rigid, 6));
+  const MatrixSet set = matrix_set_of(body);
+  const std::optional<HeldModes> held = held_modes(study_matrices(set, 1), 6);
+  REQUIRE(held);
+  CHECK((held->effective_mass - body.effective_mass).cwiseAbs().maxCoeff() < 1e-9 * body.total_mass);
+  CHECK(held->whole_mass(4) == Approx(body.inertia(1, 1)).epsilon(1e-9));
+}
+
 TEST_CASE("Sparse methods and dense ones find the same") {
   const MatrixSet set = test::beam_set(120);  // 726 unknowns
   const MatrixStudy study = study_matrices(set, 1);
