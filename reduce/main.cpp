@@ -33,6 +33,7 @@
 #include "reduce/report/summary.hpp"
 #include "reduce/report/summary_of_pieces.hpp"
 #include "reduce/report/verdict.hpp"
+#include "reduce/verify_command.hpp"
 
 namespace {
 
@@ -249,10 +250,15 @@ int body(int argc, char** argv) {
                                     "with --list: unit of a geometry that carries none: m mm cm um km in ft");
   const auto* from_option =
       app.add_option("--from", foreign, "make a superelement of another program's matrices (DMIG, OUTPUT4, .mtx ...)");
-  const auto* units_option =
-      app.add_option("--units", units, "with --from: units of its numbers, as mm-t-s (default: SI)");
+  const auto* units_option = app.add_option(
+      "--units", units, "with --from and --verify: units of a file that declares none, as mm-t-s (default: SI)");
   const auto* inspect_option =
       app.add_option("--inspect", superelement, "show what is in a superelement file, check it again");
+  VerifyRequest verified;
+  const auto* verify_option = app.add_option("--verify", verified.path,
+                                             "prove a superelement or matrices: rigid motions, mass, positions, modes");
+  const auto* against =
+      app.add_option("--against", verified.against, "with --verify: compare with another file of the same body");
   const auto* keys_option =
       app.add_option("--keys", keys_of, "explain the keys of a part of the body file (`mesh`), or `all`");
   bool schema = false;
@@ -269,21 +275,28 @@ int body(int argc, char** argv) {
                                               : write_key_schema(body_file_keys(), "body file of bielle-reduce"));
     return 0;
   }
-  if (input_option->count() + list_option->count() + inspect_option->count() + from_option->count() != 1) {
+  if (input_option->count() + list_option->count() + inspect_option->count() + from_option->count() +
+          verify_option->count() !=
+      1) {
     throw InputError(
-        "expected one of: a body file, --from MATRICES, --list GEOMETRY, --inspect SUPERELEMENT; see --help");
+        "expected one of: a body file, --from MATRICES, --list GEOMETRY, --inspect SUPERELEMENT, --verify FILE; see "
+        "--help");
   }
   if (output_option->count() > 0 && input_option->count() + from_option->count() == 0) {
-    throw InputError("-o goes with a body file or --from: --list and --inspect write nothing");
+    throw InputError("-o goes with a body file or --from: --list, --inspect and --verify write nothing");
   }
-  if (units_option->count() > 0 && from_option->count() == 0) {
-    throw InputError("--units goes with --from; a body file has 'matrices: {file: .., units: ..}'");
+  if (units_option->count() > 0 && from_option->count() + verify_option->count() == 0) {
+    throw InputError("--units goes with --from and --verify; a body file has 'matrices: {file: .., units: ..}'");
+  }
+  if (against->count() > 0 && verify_option->count() == 0) {
+    throw InputError("--against goes with --verify FILE");
   }
   if (unit->count() > 0 && list_option->count() == 0) {
     throw InputError("--length-unit goes with --list; a body file has its own length_unit");
   }
-  if (system_calls && inspect_option->count() > 0) {
-    throw InputError("--allow-system-calls goes with a body file or --list: --inspect reads no geometry");
+  if (system_calls && inspect_option->count() + verify_option->count() > 0) {
+    throw InputError(fmt::format("--allow-system-calls goes with a body file or --list: {} reads no geometry",
+                                 inspect_option->count() > 0 ? "--inspect" : "--verify"));
   }
   if (list_option->count() > 0) {
     list(geometry, length_unit, system_calls);
@@ -296,6 +309,10 @@ int body(int argc, char** argv) {
   if (from_option->count() > 0) {
     reduce_from(foreign, output, units, common);
     return 0;
+  }
+  if (verify_option->count() > 0) {
+    verified.units = units;
+    return verify_file(verified, common) ? 0 : 1;
   }
   const Workplace workplace(ranks_at);
   if (app.count("--threads") == 0) common.threads = workplace.threads(common.threads);

@@ -11,18 +11,9 @@
 
 namespace bielle::reduce {
 
-namespace {
-
-bool is_matrix_file(const std::string& path) {
-  if (!Hdf5File::begins_like_one(path)) return false;
-  const Hdf5File file = Hdf5File::open(path);
-  return file.has_attribute("/", "format") && file.read_text_attribute("/", "format") == "bielle matrices";
-}
-
-}  // namespace
-
 MatrixSet read_foreign_matrices(const ForeignMatrices& request, Progress& progress) {
-  if (request.units.empty() && is_matrix_file(request.path)) return read_matrix_set(request.path);
+  if (request.units.empty() && Hdf5File::begins_like_one(request.path) && holds_matrices(request.path))
+    return read_matrix_set(request.path);
   const ScratchFolder folder;
   const std::string target = (folder.path() / "matrices.h5").string();
   std::vector<std::string> arguments = {request.path, target, "--to", "matrices"};

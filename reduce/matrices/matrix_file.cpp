@@ -23,6 +23,10 @@ using Integers = std::vector<std::int64_t>;
   throw InputError(fmt::format("{}: {}", file.path(), reason));
 }
 
+bool is_matrix_file(const Hdf5File& file) {
+  return file.has_attribute("/", "format") && file.read_text_attribute("/", "format") == format_of_matrices;
+}
+
 void require_shape(const Hdf5File& file, const std::string& dataset, const Shape& expected) {
   if (file.shape(dataset) != expected)
     refuse_matrices(file, fmt::format("{} has not the shape that belongs to the unknowns and nodes", dataset));
@@ -156,9 +160,11 @@ void read_inertia_components(const Hdf5File& file, MatrixSet& set) {
 
 }  // namespace
 
+bool holds_matrices(const std::string& path) { return is_matrix_file(Hdf5File::open(path)); }
+
 MatrixSet read_matrix_set(const std::string& path) {
   const Hdf5File file = Hdf5File::open(path);
-  if (!file.has_attribute("/", "format") || file.read_text_attribute("/", "format") != format_of_matrices)
+  if (!is_matrix_file(file))
     refuse_matrices(file, "is no file of matrices: its attribute `format` is not 'bielle matrices'");
   const std::int64_t version = file.read_integer_attribute("/", "version");
   if (version != version_of_matrices)

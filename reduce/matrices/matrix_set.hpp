@@ -65,6 +65,8 @@ struct MatrixSet {
   std::string name_of(Eigen::Index unknown) const;
 };
 
+/// Tells whether an HDF5 file is a matrix file by its attribute `format`.
+bool holds_matrices(const std::string& path);
 /// Reads a matrix file. @throws InputError `file: ...` if it is none, or if its parts do not fit together
 MatrixSet read_matrix_set(const std::string& path);
 

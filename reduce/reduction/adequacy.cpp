@@ -53,12 +53,14 @@ void measure_frequencies(const FullModel& model, const Superelement& body, RowMa
   RowMatrix forces = model.matrices.stiffness_times(modes);
   forces -= model.matrices.mass_times(modes) * lambda.asDiagonal();
   const RowMatrix answers = model.held.expand(model.held.solve(model.held.restrict(forces)));
-  result.mode_error = excess(lambda, enriched_eigenvalues(model, body, free, answers, count));
+  const EnrichedModes enriched = enriched_modes(model, body, free, answers, count);
+  result.mode_error = excess(lambda, enriched.eigenvalues);
+  result.mode_mac = enriched.assurance;
   lowest = modes.leftCols(std::min(count, most_meshed));
   const Eigen::Index few = std::min(count, most_released);
   const RowMatrix released = deformation_without_rigid_ties(model, forces.leftCols(few));
   if (released.cols() > 0)
-    result.tie_error = excess(lambda.head(few), enriched_eigenvalues(model, body, free, released, few));
+    result.tie_error = excess(lambda.head(few), enriched_modes(model, body, free, released, few).eigenvalues);
 }
 
 }  // namespace

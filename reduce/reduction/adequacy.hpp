@@ -3,8 +3,9 @@
 // Omitted modes. A free mode u = T v at lambda = omega^2 leaves the interior with the residual r = K u - lambda M u, to
 // which the kept modes are orthogonal. The answers z = K_ii^-1 r of the held body to the residuals of the lowest modes
 // are added to the shapes (enrichment.hpp). They give the frequencies without the truncation, to second order and from
-// above: the true error is at least the stated one. Mesh. See fe/mesh_error.hpp; the fields are the lowest free modes,
-// and the free body under loads on its interfaces. Rigid ties. See tie_release.hpp.
+// above: the true error is at least the stated one. The
+// modes with the answers also give the MAC of the shapes. Mesh. See fe/mesh_error.hpp; the fields are the lowest free
+// modes, and the free body under loads on its interfaces. Rigid ties. See tie_release.hpp.
 #pragma once
 
 #include "reduce/reduction/basis.hpp"

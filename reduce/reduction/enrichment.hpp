@@ -6,13 +6,20 @@
 
 namespace bielle::reduce {
 
-/// All are upper bounds of the frequencies of any body whose motions include both kinds of shapes (Courant and
-/// Fischer), and none exceeds that of the reduced body.
+/// The lowest modes of the body with the added shapes.
+struct EnrichedModes {
+  Eigen::VectorXd eigenvalues;  ///< omega^2, ascending [rad^2/s^2]
+  /// (count) MAC of each of the lowest free modes with its counterpart among these, in the metric of the mass; modes
+  /// whose frequencies differ by less than 1 % count together.
+  Eigen::VectorXd assurance;
+};
+
+/// All frequencies are upper bounds of the frequencies of any body whose motions include both kinds of shapes (Courant
+/// and Fischer), and none exceeds that of the reduced body.
 /// @param free    elastic modes of the reduced body
 /// @param shapes  added shapes (3 points, p), which may be linearly dependent or zero
 /// @param count   number of requested frequencies
-/// @returns the lowest omega^2, ascending [rad^2/s^2]
-Eigen::VectorXd enriched_eigenvalues(const FullModel& model, const Superelement& body, const FreeModes& free,
-                                     const RowMatrix& shapes, Eigen::Index count);
+EnrichedModes enriched_modes(const FullModel& model, const Superelement& body, const FreeModes& free,
+                             const RowMatrix& shapes, Eigen::Index count);
 
 }  // namespace bielle::reduce

@@ -67,6 +67,9 @@ Range range_of(const Adequacy& found, const Eigen::VectorXd& errors, double most
   return range;
 }
 
+/// A MAC with four digits that promises no more than was found.
+double rounded_down(double assurance) { return std::floor(1e4 * assurance) / 1e4; }
+
 /// The limit of the modes that would bring a frequency within bounds.
 std::string wider_modes(const Adequacy& found, double frequency) {
   return fmt::format("modes: {{below: {}}}",
@@ -85,6 +88,9 @@ void judge_modes(const Superelement& body, const Adequacy& found, Findings& find
                            : fmt::format("the first free-free frequency, {}, is {} too high, since modes are left out",
                                          hertz(bad), as_percent(error));
   }
+  if (found.mode_mac.size() > 0 && range.good > 0)
+    line += fmt::format("; the shapes of the good ones agree with a MAC of at least {:.4f}",
+                        rounded_down(found.mode_mac.head(range.good).minCoeff()));
   if (found.next_mode > 0) line += fmt::format("; the first mode left out is at {}", hertz(found.next_mode));
   findings.lines.emplace_back("modes: " + line);
   if (body.fixed_boundary_modes() == 0 || !range.falls_short(found.wanted)) return;

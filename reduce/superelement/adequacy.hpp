@@ -15,6 +15,9 @@ struct Adequacy {
   /// (as `frequencies`) relative excess of each over that of the mesh with the same ties because of omitted modes, from
   /// the answer of the omitted modes to the mode's residual.
   Eigen::VectorXd mode_error;
+  /// (as `frequencies`) modal assurance criterion of each shape with that of the mesh, in the metric of the mass: 1 for
+  /// equal shapes. It is empty in files that were written without it.
+  Eigen::VectorXd mode_mac;
   /// (the first of `frequencies`) relative excess of each over that of a fine mesh (Zienkiewicz and Zhu).
   Eigen::VectorXd mesh_error;
   /// (the first of `frequencies`) least relative excess of each over that with average ties in place of the rigid ones.

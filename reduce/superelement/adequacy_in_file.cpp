@@ -48,6 +48,8 @@ void write_adequacy(const Adequacy& adequacy, Hdf5File& file) {
   write_if_there(adequacy.frequencies, "free_frequencies", "Hz", "of the free reduced body, the lowest ones", file);
   write_if_there(adequacy.mode_error, "mode_error", "-", "part by which each is too high, since modes are left out",
                  file);
+  write_if_there(adequacy.mode_mac, "mode_mac", "-", "modal assurance criterion of each with the mode of the mesh",
+                 file);
   write_if_there(adequacy.mesh_error, "mesh_error", "-", "the same of the first ones, since the mesh is coarse", file);
   write_if_there(adequacy.tie_error, "tie_error", "-", "the same, at least, of rigid ties against average ones", file);
   write_if_there(adequacy.stress_error, "stress_error", "-",
@@ -73,6 +75,10 @@ std::optional<Adequacy> read_adequacy(const Hdf5File& file) {
   if (result.mode_error.size() != result.frequencies.size())
     throw InputError(
         fmt::format("{}: /adequacy/mode_error: expected one number for each of free_frequencies", file.place()));
+  result.mode_mac = read_if_there(file, "mode_mac", result.frequencies.size());
+  if (result.mode_mac.size() > 0 && result.mode_mac.size() != result.frequencies.size())
+    throw InputError(
+        fmt::format("{}: /adequacy/mode_mac: expected one number for each of free_frequencies", file.place()));
   result.mesh_error = read_if_there(file, "mesh_error", result.frequencies.size());
   result.tie_error = read_if_there(file, "tie_error", result.frequencies.size());
   result.stress_error = read_if_there(file, "stress_error", any);

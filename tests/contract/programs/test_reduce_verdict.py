@@ -39,6 +39,7 @@ class Verdict(CommandTest):
     def test_a_good_body_is_told_up_to_where(self):
         said = self.said(GOOD)
         self.assertRegex(said, r"^verdict: good up to \d+ Hz")
+        self.assertRegex(said, r"the shapes of the good ones agree with a MAC of at least (0\.9\d+|1\.0000)")
         for text in ("modes: free-free frequencies up to", "the first mode left out is at", "mesh: the mesh makes the first free-free frequency about",
                      "stress under loads on the interfaces is off by about", "inertia: under accelerations"):
             self.assertIn(text, said)

@@ -380,6 +380,7 @@ TEST_CASE("What a superelement is good for stands in its file, which may do with
   Adequacy found;
   found.frequencies = Eigen::Vector3d(100, 200, 300);
   found.mode_error = Eigen::Vector3d(0.001, 0.01, 0.1);
+  found.mode_mac = Eigen::Vector3d(0.9999, 0.999, 0.9);
   found.mesh_error = Eigen::Vector2d(0.002, 0.003);
   found.tie_error = Eigen::Vector2d(0.02, 0.03);
   found.stress_error = Eigen::VectorXd::Constant(10, 0.05);
@@ -397,6 +398,7 @@ TEST_CASE("What a superelement is good for stands in its file, which may do with
   REQUIRE(back);
   CHECK(back->frequencies == found.frequencies);
   CHECK(back->mode_error == found.mode_error);
+  CHECK(back->mode_mac == found.mode_mac);
   CHECK(back->mesh_error == found.mesh_error);
   CHECK(back->tie_error == found.tie_error);
   CHECK(back->stress_error == found.stress_error);
@@ -417,6 +419,11 @@ TEST_CASE("What a superelement is good for stands in its file, which may do with
   };
   CHECK_THAT(refused_with([](Hdf5File& file) { file.remove("/adequacy/mode_error"); }),
              Contains("/adequacy/mode_error: expected one number for each of free_frequencies"));
+  CHECK_THAT(refused_with([](Hdf5File& file) {
+               file.remove("/adequacy/mode_mac");
+               file.write("/adequacy/mode_mac", Eigen::VectorXd(Eigen::Vector2d(1, 1)), "-");
+             }),
+             Contains("/adequacy/mode_mac: expected one number for each of free_frequencies"));
   CHECK_THAT(refused_with([](Hdf5File& file) {
                file.remove("/adequacy/next_mode");
                file.write("/adequacy/next_mode", 500.0, "Hz");

@@ -1,0 +1,170 @@
+#include "reduce/matrices/set_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reduce/common/counted.hpp"
+#include "reduce/dense/dense_products.hpp"
+#include "reduce/matrices/common_places.hpp"
+#include "reduce/matrices/set_mass.hpp"
+#include "reduce/matrices/verified_subjects.hpp"
+
+namespace bielle::reduce {
+
+namespace {
+
+/// Mass properties of one body agree to 0.1 %: those of two programs differ by integration and by lumped masses.
+constexpr double mass_limit = 1e-3;
+/// The first frequency of one body agrees to 1 %, the accuracy that a good reduction has.
+constexpr double frequency_limit = 1e-2;
+/// A MAC of 0.9 is usual for the same mode.
+constexpr double shape_limit = 0.1;
+/// Modes whose frequencies differ less count together, since any combination of them is a mode: 1 %.
+constexpr double multiple = 1e-2;
+constexpr double same_place = 1e-4;  // in lengths of the body
+
+std::string vector_text(const Eigen::Vector3d& x) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", x.x(), x.y(), x.z()); }
+
+void compare_mass_properties(const MatrixStudy& a, const MatrixStudy& b, VerifiedSubject& subject) {
+  if (!a.geometric || !b.geometric) {
+    subject.lines.push_back("mass properties are not compared: one of the bodies has no rigid motions by positions");
+    return;
+  }
+  const SetMass p = mass_of(a), q = mass_of(b);
+  const double gyration = std::sqrt(std::max(q.inertia.trace() / 2 / q.mass(), 1e-300));
+  add_finding(subject, {"against_mass", std::abs(p.mass() / q.mass() - 1), mass_limit, "both have the same mass"},
+              fmt::format("their masses differ: {:.6g} and {:.6g} kg", p.mass(), q.mass()));
+  add_finding(
+      subject,
+      {"against_centre", (p.centre - q.centre).norm() / gyration, mass_limit, "both have the same centre of mass"},
+      fmt::format("their centres of mass differ: ({}) and ({}) m", vector_text(p.centre), vector_text(q.centre)));
+  add_finding(
+      subject,
+      {"against_inertia", (p.inertia - q.inertia).norm() / q.inertia.norm(), mass_limit, "both have the same inertia"},
+      fmt::format("their inertias differ: xx yy zz {} and {} kg m^2", vector_text(p.inertia.diagonal()),
+                  vector_text(q.inertia.diagonal())));
+  subject.lines.push_back(fmt::format("mass {:.6g} and {:.6g} kg, centre ({}) and ({}) m", p.mass(), q.mass(),
+                                      vector_text(p.centre), vector_text(q.centre)));
+}
+
+/// Elastic modes without their rigid parts at the places, with the squares of their amplitudes.
+struct ElasticModes {
+  Eigen::VectorXd frequencies;
+  Eigen::MatrixXd vectors;
+};
+
+ElasticModes elastic_modes_of(const MatrixStudy& study) {
+  if (!study.modes || study.modes->eigenvalues.size() <= 6) return {};
+  const Eigen::Index count = study.modes->eigenvalues.size() - 6;
+  return {study.modes->eigenvalues.tail(count).unaryExpr(&signed_frequency), study.modes->vectors.rightCols(count)};
+}
+
+/// MAC_ij = (u_i . v_j)^2 / (|u_i|^2 |v_j|^2)
+Eigen::MatrixXd assurance(const Eigen::MatrixXd& u, const Eigen::MatrixXd& v) {
+  const Eigen::VectorXd lengths = u.colwise().norm().cwiseMax(1e-300), others = v.colwise().norm().cwiseMax(1e-300);
+  return (lengths.cwiseInverse().asDiagonal() * transposed_product(u, v) * others.cwiseInverse().asDiagonal())
+      .cwiseAbs2();
+}
+
+/// Share of u in the span of the modes that are as frequent as mode j.
+double group_assurance(const Eigen::VectorXd& u, const ElasticModes& b, const Eigen::MatrixXd& v, Eigen::Index j) {
+  std::vector<Eigen::Index> group;
+  for (Eigen::Index k = 0; k < b.frequencies.size(); ++k)
+    if (std::abs(b.frequencies(k) / b.frequencies(j) - 1) < multiple) group.push_back(k);
+  const Eigen::MatrixXd basis = v(Eigen::all, group);
+  const Eigen::VectorXd rest = u - basis * few_least_squares(basis, u);
+  return 1 - rest.squaredNorm() / std::max(u.squaredNorm(), 1e-300);
+}
+
+void compare_shapes(const ElasticModes& a, const ElasticModes& b, const Eigen::MatrixXd& u, const Eigen::MatrixXd& v,
+                    VerifiedSubject& subject) {
+  const Eigen::MatrixXd mac = assurance(u, v);
+  subject.lines.push_back("  mode      Hz   of mode        Hz   difference   MAC");
+  for (Eigen::Index i = 0; i < mac.rows(); ++i) {
+    Eigen::Index j = 0;
+    mac.row(i).maxCoeff(&j);
+    const double difference = a.frequencies(i) / b.frequencies(j) - 1, group = group_assurance(u.col(i), b, v, j);
+    subject.lines.push_back(fmt::format("{:5} {:10.6g} {:5} {:10.6g} {:+9.3g} % {:8.4f}", i + 1, a.frequencies(i),
+                                        j + 1, b.frequencies(j), 100 * difference, group));
+    if (i > 0) continue;
+    add_finding(subject, {"against_first_shape", 1 - group, shape_limit, "the first free mode has a counterpart"},
+                fmt::format("the first free mode, {:.6g} Hz, has no counterpart: its largest MAC is {:.3f}",
+                            a.frequencies(0), group));
+    add_finding(
+        subject, {"against_first_frequency", std::abs(difference), frequency_limit, "the first free frequencies agree"},
+        fmt::format("the first free frequency is {:.6g} Hz, that of the other's mode of the same shape {:.6g} Hz",
+                    a.frequencies(0), b.frequencies(j)));
+  }
+}
+
+void list_frequencies(const ElasticModes& a, const ElasticModes& b, VerifiedSubject& subject) {
+  const Eigen::Index count = std::min(a.frequencies.size(), b.frequencies.size());
+  for (Eigen::Index k = 0; k < count; ++k)
+    subject.lines.push_back(fmt::format("{:5} {:10.6g} {:10.6g} Hz {:+9.3g} %", k + 1, a.frequencies(k),
+                                        b.frequencies(k), 100 * (a.frequencies(k) / b.frequencies(k) - 1)));
+  add_finding(subject,
+              {"against_first_frequency", std::abs(a.frequencies(0) / b.frequencies(0) - 1), frequency_limit,
+               "the first free frequencies agree"},
+              fmt::format("the first free frequencies are {:.6g} and {:.6g} Hz", a.frequencies(0), b.frequencies(0)));
+}
+
+/// phi_a^T M_b phi_b of unit modal masses; the unit matrix for the same modes.
+void compare_orthogonality(const MatrixStudy& a, const MatrixStudy& b, const ElasticModes& of_a,
+                           const ElasticModes& of_b, double tolerance, VerifiedSubject& subject) {
+  std::optional<Eigen::MatrixXd> moved = expressed_in(b.set, a.set, of_a.vectors, tolerance);
+  Eigen::MatrixXd crossed;
+  if (moved) {
+    crossed = transposed_product(*moved, b.mass * of_b.vectors);
+  } else if ((moved = expressed_in(a.set, b.set, of_b.vectors, tolerance))) {
+    crossed = transposed_product(of_a.vectors, a.mass * *moved);
+  } else {
+    subject.lines.push_back(
+        "cross-orthogonality is not known: unknowns of neither have all a counterpart in the other");
+    return;
+  }
+  std::string matched, others;
+  for (Eigen::Index i = 0; i < crossed.rows(); ++i) {
+    Eigen::Index j = 0;
+    const double largest = crossed.row(i).cwiseAbs().maxCoeff(&j);
+    Eigen::VectorXd rest = crossed.row(i).transpose();
+    rest(j) = 0;
+    matched += fmt::format(" {:.4f}", largest);
+    others += fmt::format(" {:.4f}", rest.cwiseAbs().maxCoeff());
+  }
+  subject.lines.push_back("cross-orthogonality in the mass, each with its counterpart:" + matched);
+  subject.lines.push_back("                          the largest with another mode:" + others);
+}
+
+}  // namespace
+
+VerifiedSubject compare(MatrixSet a, MatrixSet b, int threads) {
+  remove_empty_unknowns(a);
+  remove_empty_unknowns(b);
+  VerifiedSubject subject{"against " + b.source, {}, {}};
+  const MatrixStudy of_a = study_matrices(a, threads), of_b = study_matrices(b, threads);
+  compare_mass_properties(of_a, of_b, subject);
+  const ElasticModes modes_a = elastic_modes_of(of_a), modes_b = elastic_modes_of(of_b);
+  if (modes_a.frequencies.size() == 0 || modes_b.frequencies.size() == 0) {
+    subject.lines.push_back("modes are not compared: one of the bodies has none");
+    return subject;
+  }
+  const double tolerance = same_place * of_b.length;
+  const PlacedMotions u = placed_motions(a, modes_a.vectors), v = placed_motions(b, modes_b.vectors);
+  const CommonPlaces common = common_places(u, v, tolerance);
+  if (common.moved > 0)
+    subject.lines.push_back(fmt::format("{} of the same number at another place",
+                                        common.moved == 1 ? "1 node is" : fmt::format("{} nodes are", common.moved)));
+  subject.lines.push_back(fmt::format("{} in common", counted(common.a.size(), "place")));
+  // Two places on a line tell bending in two planes and extension, but neither torsion nor order: three at least.
+  if (common.a.size() < 3) {
+    list_frequencies(modes_a, modes_b, subject);
+  } else {
+    compare_shapes(modes_a, modes_b, displacements_at(u, common.a), displacements_at(v, common.b), subject);
+  }
+  compare_orthogonality(of_a, of_b, modes_a, modes_b, tolerance, subject);
+  return subject;
+}
+
+}  // namespace bielle::reduce

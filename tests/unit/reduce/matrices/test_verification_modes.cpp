@@ -1,0 +1,119 @@
+// Frequencies and effective masses against those of beams (W. C. Young, Roark's Formulas, table of natural
+// frequencies), and sets side by side.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <catch2/catch.hpp>
+
+#include "reduce/matrices/common_places.hpp"
+#include "reduce/matrices/held_modes.hpp"
+#include "reduce/matrices/set_comparison.hpp"
+#include "reduce/matrices/superelement_set.hpp"
+#include "tests/unit/reduce/matrices/matrix_bodies.hpp"
+#include "tests/unit/reduce/matrices/verified.hpp"
+
+using namespace bielle;
+using namespace bielle::reduce;
+using Catch::Contains;
+
+namespace {
+
+/// (beta L)^2 / (2 pi) sqrt(EI / (m L^4)) [Hz] with EI of bending about y of `beam_set`.
+double beam_frequency(double beta_L) { return beta_L * beta_L / (2 * M_PI) * std::sqrt(2e4 / (3 * 16)); }
+
+const Finding& finding_of(const VerifiedSubject& subject, const std::string& name) {
+  for (const Finding& finding : subject.findings)
+    if (finding.check.name == name) return finding;
+  throw std::runtime_error("no finding " + name);
+}
+
+}  // namespace
+
+TEST_CASE("Free and held frequencies are those of the beam") {
+  MatrixSet set = test::beam_set(20);
+  set.interfaces["root"] = 0;
+  const MatrixStudy study = study_matrices(set, 1);
+  REQUIRE(study.modes);
+  CHECK(signed_frequency(study.modes->eigenvalues(6)) == Approx(beam_frequency(4.730041)).epsilon(1e-5));
+  const std::optional<HeldModes> held = held_modes(study, 6);
+  REQUIRE(held);
+  CHECK(held->held.size() == 6);
+  CHECK(signed_frequency(held->modes.eigenvalues(0)) == Approx(beam_frequency(1.875104)).epsilon(1e-5));
+  // 61.31 % of the mass moves with the first mode of a cantilever across it.
+  CHECK(held->effective_mass(0, 2) / 6 == Approx(0.6131).epsilon(1e-3));
+  CHECK(held->effective_mass(0, 0) < 1e-9);
+}
+
+TEST_CASE("Effective masses are those that the reduction found on the mesh") {
+  const Superelement body = test::reduced(test::twisted_block(), test::steel_body(Tie::rigid, Tie::rigid, 6));
+  const MatrixSet set = matrix_set_of(body);
+  const std::optional<HeldModes> held = held_modes(study_matrices(set, 1), 6);
+  REQUIRE(held);
+  CHECK((held->effective_mass - body.effective_mass).cwiseAbs().maxCoeff() < 1e-9 * body.total_mass);
+  CHECK(held->whole_mass(4) == Approx(body.inertia(1, 1)).epsilon(1e-9));
+}
+
+TEST_CASE("Sparse methods and dense ones find the same") {
+  const MatrixSet set = test::beam_set(120);  // 726 unknowns
+  const MatrixStudy study = study_matrices(set, 1);
+  REQUIRE(study.modes);
+  CHECK(signed_frequency(study.modes->eigenvalues(6)) == Approx(beam_frequency(4.730041)).epsilon(1e-5));
+  MatrixSet declared = set;
+  declared.has_units = true;
+  CHECK(test::faults_of(declared) == "");
+  test::add_to(declared.stiffness, 62, 62, -3 * declared.stiffness.coeff(62, 62));  // node 110 z
+  CHECK_THAT(test::faults_of(declared), Contains("the stiffness is not positive") && Contains("node 110 z"));
+}
+
+TEST_CASE("A body is itself") {
+  const VerifiedSubject found = compare(test::beam_set(6), test::beam_set(6));
+  for (const Finding& finding : found.findings) {
+    INFO(finding.check.name);
+    CHECK(finding.check.value < 1e-9);
+  }
+  CHECK(std::any_of(found.lines.begin(), found.lines.end(), [](const std::string& line) {
+    return line.find("cross-orthogonality in the mass, each with its counterpart: 1.0000 1.0000") == 0;
+  }));
+}
+
+TEST_CASE("A reduced body has the modes of its mesh at common places") {
+  const Mesh mesh = test::twisted_block();
+  const Superelement body = test::reduced(mesh, test::steel_body(Tie::average, Tie::average, 20));
+  const VerifiedSubject found = compare(matrix_set_of(body), test::matrices_of(mesh));
+  CHECK(finding_of(found, "against_mass").check.value < 1e-10);
+  REQUIRE(body.adequacy);
+  CHECK(finding_of(found, "against_first_frequency").check.value == Approx(body.adequacy->mode_error(0)).epsilon(0.02));
+  CHECK(finding_of(found, "against_first_shape").check.value < 1e-3);
+}
+
+TEST_CASE("Different bodies are told apart") {
+  MatrixSet stiffer = test::beam_set(6);
+  stiffer.stiffness *= 1.5;
+  stiffer.mass *= 1.01;
+  const VerifiedSubject found = compare(stiffer, test::beam_set(6));
+  CHECK(finding_of(found, "against_mass").fault == "their masses differ: 6.06 and 6 kg");
+  CHECK(finding_of(found, "against_first_frequency").check.value == Approx(std::sqrt(1.5 / 1.01) - 1).epsilon(1e-6));
+  CHECK(finding_of(found, "against_first_shape").passed());
+}
+
+TEST_CASE("The verdict's MAC is that of the shapes on the mesh") {
+  const Mesh mesh = test::twisted_block();
+  const int modes = GENERATE(2, 8);
+  const Superelement body = test::reduced(mesh, test::steel_body(Tie::average, Tie::average, modes));
+  REQUIRE(body.adequacy);
+  const MatrixSet full = test::matrices_of(mesh), reduced = matrix_set_of(body);
+  const MatrixStudy of_full = study_matrices(full, 1), of_reduced = study_matrices(reduced, 1);
+  const Eigen::Index count = body.adequacy->mode_mac.size();
+  REQUIRE(count >= 3);
+  const std::optional<Eigen::MatrixXd> shapes =
+      expressed_in(full, reduced, of_reduced.modes->vectors.middleCols(6, count), 1e-6);
+  REQUIRE(shapes);
+  const Eigen::MatrixXd crossed = shapes->transpose() * (of_full.mass * of_full.modes->vectors.rightCols(20));
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    // Frequencies of this body are more than 1 % apart, so that each mode has one counterpart.
+    const double lacking = 1 - crossed.row(k).cwiseAbs2().maxCoeff();
+    INFO(modes << " modes, shape " << k + 1 << ": true " << lacking << ", found " << 1 - body.adequacy->mode_mac(k));
+    CHECK(1 - body.adequacy->mode_mac(k) == Approx(lacking).epsilon(0.2).margin(1e-6));
+  }
+}
