@@ -111,7 +111,7 @@ void verify_axes(const MatrixSet& set, const ImpliedPositions& implied, Verified
 /// Shapes move their points rigidly with the nodes.
 void verify_points(const MatrixStudy& study, VerifiedSubject& subject) {
   const MatrixSet& set = study.set;
-  if (!set.shapes || !study.geometric || set.scalars() == set.size()) return;
+  if (!set.shapes || !study.geometric) return;
   const NodalShapes& shapes = *set.shapes;
   Eigen::MatrixXd error = shapes.displacement * *study.geometric;
   error -= Eigen::MatrixXd(rigid_motions(shapes.points, study.middle));
@@ -120,7 +120,7 @@ void verify_points(const MatrixStudy& study, VerifiedSubject& subject) {
   const double worst = error.cwiseAbs().maxCoeff(&row, &column);
   add_finding(
       subject, {"shape_rigid_motions", worst, place_limit, "moved as a whole, all points of the shapes move rigidly"},
-      fmt::format("rigid motions of the nodes move point {} of the shapes otherwise, by {:.2g} % of the motion: its "
+      fmt::format("rigid motions of the body move point {} of the shapes otherwise, by {:.2g} % of the motion: its "
                   "place or its shape is wrong",
                   shapes.numbers.empty() ? row / 3 + 1 : shapes.numbers[static_cast<std::size_t>(row / 3)],
                   100 * worst));

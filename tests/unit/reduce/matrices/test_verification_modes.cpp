@@ -112,8 +112,11 @@ TEST_CASE("The verdict's MAC is that of the shapes on the mesh") {
   const Eigen::MatrixXd crossed = shapes->transpose() * (of_full.mass * of_full.modes->vectors.rightCols(20));
   for (Eigen::Index k = 0; k < 3; ++k) {
     // Frequencies of this body are more than 1 % apart, so that each mode has one counterpart.
-    const double lacking = 1 - crossed.row(k).cwiseAbs2().maxCoeff();
-    INFO(modes << " modes, shape " << k + 1 << ": true " << lacking << ", found " << 1 - body.adequacy->mode_mac(k));
-    CHECK(1 - body.adequacy->mode_mac(k) == Approx(lacking).epsilon(0.2).margin(1e-6));
+    const double lacking = 1 - crossed.row(k).cwiseAbs2().maxCoeff(), found = 1 - body.adequacy->mode_mac(k);
+    INFO(modes << " modes, shape " << k + 1 << ": true " << lacking << ", found " << found);
+    // The part of a shape that omitted modes have follows from a static answer, to about lambda / lambda_omitted = 0.15
+    // here. Its mixture with the other free modes is less certain (modes 1 and 3 of 8, which are 33 % apart): it
+    // concerns the last of the four digits that the verdict prints.
+    CHECK(std::abs(found - lacking) < 0.15 * lacking + 1e-4);
   }
 }
