@@ -43,12 +43,13 @@ class MatrixMarket(Exchange):
                             ({"stiffness": STIFFNESS.replace("real", "complex")}, "expected a square matrix of real numbers, found 3 x 3, complex"),
                             ({"stiffness": STIFFNESS.replace("3 3 4", "3 4 4")}, "found 3 x 4, real"),
                             ({"stiffness": STIFFNESS.replace("2 1 -1.5", "2 7 -1.5")}, "the entries are damaged"),
-                            ({"mass": MASS[2:]}, "expected %%MatrixMarket"), ({"mass": MASS.rstrip()[:-20]}, "the head tells 9 entries"),
+                            ({"mass": MASS[2:]}, "expected %%MatrixMarket"), ({"mass": HEAD}, "ends before the counts"), ({"mass": MASS.rstrip()[:-20]}, "the head tells 9 entries"),
                             ({"nodes": "node,x,y\n9,1,2\n"}, "K_nodes.csv:1: there is no column 'z'"),
                             ({"nodes": "9,1,2,3\n9,1,2,4\n"}, "node 9 stands twice"), ({"nodes": "9,1,2,3\n8,1,x,4\n"}, "K_nodes.csv:2: expected a number, found 'x'"),
                             ({"nodes": "9,1,2,3\n8,1,2,4\n"}, "2 nodes with 3 or 6 unknowns each do not make the 3 rows"), ({"nodes": ""}, "holds no nodes")):
             with self.subTest(told):
                 self.refuse("matrix_market", self.files(**given), told)
+        self.refuse("matrix_market", self.files(STIFFNESS.replace("3 3 4", "999999999 999999999 4")), "has 999999999 rows, but the nodes have 6 unknowns")
         path = self.files()
         self.refuse("matrix_market", path, "has 2 unknowns for matrices of 3 rows", unknowns=self.write("u.csv", "9,x\n9,y\n"))
         self.refuse("matrix_market", path, "u.csv:2: there is no component 'xx'", unknowns=self.write("u.csv", "9,x\n9,xx\n"))

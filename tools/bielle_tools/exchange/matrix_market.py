@@ -36,18 +36,19 @@ def read(path, options):
     mass, damping = options.mass or _beside(path, "mass"), _beside(path, "damping")
     if not mass:
         raise InputError(f"'{path}': the file of the mass matrix is missing: --mass FILE names it")
-    matrices = {"stiffness": _matrix(path), "mass": _matrix(mass)} | ({"damping": _matrix(damping)} if damping else {})
+    nodes, order = read_nodes(table), options.unknowns or _beside(path, "unknowns", ".csv")
+    place, components = read_unknowns(order, nodes.numbers) if order else (None, None)
+    most = max(6 * len(nodes.numbers), len(place) if order else 0)
+    files = {"stiffness": path, "mass": mass} | ({"damping": damping} if damping else {})
+    matrices = {name: _matrix(each, most) for name, each in files.items()}
     size = matrices["stiffness"].shape[0]
     for name, matrix in matrices.items():
         if matrix.shape[0] != size:
             raise InputError(f"'{path}': the stiffness has {counted(size, 'row')}, the {name} {matrix.shape[0]}")
-    nodes, order = read_nodes(table), options.unknowns or _beside(path, "unknowns", ".csv")
-    if order:
-        place, components = read_unknowns(order, nodes.numbers)
-        if len(place) != size:
-            raise InputError(f"'{order}': has {counted(len(place), 'unknown')} for matrices of {counted(size, 'row')}")
-    else:
+    if not order:
         place, components = unknowns_in_order(nodes.path, len(nodes.numbers), size)
+    elif len(place) != size:
+        raise InputError(f"'{order}': has {counted(len(place), 'unknown')} for matrices of {counted(size, 'row')}")
     return MatrixSet(name=options.name or stem(path).removesuffix("_stiffness"), source=f"Matrix Market, {os.path.basename(path)}",
                      **matrices, **used_nodes(nodes, place), unknown_components=components)
 
@@ -59,12 +60,14 @@ def _beside(path, name, ending=None):
     return other if base.endswith("_stiffness") and os.path.exists(other) else ""
 
 
-def _matrix(path):
-    """A square matrix (scipy.sparse). @raises InputError"""
+def _matrix(path, most):
+    """A square matrix (scipy.sparse). @param most: rows; a damaged head could ask for any memory. @raises InputError"""
     texts = lines_of(path)
     if not texts[0].startswith("%%MatrixMarket"):
         raise InputError(f"{path}:1: expected %%MatrixMarket, found '{texts[0][:30]}'")
     body = [text for text in texts[1:] if text.strip() and not text.startswith("%")]
+    if not body:  # for which mminfo would search without an end
+        raise InputError(f"'{path}': ends before the counts of rows and columns")
     content = (texts[0].strip() + "\n" + "\n".join(body).translate(FORTRAN) + "\n").encode("utf-8", "replace")
     try:
         rows, columns, entries, form, kind, _ = scipy.io.mminfo(io.BytesIO(content))
@@ -72,6 +75,8 @@ def _matrix(path):
         raise InputError(f"'{path}': the head of the file is damaged: {error}") from None
     if rows != columns or rows < 1 or kind not in ("real", "integer"):
         raise InputError(f"'{path}': expected a square matrix of real numbers, found {rows} x {columns}, {kind}")
+    if rows > most:
+        raise InputError(f"'{path}': has {counted(rows, 'row')}, but the nodes have {counted(most, 'unknown')} at most")
     count = sum(len(text.split()) for text in body[1:]) // (3 if form == "coordinate" else 1)
     if count != entries and form == "coordinate" or count < (rows * (rows - 1)) // 2 and form == "array":
         raise InputError(f"'{path}': the head tells {counted(entries, 'entry', 'entries')}, the file has {count}")
@@ -88,8 +93,8 @@ def write(matrices, path, options):
     paths = []
     for name, matrix in matrices.matrices().items():
         paths.append(f"{base}_{name.replace(' ', '_')}{ending}")
-        scipy.io.mmwrite(paths[-1], matrix.tocoo(), comment=f" {matrices.name}, of "
-                                                            f"{matrices.source}", precision=17, symmetry="general")
+        scipy.io.mmwrite(paths[-1], matrix.tocoo(), comment=f" {matrices.name}, of {matrices.source}", precision=17,
+                         symmetry="general")
     paths += [base + "_nodes.csv", base + "_unknowns.csv"]
     with open(paths[-2], "w", encoding="utf-8") as file:
         file.write(node_table_text(matrices))
