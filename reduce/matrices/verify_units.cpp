@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "reduce/matrices/set_mass.hpp"
-#include "reduce/matrices/set_units.hpp"
+#include "reduce/matrices/unit_systems.hpp"
 #include "reduce/matrices/verified_subjects.hpp"
 
 namespace bielle::reduce {

@@ -2,10 +2,6 @@
 #pragma once
 
 #include <array>
-#include <string>
-
-#include "reduce/matrices/matrix_set.hpp"
-
 namespace bielle::reduce {
 
 struct UnitSystem {
@@ -18,12 +14,5 @@ inline constexpr std::array<UnitSystem, 5> unit_systems = {{{"m-kg-s", 1, 1, 1},
                                                             {"mm-kg-ms", 1e-3, 1, 1e-3},
                                                             {"mm-kg-s", 1e-3, 1, 1},
                                                             {"in-slinch-s", 0.0254, 175.126836, 1}}};
-
-/// @throws InputError that names the nearest system
-const UnitSystem& unit_system_of(const std::string& name);
-
-/// Converts numbers in these units into SI units. Scalars keep their modal masses: an amplitude has the unit
-/// length sqrt(mass).
-void convert_to_SI(const UnitSystem& units, MatrixSet& set);
 
 }  // namespace bielle::reduce
