@@ -41,9 +41,7 @@ CoatingRequest read_coating(const std::string& name, const YamlValue& value, Mes
 MassRequest from_deck(const std::string& name, const YamlValue& value, double kilograms, DeckReader& deck) {
   for (const char* key : {"surface", "at", "mass", "position", "inertia", "axes", "per_area"})
     if (const auto given = value.find(key)) given->fail("the deck has it: remove this key, or 'from'");
-  MassRequest request = deck.read_mass(value.at("from"), kilograms);
-  request.name = name;
-  return request;
+  return deck.read_mass(value.at("from"), name, kilograms);
 }
 
 MassRequest read_mass(const std::string& name, const YamlValue& value, MeshRequest& mesh) {
@@ -93,6 +91,8 @@ const KeyTable& mass_keys() {
 void read_masses(const YamlValue& value, double kilograms, MeshRequest& mesh, DeckReader& deck,
                  ReductionOptions& options) {
   if (!value.is_map()) {
+    if (!value.is_scalar() || value.is_null())
+      value.fail("expected masses by their names, e.g. {motor: {surface: flange, mass: 3}}, or from_file");
     value.word();  // from_file
     options.masses = deck.read_masses(value, kilograms);
     return;

@@ -29,6 +29,26 @@ void read_solids(const YamlValue& root, MeshRequest& request) {
   }
 }
 
+/// A surface that has the name of its user.
+struct NamedSurface {
+  std::string name, group;
+  const char* kind;  ///< "an interface"
+};
+
+std::vector<NamedSurface> named_surfaces(const ReductionOptions& options) {
+  std::vector<NamedSurface> surfaces;
+  const auto add = [&](const auto& requests, const char* kind) {
+    for (const auto& request : requests)
+      if (!request.group.empty()) surfaces.push_back({request.name, request.group, kind});
+  };
+  add(options.interfaces, "an interface");
+  add(options.loads, "a load");
+  add(options.points, "a point");
+  add(options.masses, "a mass");
+  add(options.coatings, "a mass");
+  return surfaces;
+}
+
 }  // namespace
 
 const KeyTable& mesh_keys() {
@@ -81,20 +101,24 @@ void read_mesh(const YamlValue& root, MeshRequest& request) {
 }
 
 void resolve_sizes(const YamlValue& root, const ReductionOptions& options, MeshRequest& request) {
-  std::map<std::string, std::string> group_of;
-  for (const PointRequest& point : options.points)
-    if (!point.group.empty()) group_of[point.name] = point.group;
-  for (const LoadRequest& load : options.loads) group_of[load.name] = load.group;
-  for (const CoatingRequest& coating : options.coatings) group_of[coating.name] = coating.group;
-  for (const MassRequest& mass : options.masses)
-    if (!mass.group.empty()) group_of[mass.name] = mass.group;
-  for (const InterfaceRequest& interface : options.interfaces) group_of[interface.name] = interface.group;
+  const std::vector<NamedSurface> surfaces = named_surfaces(options);
+  std::map<std::string, std::string> name_of;  // group -> name for its size
   std::map<std::string, GroupSize> resolved;
   for (const auto& [name, size] : request.sizes) {
-    const auto found = group_of.find(name);
-    const std::string& group = found == group_of.end() ? name : found->second;
-    if (!resolved.emplace(group, size).second)
-      root.at("mesh").at("sizes").at(name).fail(fmt::format("the surface '{}' gets its size twice", group));
+    const NamedSurface* found = nullptr;
+    for (const NamedSurface& surface : surfaces) {
+      if (surface.name != name) continue;
+      if (found && found->group != surface.group)
+        root.at("mesh").at("sizes").at(name).fail(
+            fmt::format("{} and {} have the name '{}', but other surfaces: give one of them another name", found->kind,
+                        surface.kind, name));
+      found = &surface;
+    }
+    const std::string& group = found ? found->group : name;
+    if (const auto [earlier, is_new] = name_of.emplace(group, name); !is_new)
+      root.at("mesh").at("sizes").at(name).fail(
+          fmt::format("the surface of '{}' has a size by the name '{}' already", name, earlier->second));
+    resolved.emplace(group, size);
   }
   request.sizes = resolved;
 }

@@ -26,6 +26,7 @@ DeckTie read_deck_tie(const YamlValue& value, double metres) {
     tie.refusal = refusal->text();
     return tie;
   }
+  tie.reference = value.at("reference").text();
   tie.tie = value.at("tie").text() == "average" ? Tie::average : Tie::rigid;
   tie.position = metres * value.at("position").vector3();
   for (int k = 0; k < 3; ++k) tie.rotation.col(k) = value.at("axes").at(k).vector3();
@@ -56,6 +57,10 @@ std::string folded(const std::string& text) {
 DeckMass read_deck_mass(const YamlValue& value, double metres) {
   DeckMass mass;
   mass.name = value.at("name").text();
+  if (const auto refusal = value.find("refused")) {
+    mass.refusal = refusal->text();
+    return mass;
+  }
   mass.mass = value.at("mass").number();
   mass.position = metres * value.at("position").vector3();
   mass.inertia = metres * metres * value.at("inertia").matrix(3, 3);
@@ -109,10 +114,12 @@ std::string describe(const Deck& deck) {
   }
   if (!deck.masses.empty()) text += "point masses (for masses, by {from: NAME}), in the file's unit of mass:\n";
   for (const DeckMass& mass : deck.masses)
-    text += fmt::format("  {}: {:.6g} at {}, {}\n", mass.name, mass.mass, place_name(mass.position),
-                        !mass.tie.empty() ? fmt::format("carried by {}", mass.tie)
-                        : mass.place      ? "at a node of the solid"
-                                          : "carried by no node of the solid");
+    text += mass.refusal.empty()
+                ? fmt::format("  {}: {:.6g} at {}, {}\n", mass.name, mass.mass, place_name(mass.position),
+                              !mass.has_effect() ? "without effect"
+                              : mass.tie.empty() ? "at a node of the solid"
+                                                 : fmt::format("carried by {}", mass.tie))
+                : fmt::format("  {}: cannot be used: {}\n", mass.name, mass.refusal);
   return text;
 }
 
@@ -146,61 +153,73 @@ void DeckReader::read(const YamlValue& from, InterfaceRequest& interface) {
   interface.position = tie.position;
   interface.rotation = tie.rotation;
   interface.kept = tie.kept;
-  if (!tie.surface.empty()) {
-    interface.group = tie.surface;
-    mesh_.surfaces.push_back({tie.surface, {tie.surface}, from.path()});
-  } else {
-    interface.group = from.path();
-    mesh_.nodes.push_back({interface.group, tie.nodes, tie.weights, from.path()});
-  }
+  interface.group = requested_nodes(tie, from);
+  note_common_reference(tie, interface.name);
 }
 
-std::string DeckReader::carrier(const DeckMass& mass, const YamlValue& key) {
-  const auto tie = std::find_if(deck_->ties.begin(), deck_->ties.end(),
-                                [&](const DeckTie& each) { return folded(each.name) == folded(mass.tie); });
-  if (tie == deck_->ties.end() || !tie->refusal.empty())
-    key.fail(fmt::format("{} is carried by {}, whose nodes cannot carry it: {}", mass.name, mass.tie,
-                         tie == deck_->ties.end() ? "there is none" : tie->refusal));
-  if (!tie->surface.empty()) {
-    mesh_.surfaces.push_back({tie->surface, {tie->surface}, key.path()});
-    return tie->surface;
+/// Requests the nodes or the surface that a tie ties. @returns the name of their group in the mesh
+std::string DeckReader::requested_nodes(const DeckTie& tie, const YamlValue& key) {
+  if (!tie.surface.empty()) {
+    mesh_.surfaces.push_back({tie.surface, {tie.surface}, key.path()});
+    return tie.surface;
   }
-  const std::string group = fmt::format("{} of {}", key.path(), mass.name);
-  mesh_.nodes.push_back({group, tie->nodes, tie->weights, key.path()});
+  const std::string group = "nodes of " + tie.name;
+  if (std::none_of(mesh_.nodes.begin(), mesh_.nodes.end(),
+                   [&](const NodeSelection& selection) { return selection.group == group; }))
+    mesh_.nodes.push_back({group, tie.nodes, tie.weights, key.path()});
   return group;
 }
 
+/// Tells the user about an earlier interface that is the same node in the file.
+void DeckReader::note_common_reference(const DeckTie& tie, const std::string& interface) {
+  for (const DeckTie& other : deck_->ties) {
+    const auto user = user_of_.find(other.name);
+    if (user == user_of_.end() || other.name == tie.name || other.reference != tie.reference) continue;
+    notes_.push_back(
+        fmt::format("the interfaces '{}' ({}) and '{}' ({}) have the same node {} in '{}', but become two nodes, which "
+                    "nothing connects: connect them by a rigid joint in the mechanism",
+                    user->second, other.name, interface, tie.name, tie.reference, file_name()));
+    return;
+  }
+}
+
 MassRequest DeckReader::made(const DeckMass& mass, const YamlValue& key, double kilograms) {
+  if (!mass.refusal.empty()) key.fail(fmt::format("{}: {}", mass.name, mass.refusal));
   if (mass.mass < 0) key.fail(fmt::format("{} has the mass {:g}, which is negative", mass.name, mass.mass));
-  if (mass.tie.empty() && !mass.place)
-    key.fail(fmt::format("{} stands at a node that belongs to no solid cell and to no tie", mass.name));
   MassRequest request;
   request.name = mass.name;
-  request.subject = key.path();
   request.mass = kilograms * mass.mass;
   request.position = mass.position;
   request.inertia = kilograms * mass.inertia;
   if (!request.inertia.isZero(0))
     if (const std::string fault = inertia_fault(request.inertia); !fault.empty())
       key.fail(fmt::format("{}: {}", mass.name, fault));
-  if (mass.tie.empty())
-    request.place = mass.place;
-  else
-    request.group = carrier(mass, key);
+  request.place = mass.place;
+  if (!mass.place)
+    request.group = requested_nodes(
+        *std::find_if(deck_->ties.begin(), deck_->ties.end(), [&](const DeckTie& tie) { return tie.name == mass.tie; }),
+        key);
   return request;
 }
 
-MassRequest DeckReader::read_mass(const YamlValue& from, double kilograms) {
-  const std::vector<DeckMass>& masses = read_any(from);
-  const DeckMass& mass = named(masses, from, file_name(), "point mass");
-  if (mass.mass == 0 && mass.inertia.isZero(0)) from.fail(fmt::format("{} has neither mass nor inertia", mass.name));
-  return made(mass, from, kilograms);
+MassRequest DeckReader::read_mass(const YamlValue& from, const std::string& name, double kilograms) {
+  const DeckMass& mass = named(read_any(from), from, file_name(), "point mass");
+  if (mass.refusal.empty() && !mass.has_effect()) from.fail(fmt::format("{} has neither mass nor inertia", mass.name));
+  if (const auto [user, is_new] = user_of_mass_.emplace(mass.name, name); !is_new)
+    from.fail(fmt::format("'{}' is the mass '{}' already", mass.name, user->second));
+  MassRequest request = made(mass, from, kilograms);
+  request.name = name;
+  request.subject = from.path();
+  return request;
 }
 
 std::vector<MassRequest> DeckReader::read_masses(const YamlValue& key, double kilograms) {
   std::vector<MassRequest> requests;
-  for (const DeckMass& mass : read_any(key))
-    if (mass.mass != 0 || !mass.inertia.isZero(0)) requests.push_back(made(mass, key, kilograms));
+  for (const DeckMass& mass : read_any(key)) {
+    if (mass.refusal.empty() && !mass.has_effect()) continue;
+    requests.push_back(made(mass, key, kilograms));
+    requests.back().subject = fmt::format("{}.{}", key.path(), mass.name);
+  }
   return requests;
 }
 

@@ -21,8 +21,9 @@ namespace bielle::reduce {
 
 /// A tie of a deck: an RBE2, an RBE3, a coupling, a rigid body.
 struct DeckTie {
-  std::string name;     ///< "RBE3 6002", "coupling END"
-  std::string refusal;  ///< the reason why it can be no interface; empty: it can, and the members below are set
+  std::string name;       ///< "RBE3 6002", "coupling END"
+  std::string refusal;    ///< the reason why it can be no interface; empty: it can, and the members below are set
+  std::string reference;  ///< label of its reference node in the file
   Tie tie = Tie::rigid;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< position of its reference node [m]
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< axes of its reference node
@@ -35,11 +36,14 @@ struct DeckTie {
 /// A point mass of a deck: a CONM2, a *MASS or a *ROTARY INERTIA.
 struct DeckMass {
   std::string name;                                    ///< "CONM2 7001"
+  std::string refusal;                                 ///< the reason why it cannot be used; empty: it can, as follows
   double mass = 0;                                     ///< in the file's unit of mass
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< its centre [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   ///< about its centre, in the file's unit of mass times m^2
-  std::string tie;                                     ///< name of the tie that carries it; empty: none
+  std::string tie;                                     ///< name of the tie that carries it; or
   std::optional<Eigen::Vector3d> place = {};           ///< node of the solid that carries it [m]
+  /// Tells whether it has mass or inertia; one without needs neither tie nor place.
+  bool has_effect() const { return mass != 0 || !inertia.isZero(0); }
 };
 
 /// The ties and point masses of a file; none of a file that is no deck.
@@ -68,12 +72,15 @@ class DeckReader {
   void read(const YamlValue& from, InterfaceRequest& interface);
 
   /// Returns the mass that a key names, with a request for the nodes, the surface or the place that carries it.
-  /// @param kilograms  per unit of the file @throws InputError at the key, as `read`, and for values of no body
-  MassRequest read_mass(const YamlValue& from, double kilograms);
+  /// @param name  the name that it gets @param kilograms  per unit of the file
+  /// @throws InputError at the key, as `read`, and for values of no body
+  MassRequest read_mass(const YamlValue& from, const std::string& name, double kilograms);
 
-  /// Returns all masses that have an effect. @param key  stands in messages @throws InputError as `read_mass`
+  /// Returns all masses that have an effect, by their own names.
+  /// @param key  the key `masses`, which stands in messages @throws InputError as `read_mass`
   std::vector<MassRequest> read_masses(const YamlValue& key, double kilograms);
 
+  /// Sentences of the reader, and about interfaces that had one node in the file.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
@@ -81,11 +88,13 @@ class DeckReader {
   const DeckTie& find(const YamlValue& from);
   const std::vector<DeckMass>& read_any(const YamlValue& key);
   MassRequest made(const DeckMass& mass, const YamlValue& key, double kilograms);
-  std::string carrier(const DeckMass& mass, const YamlValue& key);
+  std::string requested_nodes(const DeckTie& tie, const YamlValue& key);
+  void note_common_reference(const DeckTie& tie, const std::string& interface);
   std::string file_name() const;
   MeshRequest& mesh_;
   std::optional<Deck> deck_;
-  std::map<std::string, std::string> user_of_;  ///< tie -> interface
+  std::map<std::string, std::string> user_of_;       ///< tie -> interface
+  std::map<std::string, std::string> user_of_mass_;  ///< mass of the deck -> mass of the body
   std::vector<std::string> notes_;
 };
 

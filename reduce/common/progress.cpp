@@ -9,6 +9,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "reduce/common/error.hpp"
+
 namespace bielle {
 
 namespace {
@@ -70,14 +72,22 @@ void Progress::finish() {
   if (!quiet_) draw(true);
 }
 
-void Progress::warn(const std::string& message) {
+Progress Progress::of_part(const std::string& name) const {
+  Progress part(true, located_);
+  part.part_ = name;
+  return part;
+}
+
+void Progress::warn(const std::string& message) { show_warning(with_subject(part_, message)); }
+
+void Progress::show_warning(const std::string& text) {
   if (running_ && terminal_ && !quiet_) say("\r\033[K");
-  say("warning: " + message + "\n");
+  say("warning: " + text + "\n");
 }
 
 void Progress::warn(const std::string& subject, const std::string& message, Subject is) {
-  const std::string text = with_subject(subject, message, is);
-  warn(located_ ? located_(subject, text) : text);
+  const std::string text = with_subject(part_, with_subject(subject, message, is));
+  show_warning(located_ ? located_(subject, text) : text);
 }
 
 void Progress::note(const std::string& message) {

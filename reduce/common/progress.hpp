@@ -31,6 +31,8 @@ class Progress {
   /// @param located  for warnings with a subject; without it they are shown as they are
   explicit Progress(bool quiet = false, Locator located = {});
   ~Progress();
+  /// Returns the report of a part of the work, which shows no phases and no notes, and warnings with the part's name.
+  Progress of_part(const std::string& name) const;
   void start(const std::string& phase);  ///< ends the running phase, if any
   /// @param fraction  done of this phase, 0..1; @param detail  shown after it ("t = 0.013 s")
   void update(double fraction, const std::string& detail = "");
@@ -47,8 +49,10 @@ class Progress {
 
  private:
   void draw(bool end);
+  void show_warning(const std::string& text);
   bool quiet_, terminal_, running_ = false;
   Locator located_;
+  std::string part_;  ///< precedes warnings, unless empty
   double fraction_ = 0;
   std::string phase_, detail_;
   std::chrono::steady_clock::time_point phase_start_, last_draw_;

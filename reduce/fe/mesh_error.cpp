@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include <Eigen/LU>
 
 #include "reduce/dense/blas.hpp"
-#include "reduce/dense/dense_solves.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/fe/internal_modes.hpp"
 #include "reduce/fe/solid_block.hpp"
-#include "reduce/fe/vertex_patches.hpp"
+#include "reduce/fe/stress_fit.hpp"
 #include "reduce/mesh/jacobian.hpp"
 
 namespace bielle::reduce {
@@ -26,113 +24,12 @@ constexpr Eigen::Index at_a_time = 9;  // number of fields; their stresses at al
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using RowArray = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-using Numbers = std::unique_ptr<double[]>;
-Numbers numbers(Eigen::Index count) {
-  return std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(count));
-}
-
 /// The square root W of C = W W.
 Matrix6 root_of(const Matrix6& elasticity) {
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(elasticity);
   const Matrix6 vectors = pairs.vectors;
   return vectors * pairs.values.cwiseMax(0).cwiseSqrt().asDiagonal() * vectors.transpose();
 }
-
-/// Stresses of all cells at the points at which they are most accurate. They are those for unit compliance, W^-1 s = W
-/// eps: their square is twice the energy. The fits are not affected, since each component has its own.
-struct Samples {
-  std::vector<Eigen::Index> first{0};  // first point of each cell, and the number of all points
-  Eigen::Matrix3Xd places;             // [m]
-  Numbers stress;                      // (fields, 6 points), one column after the other
-  Eigen::Index fields = 0;
-
-  Eigen::Index points(int cell) const { return first[cell + 1] - first[cell]; }
-  double* of(int cell) { return stress.get() + 6 * fields * first[cell]; }
-  const double* of(int cell) const { return stress.get() + 6 * fields * first[cell]; }
-};
-
-/// Number of terms of a polynomial of degree 1 or 2 in space.
-constexpr int most_terms = 10;
-constexpr int terms_of_order(int order) { return order == 1 ? 4 : most_terms; }
-
-/// The terms of a polynomial at a place, those of lower degree first.
-void set_terms(const Eigen::Vector3d& x, Eigen::Index terms, double* column) {
-  Eigen::Map<Eigen::Vector4d>(column) << 1, x;
-  if (terms == most_terms)
-    Eigen::Map<Vector6>(column + 4) << x.cwiseAbs2(), x.y() * x.z(), x.x() * x.z(), x.x() * x.y();
-}
-
-/// The polynomials of all vertices of one material, in coordinates from the vertex in units of `scale`: for each vertex
-/// (6 fields, terms), one column after the other.
-struct FittedStress {
-  Eigen::Index terms, fields;
-  const double* coefficients;
-  std::vector<double> scale;  // [m]
-};
-
-/// Fits polynomials to the samples around each vertex.
-class PatchFit {
- public:
-  PatchFit(const Solid& solid, const Samples& samples, Eigen::Index terms, std::size_t least_cells)
-      : solid_(solid), samples_(samples), terms_(terms), least_cells_(least_cells) {}
-
-  /// @param coefficients  memory for those of all vertices
-  FittedStress fit(const Surroundings& around, int threads, double* coefficients) const {
-    const auto count = static_cast<Eigen::Index>(around.vertices.size());
-    const Eigen::Index size = 6 * samples_.fields;
-    FittedStress result{terms_, samples_.fields, coefficients, std::vector<double>(around.vertices.size())};
-#pragma omp parallel num_threads(threads)
-    {
-      Eigen::Matrix3Xd places;
-      Eigen::MatrixXd polynomials, values, normal(terms_, terms_), right(terms_, size);
-#pragma omp for schedule(dynamic, 64)
-      for (Eigen::Index v = 0; v < count; ++v) {
-        const std::vector<int> patch = patch_of(solid_, around, static_cast<std::size_t>(v), least_cells_);
-        result.scale[v] = gather(patch, solid_.mesh.points.col(around.vertices[v]), places, values);
-        polynomials.resize(terms_, places.cols());
-        for (Eigen::Index p = 0; p < places.cols(); ++p) set_terms(places.col(p), terms_, polynomials.col(p).data());
-        normal.setZero();
-        right.setZero();
-        const DenseBlock of_terms{polynomials.data(), terms_, places.cols(), terms_, false};
-        add_dense_product(of_terms, {polynomials.data(), places.cols(), terms_, terms_, true}, normal.data(), terms_);
-        add_dense_product(of_terms, {values.data(), places.cols(), size, size, true}, right.data(), terms_);
-        // Regular meshes and small bodies leave terms undetermined; the terms of high degree are then set to zero, not
-        // those of low degree.
-        const double trace = normal.trace();
-        normal.diagonal().tail(terms_ - 1).array() += 1e-12 * trace;
-        if (terms_ == most_terms) normal.diagonal().tail(terms_ - 4).array() += 1e-9 * trace;
-        Eigen::Map<Eigen::MatrixXd>(coefficients + v * terms_ * size, size, terms_) =
-            solve_symmetric(normal, right).transpose();
-      }
-    }
-    return result;
-  }
-
- private:
-  /// Sets the samples of a patch and their positions from a vertex, in units of the largest distance.
-  /// @returns that distance
-  double gather(const std::vector<int>& patch, const Eigen::Vector3d& centre, Eigen::Matrix3Xd& places,
-                Eigen::MatrixXd& values) const {
-    Eigen::Index count = 0, at = 0;
-    for (const int cell : patch) count += samples_.points(cell);
-    places.resize(3, count);
-    values.resize(6 * samples_.fields, count);
-    for (const int cell : patch) {
-      const Eigen::Index points = samples_.points(cell);
-      places.middleCols(at, points) = samples_.places.middleCols(samples_.first[cell], points).colwise() - centre;
-      std::copy_n(samples_.of(cell), values.rows() * points, values.col(at).data());
-      at += points;
-    }
-    const double scale = places.colwise().norm().maxCoeff();
-    places /= scale;
-    return scale;
-  }
-
-  const Solid& solid_;
-  const Samples& samples_;
-  Eigen::Index terms_;
-  std::size_t least_cells_;
-};
 
 /// The cells of one type: their samples, and the difference between their stress and the smoother one.
 template <int N>
@@ -156,7 +53,7 @@ class BlockError {
 
   /// Computes the stresses of the fields from `first` on at the sampling points, and doubled energies (cells, fields)
   /// of cells with linear stress: the sampling points integrate its square exactly.
-  void sample(const RowMatrix& fields, Eigen::Index first, Samples& samples, RowArray& energy) const {
+  void sample(const RowMatrix& fields, Eigen::Index first, StressSamples& samples, RowArray& energy) const {
     const auto points = static_cast<Eigen::Index>(sampling_.size());
 #pragma omp parallel num_threads(threads_)
     {
@@ -179,7 +76,7 @@ class BlockError {
 
   /// Adds the doubled energies of the error, and of the fields in cells without linear stress, in the cells of one
   /// material.
-  void compare(const RowMatrix& fields, Eigen::Index first, const Samples& samples, const FittedStress& fitted,
+  void compare(const RowMatrix& fields, Eigen::Index first, const StressSamples& samples, const FittedStress& fitted,
                const Surroundings& around, int material, RowArray& error, RowArray& energy) const {
     const auto points = static_cast<Eigen::Index>(rule_.size()), sampled = static_cast<Eigen::Index>(sampling_.size());
     const Eigen::Index size = 6 * samples.fields;
@@ -281,8 +178,8 @@ class BlockError {
 };
 
 /// Places of all samples, and memory for the stresses of some fields.
-Samples make_samples(const Solid& solid, Eigen::Index fields) {
-  Samples samples;
+StressSamples make_samples(const Solid& solid, Eigen::Index fields) {
+  StressSamples samples;
   for_each_block(solid, [&]<int N>(const SolidBlock& block) {
     const Eigen::Index points = BlockError<N>::sampling_rule().weights.size();
     for (Eigen::Index e = 0; e < block.cells(); ++e) samples.first.push_back(samples.first.back() + points);
@@ -342,7 +239,7 @@ class Estimate {
   const Solid& solid_;
   const RowMatrix& fields_;
   int threads_;
-  Samples samples_;
+  StressSamples samples_;
   Eigen::Index terms_ = 0;
   std::size_t least_cells_ = 0;
   std::vector<Surroundings> around_;  // patches of each material

@@ -16,15 +16,16 @@ namespace {
 /// Nodes that are less than 1e-4 as wide as long stand in one line: coordinates of decks may have five digits.
 constexpr double thinnest = 1e-8;
 
-void check_not_in_line(const SurfaceIntegrals& nodes) {
-  const char* remedy = "an interface needs three nodes that span an area";
+/// @param name  "nodes of RBE2 12"
+void check_not_in_line(const SurfaceIntegrals& nodes, const std::string& name) {
+  const char* remedy = "an interface, or a mass, needs three nodes that span an area";
   if (nodes.nodes.size() < 3)
-    throw InputError(fmt::format("it ties {} of the solid: {}", counted(nodes.nodes.size(), "node"), remedy));
+    throw InputError(fmt::format("the {} are {} of the solid: {}", name, counted(nodes.nodes.size(), "node"), remedy));
   const SymmetricEigenpairs moments = symmetric_eigenpairs(nodes.second_moment);
   if (moments.values(1) > thinnest * moments.values(2)) return;
   throw InputError(
-      fmt::format("its {} stand in one line along {}, and a tie of them does not hold the rotation about it: {}",
-                  counted(nodes.nodes.size(), "node"), direction_name(moments.vectors.col(2)), remedy));
+      fmt::format("the {} {} stand in one line along {}, and a tie of them does not hold the rotation about it: {}",
+                  nodes.nodes.size(), name, direction_name(moments.vectors.col(2)), remedy));
 }
 
 }  // namespace
@@ -52,10 +53,10 @@ SurfaceIntegrals integrate_tied(const Mesh& mesh, const std::string& name) {
   if (found == mesh.groups.end() || found->second.dimension != 0) return integrate_surface(mesh, name);
   const Group& group = found->second;
   const auto count = static_cast<Eigen::Index>(group.nodes.size());
-  if (count == 0) throw InputError("it ties no nodes of the solid");
+  if (count == 0) throw InputError(fmt::format("the {} are none of the solid", name));
   SurfaceIntegrals nodes =
       sum_over_nodes(mesh, group.nodes, Eigen::Map<const Eigen::VectorXd>(group.weights.data(), count));
-  check_not_in_line(nodes);
+  check_not_in_line(nodes, name);
   return nodes;
 }
 

@@ -52,28 +52,28 @@ CellInfo with_faces(CellInfo cell, const Sides& sides) {
 }
 
 std::vector<CellInfo> make_table() {
-  const auto flat = [](CellType type, const char* name, const char* plural, int order, int nodes, const Edges& edges) {
-    return CellInfo{type, name, plural, 2, order, nodes, static_cast<int>(edges.size()), false, edges, {}};
+  const auto flat = [](CellType type, const char* name, int order, int nodes, const Edges& edges) {
+    return CellInfo{type, name, 2, order, nodes, static_cast<int>(edges.size()), false, edges, {}};
   };
-  const auto solid = [](CellType type, const char* name, const char* plural, int order, int nodes, int vertices,
-                        const Edges& edges, const Sides& sides) {
+  const auto solid = [](CellType type, const char* name, int order, int nodes, int vertices, const Edges& edges,
+                        const Sides& sides) {
     const bool locks = order == 1 && type != CellType::hex8;
-    return with_faces({type, name, plural, 3, order, nodes, vertices, locks, edges, {}}, sides);
+    return with_faces({type, name, 3, order, nodes, vertices, locks, edges, {}}, sides);
   };
-  return {flat(CellType::tri3, "tri3", "triangles", 1, 3, triangle),
-          flat(CellType::tri6, "tri6", "triangles", 2, 6, triangle),
-          flat(CellType::quad4, "quad4", "quadrilaterals", 1, 4, quadrilateral),
-          flat(CellType::quad8, "quad8", "quadrilaterals", 2, 8, quadrilateral),
-          flat(CellType::quad9, "quad9", "quadrilaterals", 2, 9, quadrilateral),
-          solid(CellType::tet4, "tet4", "tetrahedra", 1, 4, 4, tetrahedron, of_tetrahedron),
-          solid(CellType::tet10, "tet10", "tetrahedra", 2, 10, 4, tetrahedron, of_tetrahedron),
-          solid(CellType::hex8, "hex8", "hexahedra", 1, 8, 8, hexahedron, of_hexahedron),
-          solid(CellType::hex20, "hex20", "hexahedra", 2, 20, 8, hexahedron, of_hexahedron),
-          solid(CellType::hex27, "hex27", "hexahedra", 2, 27, 8, hexahedron, of_hexahedron),
-          solid(CellType::wedge6, "wedge6", "wedges", 1, 6, 6, wedge, of_wedge),
-          solid(CellType::wedge15, "wedge15", "wedges", 2, 15, 6, wedge, of_wedge),
-          solid(CellType::pyramid5, "pyramid5", "pyramids", 1, 5, 5, pyramid, of_pyramid),
-          solid(CellType::pyramid13, "pyramid13", "pyramids", 2, 13, 5, pyramid, of_pyramid)};
+  return {flat(CellType::tri3, "tri3", 1, 3, triangle),
+          flat(CellType::tri6, "tri6", 2, 6, triangle),
+          flat(CellType::quad4, "quad4", 1, 4, quadrilateral),
+          flat(CellType::quad8, "quad8", 2, 8, quadrilateral),
+          flat(CellType::quad9, "quad9", 2, 9, quadrilateral),
+          solid(CellType::tet4, "tet4", 1, 4, 4, tetrahedron, of_tetrahedron),
+          solid(CellType::tet10, "tet10", 2, 10, 4, tetrahedron, of_tetrahedron),
+          solid(CellType::hex8, "hex8", 1, 8, 8, hexahedron, of_hexahedron),
+          solid(CellType::hex20, "hex20", 2, 20, 8, hexahedron, of_hexahedron),
+          solid(CellType::hex27, "hex27", 2, 27, 8, hexahedron, of_hexahedron),
+          solid(CellType::wedge6, "wedge6", 1, 6, 6, wedge, of_wedge),
+          solid(CellType::wedge15, "wedge15", 2, 15, 6, wedge, of_wedge),
+          solid(CellType::pyramid5, "pyramid5", 1, 5, 5, pyramid, of_pyramid),
+          solid(CellType::pyramid13, "pyramid13", 2, 13, 5, pyramid, of_pyramid)};
 }
 
 const CellInfo* find_type(int gmsh_type) {

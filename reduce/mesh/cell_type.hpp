@@ -34,10 +34,9 @@ struct CellFace {
 
 struct CellInfo {
   CellType type;
-  std::string name;    ///< "hex20"
-  std::string plural;  ///< "hexahedra", "triangles"
-  int dimension = 0;   ///< 2 or 3
-  int order = 0;       ///< 1: nodes at the vertices only, 2: at the edges as well
+  std::string name;   ///< "hex20"
+  int dimension = 0;  ///< 2 or 3
+  int order = 0;      ///< 1: nodes at the vertices only, 2: at the edges as well
   int nodes = 0;
   int vertices = 0;                       ///< its first nodes
   bool locks = false;                     ///< far too stiff in bending: solid cells of order 1 but hex8

@@ -9,6 +9,7 @@
 #include <gmsh.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/percent.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/disjoint_sets.hpp"
 #include "reduce/mesh/fragments.hpp"
@@ -58,8 +59,8 @@ std::vector<std::string> overlaps(const std::vector<BodySolid>& solids, double m
   for (const auto& [pair, shared] : common) {
     const BodySolid &one = solids[pair.first], &other = solids[pair.second];
     const double volume = volume_of(shared), smaller = std::min(volume_of(one), volume_of(other));
-    result.push_back(fmt::format("{} and {} by {:.3g} m^3, {:.2g} % of the smaller one", one.label(), other.label(),
-                                 volume * std::pow(metres, 3), 100 * volume / smaller));
+    result.push_back(fmt::format("{} and {} by {:.3g} m^3, {} of the smaller one", one.label(), other.label(),
+                                 volume * std::pow(metres, 3), percent(volume / smaller)));
   }
   return result;
 }

@@ -229,12 +229,20 @@ void drop_unused_nodes(const Nodes& nodes, ExtractedModel& model) {
       for (int& node : corners) node = number[node];
 }
 
+// gmsh sets OpenCASCADE's unit before the reader of IGES files exists, which fails unless a file has been read before.
+void initialise_units(const std::string& path) {
+  gmsh::option::setString("Geometry.OCCTargetUnit", "");
+  gmsh::open(path);
+  gmsh::clear();
+}
+
 }  // namespace
 
 void open_model(GmshSession& session, const SourceFile& source) {
   session.read(fmt::format("'{}' cannot be read", source.name), [&] {
     // OpenCASCADE's unit is not reset at the end of a session. Files that a .geo merges are read in mm, which is gmsh's
     // default.
+    if (source.is_iges) initialise_units(source.path);
     gmsh::option::setString("Geometry.OCCTargetUnit", source.carries_unit ? "M" : "MM");
     gmsh::open(source.path);
     if (entities(0).empty() && entities(2).empty() && entities(3).empty())

@@ -1,5 +1,6 @@
 #include "reduce/mesh/import.hpp"
 
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/files/packing.hpp"
+#include "reduce/common/percent.hpp"
 #include "reduce/common/process/child_process.hpp"
 #include "reduce/common/progress.hpp"
 #include "reduce/mesh/assembly.hpp"
@@ -14,8 +16,10 @@
 #include "reduce/mesh/conforming.hpp"
 #include "reduce/mesh/cut_geometry.hpp"
 #include "reduce/mesh/foreign_mesh.hpp"
+#include "reduce/mesh/fragments.hpp"
 #include "reduce/mesh/gmsh_model.hpp"
 #include "reduce/mesh/groups.hpp"
+#include "reduce/mesh/measures.hpp"
 #include "reduce/mesh/mesh_geometry.hpp"
 #include "reduce/mesh/mesh_packing.hpp"
 #include "reduce/mesh/place.hpp"
@@ -34,9 +38,9 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
   if (repaired.nodes > 0)
     progress.note(
         fmt::format("{} inside out, or nearly so, at curved surfaces: {} moved to the middle of the edge, by {} at "
-                    "most (at {}), which changes the volume by {:.2g} %; smaller elements avoid it",
+                    "most (at {}), which changes the volume by {}; smaller elements avoid it",
                     counted(repaired.elements, "second-order element"), counted(repaired.nodes, "mid-side node"),
-                    length_name(repaired.farthest), place_name(repaired.place), 100 * repaired.volume_change));
+                    length_name(repaired.farthest), place_name(repaired.place), percent(repaired.volume_change)));
   if (model.dropped_nodes > 0)
     progress.note(fmt::format("left out: {} of no solid cell", counted(model.dropped_nodes, "node")));
   if (const CoincidentNodes coincident = coincident_nodes(mesh, faces); coincident.pairs > 0)
@@ -50,6 +54,24 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
     progress.warn(request.subject, fmt::format("an element at {} is nearly flat (scaled Jacobian {:.1g}): stresses "
                                                "there mean nothing; another mesh.size avoids it",
                                                place_name(quality.worst_place), quality.least_scaled_jacobian));
+}
+
+// Straight edges cut curved surfaces off, those of divided tetrahedra above all.
+void warn_of_lost_volume(GmshSession& session, const MeshRequest& request, const SourceFile& source, const Mesh& mesh,
+                         Progress& progress) {
+  constexpr double most = 0.01;
+  double volume = 0;
+  session.compute(fmt::format("'{}' cannot be measured", source.name), [&] {
+    if (is_open_cascade()) volume = volume_of_solids() * std::pow(source.metres, 3);
+  });
+  if (volume <= 0) return;
+  const double change = mesh_volume(mesh) / volume - 1;
+  if (std::abs(change) <= most) return;
+  progress.warn(request.mesh_subject,
+                fmt::format("the mesh has {} {} volume, and mass, than the geometry: a smaller `size`, or `curvature`, "
+                            "which divides curved surfaces finer, avoids it{}",
+                            percent(std::abs(change)), change < 0 ? "less" : "more",
+                            request.order.value_or(2) == 1 ? "; so does `order: 2`" : ""));
 }
 
 // @throws InputError for keys that a mesh cannot have
@@ -102,6 +124,7 @@ Mesh import_source(const MeshRequest& request, const SourceFile& source, Progres
   const FaceTable faces = about(request.subject, [&] { return FaceTable(mesh); });
   about(request.subject, [&] { check_conforming(mesh, faces); });
   about(request.subject, [&] { check_mesh(request, model, faces, mesh, progress); });
+  if (geometry) warn_of_lost_volume(session, request, source, mesh, progress);
   add_volume_groups(model, mesh);
   add_surface_groups(request, model, geometry, faces, mesh);
   add_node_groups(request, model, mesh);

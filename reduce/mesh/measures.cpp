@@ -7,6 +7,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/mesh/fragments.hpp"
 #include "reduce/mesh/gmsh_model.hpp"
 #include "reduce/mesh/gmsh_session.hpp"
 #include "reduce/mesh/jacobian.hpp"
@@ -22,6 +23,18 @@ double mesh_volume(const Mesh& mesh) {
   return volume;
 }
 
+double volume_of_solids() {
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  double sum = 0;
+  for (const auto& [dimension, tag] : volumes) {
+    double part = 0;
+    gmsh::model::occ::getMass(dimension, tag, part);
+    sum += part;
+  }
+  return sum;
+}
+
 double geometry_volume(const std::string& path, const std::optional<std::string>& length_unit) {
   Progress progress(true);
   MeshRequest request;
@@ -32,14 +45,8 @@ double geometry_volume(const std::string& path, const std::optional<std::string>
   open_model(session, source);
   double volume = 0;
   session.read(fmt::format("'{}' has no volume that OpenCASCADE could measure", path), [&] {
-    gmsh::vectorpair volumes;
-    gmsh::model::occ::getEntities(volumes, 3);
-    if (volumes.empty()) throw std::string("its volumes are of another kernel");
-    for (const auto& [dimension, tag] : volumes) {
-      double part = 0;
-      gmsh::model::occ::getMass(dimension, tag, part);
-      volume += part;
-    }
+    if (!is_open_cascade()) throw std::string("its volumes are of another kernel");
+    volume = volume_of_solids();
   });
   return volume * std::pow(source.metres, 3);
 }

@@ -8,6 +8,7 @@
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/progress.hpp"
+#include "reduce/common/sort_unique.hpp"
 #include "reduce/mesh/groups.hpp"
 #include "reduce/mesh/hexahedra.hpp"
 #include "reduce/mesh/meshing.hpp"
@@ -89,6 +90,16 @@ void check_selections(GmshSession& session, const MeshRequest& request, const So
   for (const SurfaceSelection& selection : request.surfaces) selected_entities(selection, groups, points, surface);
 }
 
+// Physical groups, and the names of interfaces, loads, points and masses with surfaces of their own.
+std::vector<std::string> names_for_sizes(const MeshRequest& request, const std::vector<PhysicalGroup>& groups) {
+  std::vector<std::string> names = group_names(groups, 2);
+  for (const std::string& volume : group_names(groups, 3)) names.push_back(volume);
+  for (const SurfaceSelection& s : request.surfaces)
+    names.push_back(find_group(groups, s.group) ? s.group : s.group.substr(s.group.find('.') + 1));  // "masses.paint"
+  sort_unique(names);
+  return names;
+}
+
 // Entities of the geometry for which `sizes` requests another edge length than elsewhere.
 std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& request, const SourceFile& source,
                                      const std::vector<PhysicalGroup>& groups, const MeshSizes& plain) {
@@ -103,11 +114,8 @@ std::vector<EntitySize> entity_sizes(GmshSession& session, const MeshRequest& re
     const auto selection = std::find_if(request.surfaces.begin(), request.surfaces.end(),
                                         [&](const SurfaceSelection& s) { return s.group == name; });
     if (selection == request.surfaces.end()) {
-      std::vector<std::string> names = group_names(groups, 2);
-      for (const std::string& volume : group_names(groups, 3)) names.push_back(volume);
-      for (const SurfaceSelection& s : request.surfaces) names.push_back(s.group);
-      throw InputError(wish.subject,
-                       fmt::format("'{}' is no physical group and no interface{}", name, did_you_mean(name, names)));
+      throw InputError(wish.subject, fmt::format("'{}' is no physical group, interface, load, point or mass{}", name,
+                                                 did_you_mean(name, names_for_sizes(request, groups))));
     }
     if (surface.sides.empty()) {
       mesh_surfaces(session, source.name, plain);

@@ -97,7 +97,8 @@ SourceFile prepare_source(const MeshRequest& request, Progress& progress) {
   SourceFile source;
   source.name = source.path = request.path;
   source.geometry = gmsh_reads(request.path) && ending != ".msh" && ending != ".unv";
-  source.carries_unit = ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
+  source.is_iges = ending == ".iges" || ending == ".igs";
+  source.carries_unit = ending == ".step" || ending == ".stp" || source.is_iges;
   settle_unit(request, ending, source, progress);
   if (!gmsh_reads(request.path)) {
     source.folder = std::make_unique<ScratchFolder>();

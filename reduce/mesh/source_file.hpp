@@ -19,6 +19,7 @@ struct SourceFile {
   std::string name;           ///< the user's name of the file, for messages
   std::string path;           ///< the file that gmsh opens: the original or the converted one
   bool geometry = false;      ///< to be meshed, by the ending of its name
+  bool is_iges = false;       ///< by the ending of its name
   bool carries_unit = false;  ///< STEP and IGES: gmsh converts these to metres
   std::string unit_note;      ///< "read in mm as length_unit says": what is known of its unit, for people
   double metres = 1;          ///< per unit of what gmsh then holds (1 for STEP and IGES: gmsh converts these)

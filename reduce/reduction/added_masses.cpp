@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
@@ -22,6 +21,8 @@
 namespace bielle::reduce {
 
 namespace {
+
+constexpr double most_ratio = 1e6;  // added mass over own: the checks of mass properties have a tolerance of 1e-10
 
 /// The nodes around a place, with the weights that a named point there gives them.
 SurfaceIntegrals around(const Solid& solid, const Eigen::Vector3d& place, const std::string& body) {
@@ -43,7 +44,7 @@ AddedMass put_on(const Solid& solid, const MassRequest& request, const std::stri
   AddedMass result;
   result.surface = request.place ? around(solid, *request.place, body) : integrate_tied(solid.mesh, request.group);
   const std::optional<Eigen::Vector3d> position = request.position ? request.position : request.place;
-  check_position(position, result.surface, solid.mesh);
+  check_position(position, result.surface, solid.mesh, request.place ? "its place" : "its surface");
   Interface centre;
   centre.position = position.value_or(result.surface.centroid);
   result.loads = spread_unit_loads(result.surface, centre);
@@ -52,6 +53,22 @@ AddedMass put_on(const Solid& solid, const MassRequest& request, const std::stri
   result.position = centre.position;
   result.inertia = request.inertia;
   return result;
+}
+
+/// @param mass  mass of the body alone [kg] @param size  its diagonal [m] @throws InputError for a mass or an inertia
+/// beside which those of the
+///              body are lost in rounding, which is probably a wrong unit
+void check_size(const MassRequest& request, double mass, double size) {
+  if (request.mass > most_ratio * mass)
+    throw InputError(
+        fmt::format("its mass of {:.3g} kg is more than a million times that of the body, {:.3g} kg, which "
+                    "is lost in rounding beside it; masses are in kilograms",
+                    request.mass, mass));
+  if (const double inertia = request.inertia.trace() / 2; inertia > most_ratio * mass * size * size)
+    throw InputError(
+        fmt::format("its inertia of {:.3g} kg m^2 is more than a million times that of the body, which is "
+                    "lost in rounding beside it; inertia is in kg m^2",
+                    inertia));
 }
 
 /// L with L L^T = J; moments that rounding makes negative count as zero.
@@ -85,10 +102,14 @@ void AddedMass::add_forces(const Eigen::MatrixXd& f, RowMatrix& forces) const {
 }
 
 AddedMasses::AddedMasses(const Solid& solid, const std::vector<MassRequest>& requests, const std::string& body) {
+  if (requests.empty()) return;
+  const double mass = mass_properties(solid).mass;
+  const double size = (solid.mesh.points.rowwise().maxCoeff() - solid.mesh.points.rowwise().minCoeff()).norm();
   std::set<std::string> names;
   for (const MassRequest& request : requests)
     about(request.subject, [&] {
       if (!names.insert(request.name).second) throw InputError(fmt::format("there are two masses '{}'", request.name));
+      check_size(request, mass, size);
       masses_.push_back(put_on(solid, request, body));
     });
 }
@@ -168,30 +189,23 @@ MassProperties with_masses(const MassProperties& body, const AddedMasses& masses
   return sum;
 }
 
-std::vector<std::string> told_masses(const Solid& solid, const AddedMasses& masses,
-                                     const std::vector<CoatingRequest>& coatings) {
-  std::vector<std::string> told;
-  for (const AddedMass& mass : masses) {
-    const Eigen::Vector3d& x = mass.position;
-    told.push_back(fmt::format("masses.{}: {:.6g} kg with the centre ({:.6g}, {:.6g}, {:.6g}) m follow {}", mass.name,
-                               mass.mass, x.x(), x.y(), x.z(), counted(mass.surface.nodes.size(), "node")));
-  }
-  for (const CoatingRequest& coating : coatings) {
-    const double area = integrate_surface(solid.mesh, coating.group).area;
-    told.push_back(fmt::format("masses.{}: {:.6g} kg/m^2 on {:.6g} m^2 are {:.6g} kg", coating.name,
-                               coating.mass_per_area, area, area * coating.mass_per_area));
-  }
-  return told;
-}
-
 Solid requested_solid(const Mesh& mesh, const ReductionOptions& options) {
   Solid solid = about(
       "regions", [&] { return make_solid(mesh, options.materials, options.regions, options.integration); },
       Subject::hidden);
   solid.lumped = options.lumped;
-  for (const CoatingRequest& request : options.coatings)
+  if (options.coatings.empty()) return solid;
+  const double mass = mass_properties(solid).mass;
+  for (const CoatingRequest& request : options.coatings) {
     solid.coatings.push_back(
         {about(request.subject, [&] { return surface_group(mesh, request.group); }), request.mass_per_area});
+    const double added = request.mass_per_area * integrate_surface(mesh, request.group).area;
+    if (added > most_ratio * mass)
+      throw InputError(request.subject,
+                       fmt::format("its mass of {:.3g} kg is more than a million times that of the body, {:.3g} kg, "
+                                   "which is lost in rounding beside it; `per_area` is in kg/m^2",
+                                   added, mass));
+  }
   return solid;
 }
 

@@ -43,7 +43,7 @@ class AddedMasses {
   AddedMasses() = default;
   /// @param body  its name, for messages
   /// @throws InputError about the request: two of the same name, a surface that the mesh does not have, a place outside
-  ///         the mesh, a position far from the body
+  ///         the mesh, a position far from the body, more than a million times the mass or inertia of the body
   AddedMasses(const Solid& solid, const std::vector<MassRequest>& requests, const std::string& body);
 
   bool empty() const { return masses_.empty(); }
@@ -65,10 +65,6 @@ class AddedMasses {
 
 /// Mass properties of a body and its masses together.
 MassProperties with_masses(const MassProperties& body, const AddedMasses& masses);
-
-/// Sentences about the masses and coatings of a body, each with its kilograms.
-std::vector<std::string> told_masses(const Solid& solid, const AddedMasses& masses,
-                                     const std::vector<CoatingRequest>& coatings);
 
 /// The solid of the request, with its coatings.
 /// @throws InputError as make_solid, about `regions`; about a coating whose surface the mesh does not have

@@ -24,6 +24,7 @@
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/residual_vectors.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/reduction/told_masses.hpp"
 
 namespace bielle::reduce {
 
@@ -148,9 +149,9 @@ std::optional<ModeCount> prove_modes(const BodyMatrices& matrices, const FixedIn
   progress.start("count of the modes");
   const std::optional<ModeCount> count = count_modes(matrices, held, basis);
   if (!count) {
-    progress.warn(
-        "modes.proof: that no mode was missed could not be proven, since the modes are too close to each other or the "
-        "pivots too small; with another count it may be possible");
+    progress.warn("modes.proof",
+                  "that no mode was missed could not be proven, since the modes are too close to each other or the "
+                  "pivots too small; with another count it may be possible");
   } else if (count->counted == count->found) {
     progress.note(fmt::format("{} below {:.6g} Hz, counted by the signs of the pivots, and as many were found",
                               counted(count->counted, "mode"), count->below));
@@ -195,7 +196,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   check_connected(mesh);
   const Solid solid = requested_solid(mesh, options);
   AddedMasses masses(solid, options.masses, options.name);
-  for (const std::string& text : told_masses(solid, masses, options.coatings)) progress.note(text);
+  for (const std::string& text : told_masses(solid, masses, options)) progress.note(text);
   const MassProperties properties = with_masses(mass_properties(solid, threads), masses);
   const Ties ties = make_ties(solid, options.interfaces);
   const std::vector<TiedPoint> points = tie_points(solid, options.points, options.name);

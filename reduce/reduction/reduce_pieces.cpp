@@ -10,6 +10,7 @@
 #include "reduce/reduction/added_masses.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/cut_effect.hpp"
+#include "reduce/reduction/told_masses.hpp"
 #include "reduce/superelement/assembled_pieces.hpp"
 
 namespace bielle::reduce {
@@ -40,10 +41,10 @@ void rename_free_nodes(const ReductionOptions& options, const std::vector<int>& 
 }
 
 /// Neither its phases nor its notes are shown: the comparison with the uncut body replaces the notes on ties.
-Superelement reduce_quietly(const Mesh& mesh, const ReductionOptions& options, int threads, const MatrixMaker& make) {
-  Progress quiet(true);
+Superelement reduce_part(const Mesh& mesh, const ReductionOptions& options, Progress part, int threads,
+                         const MatrixMaker& make) {
   try {
-    return reduce_body(mesh, options, quiet, threads, nullptr, make);
+    return reduce_body(mesh, options, part, threads, nullptr, make);
   } catch (const ComputationError& error) {
     throw ComputationError(error.subject(), fmt::format("{}: {}", options.name, error.what()), Subject::hidden);
   }
@@ -52,7 +53,7 @@ Superelement reduce_quietly(const Mesh& mesh, const ReductionOptions& options, i
 /// Reduces the body in one piece, with twice as many modes as the pieces have together, so that the number of modes
 /// does not dominate the comparison: long modes of a whole body converge more slowly than the short ones of its pieces.
 Superelement reduce_uncut(const Mesh& mesh, const ReductionOptions& options, Eigen::Index modes, int threads,
-                          const MatrixMaker& make) {
+                          const Progress& progress, const MatrixMaker& make) {
   ReductionOptions uncut = options;
   const auto most = static_cast<int>(mesh.point_count() / 4);  // a tiny mesh has few
   uncut.mode_count = std::min(std::max(2 * static_cast<int>(modes), 40), most);
@@ -63,7 +64,7 @@ Superelement reduce_uncut(const Mesh& mesh, const ReductionOptions& options, Eig
   uncut.rayleigh.reset();
   uncut.judged = false;
   uncut.displacement_recovery = uncut.stress_recovery = RecoveryExtent::none;
-  return reduce_quietly(mesh, uncut, threads, make);
+  return reduce_part(mesh, uncut, progress.of_part("uncut body"), threads, make);
 }
 
 std::vector<Check> check_masses(const Superelement& whole, const MassProperties& uncut) {
@@ -92,7 +93,8 @@ CutBody reduce_pieces(const Mesh& mesh, const std::vector<CutPlane>& planes, con
   const std::vector<ReductionOptions> of_pieces = piece_options(mesh, cut, planes, body.cuts, options, request.tie);
   for (std::size_t k = 0; k < cut.pieces.size(); ++k) {
     progress.start(fmt::format("piece {} of {}", k + 1, cut.pieces.size()));
-    body.pieces.push_back(reduce_quietly(cut.pieces[k].mesh, of_pieces[k], threads, make));
+    body.pieces.push_back(
+        reduce_part(cut.pieces[k].mesh, of_pieces[k], progress.of_part(of_pieces[k].name), threads, make));
     rename_free_nodes(of_pieces[k], cut.pieces[k].nodes, body.pieces.back());
   }
 
@@ -103,15 +105,16 @@ CutBody reduce_pieces(const Mesh& mesh, const std::vector<CutPlane>& planes, con
     for (Superelement& piece : body.pieces)
       piece.damping = damping_of_piece(piece, options.damping_ratios.front(), body.free_frequencies(0));
   const Solid solid = requested_solid(mesh, options);
-  const std::vector<Check> found =
-      check_masses(whole, with_masses(mass_properties(solid), AddedMasses(solid, options.masses, options.name)));
+  const AddedMasses masses(solid, options.masses, options.name);
+  for (const std::string& told : told_masses(solid, masses, options)) progress.note(told);
+  const std::vector<Check> found = check_masses(whole, with_masses(mass_properties(solid), masses));
   fail_when_a_check_does(found, "the assembled pieces");
   if (checks) *checks = found;
   if (request.compare) {
     progress.start("uncut body");
     Eigen::Index modes = 0;
     for (const Superelement& piece : body.pieces) modes += piece.fixed_boundary_modes();
-    const Superelement uncut = reduce_uncut(mesh, options, modes, threads, make);
+    const Superelement uncut = reduce_uncut(mesh, options, modes, threads, progress, make);
     body.effect = {free_frequencies(uncut), stiffness_ratios(whole, uncut)};
   }
   progress.finish();

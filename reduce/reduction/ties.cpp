@@ -182,14 +182,15 @@ Eigen::MatrixXd spread_unit_loads(const SurfaceIntegrals& surface, const Interfa
   return loads;
 }
 
-void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh) {
+void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh,
+                    const char* from) {
   const double size = (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm();
   const double arm = position ? (*position - surface.centroid).norm() : 0;
   if (arm > 100 * size) {
-    throw InputError(fmt::format(
-        "its position is {:.3g} m from its surface, which is more than a hundred times the body's size of {:.3g} m; "
-        "positions are in metres",
-        arm, size));
+    throw InputError(
+        fmt::format("its position is {:.3g} m from {}, which is more than a hundred times the body's size of {:.3g} m; "
+                    "positions are in metres",
+                    arm, from, size));
   }
 }
 

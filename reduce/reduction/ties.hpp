@@ -72,8 +72,10 @@ Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interfa
 Eigen::MatrixXd spread_unit_loads(const SurfaceIntegrals& surface, const Interface& interface);
 
 /// An arm of a hundred times the body makes the matrices useless, and is probably a wrong unit.
-/// @param position  position of the node that follows the surface; default: its centroid @throws InputError
-void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh);
+/// @param position  position of the node that follows the surface; default: its centroid
+/// @param from      the surface in messages @throws InputError
+void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh,
+                    const char* from = "its surface");
 
 /// @throws InputError about the request: a surface that does not exist in the mesh, points outside the solid, two
 ///         interfaces that share points, no direction kept, two interfaces of the same name, an interface node far from

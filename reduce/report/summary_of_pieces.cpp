@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "reduce/common/counted.hpp"
+#include "reduce/common/percent.hpp"
 #include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {
@@ -54,8 +55,8 @@ std::string cuts_of(const CutBody& body) {
   return result;
 }
 
-/// "0.3", with two significant digits
-std::string percent(double ratio) { return fmt::format("{:.2g}", 100 * std::abs(ratio - 1)); }
+/// "0.3", two digits of the change in percent
+std::string change(double ratio) { return percent_number(std::abs(ratio - 1)); }
 
 std::string stiffness_effect(const std::vector<double>& ratios) {
   if (ratios.empty()) return "";
@@ -63,7 +64,7 @@ std::string stiffness_effect(const std::vector<double>& ratios) {
   const double least = ratios.front(), most = ratios.back();
   const bool one_way = std::string(more_or_less(least)) == more_or_less(most);
   return fmt::format("between its interfaces the body in pieces is {}{} to {} % {}, depending on the load\n",
-                     percent(least), one_way ? "" : fmt::format(" % {}", more_or_less(least)), percent(most),
+                     change(least), one_way ? "" : fmt::format(" % {}", more_or_less(least)), change(most),
                      more_or_less(most));
 }
 
@@ -78,10 +79,12 @@ std::string describe_effect(const CutBody& body) {
       std::abs(ratio - 1) < no_difference
           ? fmt::format("the cuts leave the first free frequency as it is, {:.6g} Hz", uncut(0))
           : fmt::format("the cuts {} the first free frequency by {} %, from {:.6g} to {:.6g} Hz",
-                        ratio > 1 ? "raise" : "lower", percent(ratio), uncut(0), body.free_frequencies(0));
+                        ratio > 1 ? "raise" : "lower", change(ratio), uncut(0), body.free_frequencies(0));
   if (shown > 1) result += "; the next by";
-  for (Eigen::Index k = 1; k < shown; ++k)
-    result += fmt::format("{} {:+.2g}", k == 1 ? "" : ",", 100 * (body.free_frequencies(k) / uncut(k) - 1));
+  for (Eigen::Index k = 1; k < shown; ++k) {
+    const double each = body.free_frequencies(k) / uncut(k);
+    result += fmt::format("{} {}{}", k == 1 ? "" : ",", each < 1 ? "-" : "+", change(each));
+  }
   return result + (shown > 1 ? " %\n" : "\n") + stiffness_effect(body.effect.stiffness_ratios);
 }
 

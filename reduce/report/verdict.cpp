@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "reduce/common/percent.hpp"
 #include "reduce/mesh/place.hpp"
 
 namespace bielle::reduce {
@@ -34,7 +35,7 @@ std::string hertz(double frequency) {
 }
 
 /// "0.042 %", "3.1 %", "14 %": two digits; estimates are not meaningful below 0.01 %.
-std::string as_percent(double part) { return fmt::format("{:.2g} %", std::max(100 * part, 0.01)); }
+std::string as_percent(double part) { return percent(std::max(part, 1e-4)); }
 
 std::string in_percent(double least, double most) {
   const std::string low = as_percent(least), high = as_percent(most);

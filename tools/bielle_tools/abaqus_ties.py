@@ -25,7 +25,7 @@ def read_abaqus_ties(deck):
 
 
 def read_abaqus_masses(deck):
-    """@returns list of PointMass @raises InputError"""
+    """The point masses of a deck; one that cannot be read is delivered with the reason. @returns list of PointMass"""
     reader = _Reader(deck)
     return [mass for keyword in deck.constraints.masses for mass in reader.masses(keyword)]
 
@@ -128,47 +128,56 @@ class _Reader:
             name = f"mpc {kind.lower()} {keyword.shown(words[2] if len(words) > 2 else '?')}"
             tie = ties.setdefault(name, Tie(name))
             try:
+                if tie.position is None and len(words) > 2:
+                    self._refer(keyword, tie, words[2])
                 if kind != "BEAM":
                     raise TieRefusal(f"*MPC of type {kind} does not tie nodes as a rigid body; BEAM does")
                 if len(words) != 3:
                     raise TieRefusal("BEAM has two nodes, or a set and a node")
-                if tie.position is None:
-                    self._refer(keyword, tie, words[2])
                 self._add(tie, self._rows([self._entry(keyword, words[1])]), 1.0)
             except (InputError, TieRefusal) as reason:
                 tie.refused = str(reason)
         return list(ties.values())
 
     def masses(self, keyword):
-        """The masses of *MASS or *ROTARY INERTIA, one for each element of its set."""
-        where = f"{keyword.where}: *{keyword.name}"
+        """The masses of *MASS or *ROTARY INERTIA, one for each element of its set; a fault of the keyword is that of each."""
+        kind = keyword.name.lower()
         try:
-            values = [self._number(word, "a mass or an inertia") for words in keyword.words() for word in words]
-            if keyword.options.get("TYPE", "ISOTROPIC").upper() != "ISOTROPIC":
-                raise TieRefusal(f"its TYPE is {keyword.options['TYPE'].upper()}; ISOTROPIC is read")
-            if not values:
-                raise TieRefusal("it has no numbers")
-            least, most, expected = (1, 1, "one") if keyword.name == "MASS" else (3, 6, "three to six")
-            if not least <= len(values) <= most:
-                raise TieRefusal(f"it has {counted(len(values), 'number')}; expected {expected}")
-            inertia, mass = np.zeros((3, 3)), 0.0
-            if keyword.name == "MASS":
-                mass = values[0]
-            else:
-                i11, i22, i33, i12, i13, i23 = (values + [0.0] * 6)[:6]
-                inertia = np.array([[i11, i12, i13], [i12, i22, i23], [i13, i23, i33]])  # I12 = - int x1 x2 dm
-                if "ORIENTATION" in keyword.options:
-                    axes = self.deck.constraints.oriented_axes(keyword, keyword.options["ORIENTATION"])
-                else:
-                    axes = keyword.turned(np.eye(3))
-                inertia = axes @ inertia @ axes.T
-            found = []
-            for label in self._elements(keyword, "MASS" if keyword.name == "MASS" else "ROTARYI"):
-                row, place = self._place(self.deck.single_nodes[label][1])
-                found.append(PointMass(f"{keyword.name.lower()} {self.deck.assembly.told(label)}", mass, place, inertia, row))
-            return found
+            labels = self._elements(keyword, "MASS" if keyword.name == "MASS" else "ROTARYI")
+            if not labels:
+                raise TieRefusal(f"its set has no element of type {'MASS' if keyword.name == 'MASS' else 'ROTARYI'}")
         except (TieRefusal, InputError) as reason:
-            raise InputError(f"{where}: {reason}") from None
+            shown = keyword.shown(keyword.options.get("ELSET") or "?")
+            return [PointMass(f"{kind} {shown}", refused=f"{keyword.where}: *{keyword.name}: {reason}")]
+        return [self._mass(keyword, label, f"{kind} {self.deck.assembly.told(label)}") for label in labels]
+
+    def _mass(self, keyword, label, name):
+        try:
+            mass, inertia = self._inertia(keyword)
+            row, place = self._place(self.deck.single_nodes[label][1])
+            return PointMass(name, mass, place, inertia, row)
+        except (TieRefusal, InputError) as reason:
+            return PointMass(name, refused=f"{keyword.where}: *{keyword.name}: {reason}")
+
+    def _inertia(self, keyword):
+        """Mass and tensor of inertia of a *MASS or *ROTARY INERTIA."""
+        values = [self._number(word, "a mass or an inertia") for words in keyword.words() for word in words]
+        if keyword.options.get("TYPE", "ISOTROPIC").upper() != "ISOTROPIC":
+            raise TieRefusal(f"its TYPE is {keyword.options['TYPE'].upper()}; ISOTROPIC is read")
+        if not values:
+            raise TieRefusal("it has no numbers")
+        least, most, expected = (1, 1, "one") if keyword.name == "MASS" else (3, 6, "three to six")
+        if not least <= len(values) <= most:
+            raise TieRefusal(f"it has {counted(len(values), 'number')}; expected {expected}")
+        if keyword.name == "MASS":
+            return values[0], np.zeros((3, 3))
+        i11, i22, i33, i12, i13, i23 = (values + [0.0] * 6)[:6]
+        inertia = np.array([[i11, i12, i13], [i12, i22, i23], [i13, i23, i33]])  # I12 = - int x1 x2 dm
+        if "ORIENTATION" in keyword.options:
+            axes = self.deck.constraints.oriented_axes(keyword, keyword.options["ORIENTATION"])
+        else:
+            axes = keyword.turned(np.eye(3))
+        return 0.0, axes @ inertia @ axes.T
 
     # ---- nodes --------------------------------------------------------------------------------------------------------
     def _refer(self, keyword, tie, word):

@@ -60,7 +60,6 @@ class LoadedBody:
             opened = file[group] if group else file
             self.positions = opened["interface/positions"][:]
             self.K, self.M = opened["reduced/stiffness"][:], opened["reduced/mass"][:]
-            self.mass = float(opened["mass_properties/mass"][()])
             self.materials = densities(opened, self.body, path)
         self.mesh_mass = cell_integrals.scalar_mass(self.points, self.body.cells, self.materials.density)
         self.surfaces = tied_surfaces(path, group, self.body, self.interfaces, self.positions, surfaces or {})

@@ -34,6 +34,9 @@ def densities(file, body, path):
     number = _regions(data, names, file, body)
     of_cells = {kind: np.array(density)[number[kind]] for kind in volumes}
     mass, wanted = sum(float(of_cells[kind] @ volumes[kind]) for kind in volumes), float(file["mass_properties/mass"][()])
+    if data.get("masses") and abs(mass - wanted) > 1e-6 * wanted:
+        raise InputError(f"'{path}': the superelement carries {wanted - mass:.6g} kg of added `masses`, whose inertia is no force on the nodes of its "
+                         "mesh and is not exported")
     if abs(mass - wanted) > 1e-3 * wanted:
         raise InputError(f"'{path}': with the densities of its body file the mesh has {mass:.6g} kg, the superelement {wanted:.6g} kg: "
                          "were materials given by parameters, or is this a piece of a body with several materials?")

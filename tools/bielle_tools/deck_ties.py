@@ -1,6 +1,7 @@
 """Ties of decks to one node (RBE2, RBE3, couplings, rigid bodies), and their point masses, for the interfaces of a body file.
 
-Values keep the file's units. Nothing is guessed: a tie that an interface cannot stand for is listed with the reason.
+Values keep the file's units. Nothing is guessed: a tie that an interface cannot stand for, and a
+mass that nothing carries, are listed with the reason.
 """
 
 import os
@@ -24,11 +25,13 @@ from .tie_model import TieRefusal
 
 @dataclass
 class DeckTies:
-    """ties and masses as dictionaries of plain values, for JSON; notes: sentences for the user."""
+    """ties and masses as dictionaries of plain values, for JSON; notes: sentences for the user; points (p,3): those of the
+    converted mesh, which the numbers of nodes of a tie count from 1."""
 
     ties: list = field(default_factory=list)
     masses: list = field(default_factory=list)
     notes: list = field(default_factory=list)
+    points: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
 
 
 def read_ties(path):
@@ -46,6 +49,7 @@ def read_ties(path):
         raw = deck.raw_mesh(path)
         ties, masses = read_abaqus_ties(deck), read_abaqus_masses(deck)
         labels = {row: deck.assembly.told(number) for number, row in deck.numbers.items()}
+        labels.update({("reference point", number): deck.assembly.told(number) for number in deck.reference_points})
     else:
         return DeckTies()
     return _Numbering(with_path(path, lambda: solid_mesh(raw)), labels).numbered(ties, masses)
@@ -55,41 +59,43 @@ class _Numbering:
     """Numbers of nodes in the converted mesh."""
 
     def __init__(self, mesh, labels):
-        self.mesh, self.labels, self.found = mesh, labels, DeckTies()
+        self.mesh, self.labels, self.found = mesh, labels, DeckTies(points=mesh.points)
         self.in_solid = np.zeros(len(mesh.points), bool)
         for kind, cells in mesh.cells.items():
             if kind in SOLIDS:
                 self.in_solid[cells] = True
 
     def numbered(self, ties, masses):
-        counts = Counter(tie.name.upper() for tie in ties)
-        done = set()
-        for tie in ties:
-            if tie.name.upper() in done:
-                continue
-            done.add(tie.name.upper())
-            try:
-                if counts[tie.name.upper()] > 1:
-                    raise TieRefusal(f"there are {counts[tie.name.upper()]} of this name")
-                self.found.ties.append(self._tie(tie))
-            except TieRefusal as refusal:
-                self.found.ties.append({"name": tie.name, "refused": str(refusal)})
-        carriers = {}
-        for tie in ties:
-            if tie.reference is not None:
-                carriers.setdefault(tie.reference, []).append(tie.name)
-        for mass in masses:
-            entry = {"name": mass.name, "mass": mass.mass, "position": list(mass.position), "inertia": np.asarray(mass.inertia).tolist()}
-            node = self._node(mass.node)
-            if len(carriers.get(mass.node, ())) > 1:
-                raise InputError(f"{mass.name} stands at a node of several ties ({', '.join(carriers[mass.node])}), which would share it: give the "
-                                 "ties one node each, or join them to one tie")
-            if mass.node in carriers:
-                entry["tie"] = carriers[mass.node][0]
-            elif node is not None:
-                entry["node"], entry["place"] = node + 1, self.mesh.points[node].tolist()
-            self.found.masses.append(entry)
+        """DeckTies of the ties and masses."""
+        self.found.ties = _each_once(ties, self._tie)
+        refused = {entry["name"].upper(): entry["refused"] for entry in self.found.ties if "refused" in entry}
+        self.found.masses = _each_once(masses, lambda mass: self._mass(mass, ties, refused))
         return self.found
+
+    def _mass(self, mass, ties, refused):
+        """@param refused: reasons by names of ties"""
+        if mass.refused:
+            raise TieRefusal(mass.refused)
+        entry = {"name": mass.name, "mass": mass.mass, "position": list(mass.position), "inertia": np.asarray(mass.inertia).tolist()}
+        return {**entry, **self._carrier(mass.node, ties, refused)} if mass.has_effect() else entry
+
+    def _carrier(self, node, ties, refused):
+        """The tie, or the node of the solid, that carries a mass. @raises TieRefusal if there is none, or several ties"""
+        own = list({tie.name.upper(): tie.name for tie in ties if tie.reference is not None and tie.reference == node}.values())
+        if len(own) > 1:
+            raise TieRefusal(f"it stands at a node of several ties ({', '.join(own)}), which would share it: give the ties one node each, or join "
+                             "them to one tie")
+        if own and own[0].upper() not in refused:
+            return {"tie": own[0]}
+        row = self._node(node)
+        if row is not None:
+            return {"node": row + 1, "place": self.mesh.points[row].tolist()}
+        if own:
+            raise TieRefusal(f"{own[0]}, at whose node it stands, cannot carry it: {refused[own[0].upper()]}")
+        holder = next((tie.name for tie in ties if node in tie.weights), None)
+        if holder:
+            raise TieRefusal(f"it stands at a node that {holder} ties to others and no solid cell has: put it at the reference node of the tie")
+        raise TieRefusal("it stands at a node that belongs to no solid cell and is the reference node of no tie")
 
     def _node(self, row):
         """The row in the converted mesh of a node of the deck; None if it is in no solid cell."""
@@ -100,7 +106,7 @@ class _Numbering:
         if tie.refused:
             raise TieRefusal(tie.refused)
         entry = {"name": tie.name, "tie": tie.kind, "position": [float(x) for x in tie.position],
-                 "axes": np.asarray(tie.axes).T.tolist(), "directions": tie.directions}
+                 "axes": np.asarray(tie.axes).T.tolist(), "directions": tie.directions, "reference": str(self.labels[tie.reference])}
         if tie.surface:
             self._check_surface(tie)
             return {**entry, "surface": self.mesh.surface_of[tie.surface]}
@@ -131,3 +137,18 @@ class _Numbering:
         group = self.mesh.surfaces[self.mesh.surface_of[tie.surface]]
         if node is not None and not any((self.mesh.cells[kind][cells] == node).any() for kind, cells in group.items()):
             raise TieRefusal(f"its reference node {self.labels[tie.reference]} is a node of the solid outside of its surface")
+
+
+def _each_once(items, entry_of):
+    """Entries of ties or masses; one for several of the same name, with the reason."""
+    counts, first, entries = Counter(item.name.upper() for item in items), {}, []
+    for item in items:
+        first.setdefault(item.name.upper(), item)
+    for key, item in first.items():
+        try:
+            if counts[key] > 1:
+                raise TieRefusal(f"there are {counts[key]} of this name")
+            entries.append(entry_of(item))
+        except TieRefusal as refusal:
+            entries.append({"name": item.name, "refused": str(refusal)})
+    return entries

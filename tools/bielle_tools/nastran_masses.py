@@ -10,15 +10,23 @@ IN_BASIC = -1  # CID by which X1 to X3 are coordinates in the basic system, no o
 
 
 def read_masses(cards, grids):
-    """@returns list of PointMass @raises InputError with file and line"""
+    """All CONM2; one that cannot be read is delivered with the reason. @returns list of PointMass @raises InputError for a wrong
+    PARAM,WTMASS"""
     factor = mass_per_weight(cards)
     return [_mass(card, grids, factor) for card in cards if card.name == "CONM2"]
 
 
 def _mass(card, grids, factor):
+    try:
+        return _read(card, grids, factor)
+    except InputError as reason:
+        return PointMass(f"CONM2 {card.fields[1] if len(card.fields) > 1 else ''}".strip(), refused=str(reason))
+
+
+def _read(card, grids, factor):
     number, system = card.integer(2), card.integer(3, 0)
     if number not in grids.rows:
-        raise InputError(f"'{card.path}': line {card.line}: CONM2 {card.integer(1)} names the node {number}, which does not exist")
+        raise InputError(f"'{card.path}': line {card.line}: it names the node {number}, which does not exist")
     node = grids.rows[number]
     x = np.array([card.number(k, 0.0) for k in (5, 6, 7)])
     axes = np.eye(3) if system == IN_BASIC else grids.systems.axes_at(system, grids.points[node], card)

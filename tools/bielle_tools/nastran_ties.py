@@ -105,8 +105,8 @@ def _rbe2(card, grids, tie):
     _reference(card, 2, grids, tie)
     tie.kind = "rigid"
     ((_, taken, numbers),) = _groups(card, grids.rows)
-    check_translations(taken, "its nodes")
     tie.weights = {grids.rows[number]: 1.0 for number in numbers}
+    check_translations(taken, "its nodes")
 
 
 def _rbe3(card, grids, tie):

@@ -9,7 +9,7 @@ TRANSLATIONS = {1, 2, 3}
 
 
 class TieRefusal(Exception):
-    """The reason why an interface cannot stand for a tie: part of a sentence after its name."""
+    """The reason why an interface cannot stand for a tie, or why a mass cannot be used: part of a sentence after its name."""
 
 
 @dataclass
@@ -34,13 +34,19 @@ class Tie:
 
 @dataclass
 class PointMass:
-    """A mass at a node. position: centre of mass; inertia (3,3): about it, in basic axes; node: as the reference of a Tie."""
+    """A mass at a node. position: centre of mass; inertia (3,3): about it, in basic axes; node: as the reference of a Tie;
+    refused: the reason why it cannot be used, with which the other values are not set."""
 
     name: str
-    mass: float
-    position: np.ndarray
-    inertia: np.ndarray
+    mass: float = 0.0
+    position: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    inertia: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))
     node: int = None
+    refused: str = ""
+
+    def has_effect(self):
+        """Tells whether it has mass or inertia, or values that are not known."""
+        return bool(self.refused) or self.mass != 0 or np.any(self.inertia)
 
 
 def direction_words(components):

@@ -7,6 +7,7 @@ import numpy as np
 import yaml
 
 from . import cell_integrals
+from .interface_ties import spread_over_nodes, tie_of_interface, weighted_nodes
 from .messages import InputError, did_you_mean
 
 
@@ -22,11 +23,11 @@ class TiedSurface:
 def tied_surfaces(path, group, body, interfaces, positions, given):
     """Returns one surface for each interface. A rigid tie is recognised in the displacements: its nodes move with the
     interface alone. For an average tie the surface is the group that the body file names, or `given` {interface:
-    group}."""
+    group}; or it is the nodes of a tie of a deck."""
     with h5py.File(path) as file:
         opened = file[group] if group else file
         text = (opened["input"] if "input" in opened else file["input"])[()]
-        said = yaml.safe_load(text.decode() if isinstance(text, bytes) else text).get("interfaces", {})
+        body_file = yaml.safe_load(text.decode() if isinstance(text, bytes) else text)
         groups = {name.replace("%2F", "/").replace("%2E", ".").replace("%25", "%"): np.asarray(nodes, int)
                   for name, nodes in opened["mesh/groups"].items()} if "mesh/groups" in opened else {}
     faces, found, first = body.surface(), [], 0
@@ -36,10 +37,14 @@ def tied_surfaces(path, group, body, interfaces, positions, given):
     for (name, kept, axes), position in zip(interfaces, positions):
         columns = np.arange(first, first + kept.sum())
         first += int(kept.sum())
-        entry = said.get(name, {})
+        entry = body_file.get("interfaces", {}).get(name, {})
         if "from" in entry:
-            raise InputError(f"'{path}': the interface '{name}' is '{entry['from']}' of a deck, whose weights the superelement does not keep: "
-                             "analyse the deck itself")
+            tie, of_deck = tie_of_interface(path, name, body_file)
+            if tie["tie"] == "average" and "nodes" in tie:
+                nodes, weights = weighted_nodes(path, name, body.points, tie, of_deck)
+                found.append(TiedSurface(name, False, position, nodes, spread_over_nodes(body.points[nodes], weights, position)))
+                continue
+            entry = {"tie": tie["tie"], "surface": tie.get("surface")}
         if entry.get("tie", "rigid") == "rigid":
             found.append(TiedSurface(name, True, position, _carried(name, path, body, kept, axes, position, columns), None))
         elif entry["tie"] == "average":

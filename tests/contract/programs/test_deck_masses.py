@@ -152,14 +152,80 @@ class DeckMasses(CommandTest):
 
     def test_masses_of_no_body_are_refused(self):
         for card, says in (("CONM2,1,9001,,-2.\n", "which is negative"), ("CONM2,1,9001,,1.\n+,1.,,1.,,,5.\n", "no body has this inertia"),
-                           ("GRID,9009,,5.,5.,5.\nCONM2,1,9009,,1.\n", "belongs to no solid cell and to no tie")):
+                           ("GRID,9009,,5.,5.,5.\nCONM2,1,9009,,1.\n", "no solid cell and is the reference node of no tie")):
             with self.subTest(card):
                 self.nastran(self.rbe2() + card)
                 self.refuse("masses: from_file", "CONM2 1", says)
-        self.nastran(self.rbe2() + cell_decks.card("free", "RBE3", 13, "", 9001, 123456, "1.", 123, *self.members) + CONM2)
-        self.refuse("masses: from_file", "CONM2 1 stands at a node of several ties (RBE2 12, RBE3 13)")
+        self.nastran(self.rbe2() + CONM2 + CONM2)
+        self.refuse("masses: from_file", "CONM2 1: there are 2 of this name")
         self.nastran(self.rbe2() + "CONM2,1,9001,,0.\n")
         self.refuse("masses: {motor: {from: CONM2 1}}", "has neither mass nor inertia")
+
+    def test_a_mass_of_the_deck_is_taken_once(self):
+        self.nastran(self.rbe2() + CONM2)
+        self.refuse("masses: {motor: {from: CONM2 1}, pump: {from: conm2 1}}", "bad.yaml:9: masses.pump.from: 'CONM2 1' is the mass 'motor' already")
+
+    def test_other_forms_of_masses_name_those_that_are_expected(self):
+        self.nastran(self.rbe2() + CONM2)
+        for more in ("masses:", "masses: []", "masses: [motor]"):
+            self.refuse(more, "bad.yaml:9: masses: expected masses by their names", "or from_file")
+
+    def test_a_mass_that_cannot_be_used_leaves_the_other_parts_of_the_deck(self):
+        inner = [k + 1 for k in range(len(self.box.points)) if 0.1 < self.box.points[k][0] < 0.5][:6]
+        grids = "GRID,9002,,.3,.1,.05\nGRID,9003,,.3,.2,.05\n"
+        several = cell_decks.card("free", "RBE3", 13, "", 9001, 123456, "1.", 123, *self.members)
+        part = cell_decks.card("free", "RBE2", 14, 9002, 12, *inner)
+        outer = cell_decks.card("free", "RBE2", 15, 9002, 123, 9003, *inner)
+        good = f"CONM2,4,{inner[0]},,7.\n"
+        for cards, says in ((several + CONM2, "it stands at a node of several ties (RBE2 12, RBE3 13)"),
+                            (part + "CONM2,1,9002,,3.\n", "RBE2 14, at whose node it stands, cannot carry it: it takes the components 12"),
+                            (outer + "CONM2,1,9003,,3.\n", "it stands at a node that RBE2 15 ties to others and no solid cell has"),
+                            ("CONM2,1,9009,,3.\n", "it names the node 9009, which does not exist")):
+            with self.subTest(says):
+                self.nastran(self.rbe2() + grids + cards + good)
+                bare = self.reduced("RBE2 12")
+                self.assertAlmostEqual(self.reduced("RBE2 12", "masses: {pump: {from: CONM2 4}}")[1] - bare[1], 7, delta=1e-9)
+                self.assertIn(f"CONM2 1: cannot be used: {says}" if "9009" not in says else says, self.run_program("--list", "bar.bdf").stdout)
+                self.refuse("masses: {pump: {from: CONM2 1}}", "bad.yaml:9: masses.pump.from: CONM2 1: ", says)
+                self.refuse("masses: from_file", "bad.yaml:9: masses: CONM2 1: ", says)
+
+    def test_a_mass_at_a_node_of_the_solid_whose_tie_is_none_stays_there(self):
+        inner = [k + 1 for k in range(len(self.box.points)) if 0.1 < self.box.points[k][0] < 0.5][:6]
+        part = cell_decks.card("free", "RBE2", 14, inner[0], 12, *inner[1:])
+        self.nastran(self.rbe2() + part + f"CONM2,1,{inner[0]},,3.\n")
+        bare = self.reduced("RBE2 12")
+        self.assertAlmostEqual(self.reduced("RBE2 12", "masses: from_file")[1] - bare[1], 3, delta=1e-9)
+
+    def test_a_tie_of_few_nodes_carries_no_mass_and_is_named(self):
+        for nodes, says in ((self.members[:1], "are 1 node of the solid"), (self.members[:2], "are 2 nodes of the solid"),
+                            (self.members[:3], "stand in one line along")):
+            with self.subTest(says):
+                other = cell_decks.card("free", "RBE2", 13, 9002, 123456, *nodes)
+                self.nastran(self.rbe2() + "GRID,9002,,-.1,0.,0.\n" + other + "CONM2,5,9002,,3.\n")
+                self.refuse("masses: from_file", "bad.yaml:9: masses.CONM2 5: ", "nodes of RBE2 13", says)
+
+    def test_faulty_masses_of_abaqus_are_refused_one_by_one(self):
+        nodes = "".join(f"{k}\n" for k in self.members)
+        deck = ("*NODE\n9001, -0.02, 0.11, 0.04\n*NSET, NSET=LEFT\n" + nodes + "*RIGID BODY, REF NODE=9001, PIN NSET=LEFT\n"
+                "*ELEMENT, TYPE=MASS, ELSET=M\n900, 9001\n*MASS, ELSET=M\n2.5\n*ELEMENT, TYPE=MASS, ELSET=N\n901, 9001\n")
+        for wrong, name, says in (("*MASS, ELSET=N\n\n", "mass 901", "it has no numbers"), ("*MASS, ELSET=N\n1., 2.\n", "mass 901", "expected one"),
+                                  ("*MASS, ELSET=N, TYPE=ANISOTROPIC\n1.\n", "mass 901", "ISOTROPIC is read"),
+                                  ("*MASS, ELSET=Q\n1.\n", "mass Q", "Q"), ("*MASS\n1.\n", "mass ?", "no ELSET is named")):
+            with self.subTest(wrong):
+                self.write("bar.inp", self.box.abaqus(deck + wrong))
+                bare = self.reduced("rigid body 9001", ending="inp")
+                more = self.reduced("rigid body 9001", "masses: {motor: {from: mass 900}}", "inp")
+                self.assertAlmostEqual(more[1] - bare[1], 2.5, delta=1e-9)
+                self.write("bad.yaml", BODY.format(tie="rigid body 9001", more="masses: from_file", ending="inp", length=0.6))
+                self.expect_refusal(1, "bad.yaml", "-o", "bad.h5", says=[f"masses: {name}: ", says])
+
+    def test_a_tie_without_a_rigid_form_is_the_reason_of_its_mass(self):
+        nodes = "".join(f"{k}\n" for k in self.members)
+        self.write("bar.inp", self.box.abaqus(
+            "*NODE\n9001, -0.02, 0.11, 0.04\n9002, 0.3, 0.11, 0.04\n*NSET, NSET=LEFT\n" + nodes + "*RIGID BODY, REF NODE=9001, PIN NSET=LEFT\n"
+            "*MPC\nTIE, LEFT, 9002\n*ELEMENT, TYPE=MASS, ELSET=M\n900, 9002\n*MASS, ELSET=M\n2.5\n"))
+        self.write("bad.yaml", BODY.format(tie="rigid body 9001", more="masses: from_file", ending="inp", length=0.6))
+        self.expect_refusal(1, "bad.yaml", "-o", "bad.h5", says=["mass 900: mpc tie 9002, at whose node it stands, cannot carry it: *MPC of type TIE"])
 
 
 if __name__ == "__main__":

@@ -243,6 +243,17 @@ class DeckTies(CommandTest):
         self.nastran(rbe3([(1, 123, rest)]).replace("9001", str(first + 1)))
         self.refuse("left.from", "its reference node 1 is a node of the solid")
 
+    def test_interfaces_that_were_one_node_are_told(self):
+        right = [k for k, x in enumerate(self.box.points) if x[0] > 0.59]
+        ties = rbe2(self.left) + rbe2(right, number=13)
+        self.nastran(NODE + ties)
+        self.reduced(body("{from: RBE2 12}", right="right: {from: RBE2 13}"))
+        self.assertIn("warning: the interfaces 'left' (RBE2 12) and 'right' (RBE2 13) have the same node 9001 in 'bar.bdf', but become two nodes, which "
+                      "nothing connects: connect them by a rigid joint in the mechanism", self.said)
+        self.nastran(NODE + ties.replace("13,9001", "13,9002") + "GRID,9002,,-0.02,0.11,0.04\n")
+        self.reduced(body("{from: RBE2 12}", right="right: {from: RBE2 13}"))
+        self.assertNotIn("become two nodes", self.said)
+
     def test_in_pieces(self):
         self.nastran(NODE + rbe2(self.left) + rbe3([(1, 123, range(len(self.box.points)))]))
         pieces = "pieces: {planes: {axis: x, at: 0.2}, compare: false}\n"
@@ -282,10 +293,10 @@ class DeckTies(CommandTest):
         cards = ((good + good, "there are 2 of this name"), (rbe3([(1, 12, self.left)]), "components 12 of 9 nodes"),
                  (rbe3([(1, 123, self.left)], more=("UM", 1, 123)), "(UM)"), (rbe3([(-1, 123, self.left)]), "the weight -1 of the node 1"),
                  (rbe3([(0, 123, self.left)]), "it ties no nodes"), (rbe3([(1, 123, [0, 9000])]), "it ties the node 9001"),
-                 (rbe3([(1, 123, self.left[:3])]), "stand in one line along"), (rbe3([(1, 123, self.left[:2])]), "ties 2 nodes"),
+                 (rbe3([(1, 123, self.left[:3])]), "stand in one line along"), (rbe3([(1, 123, self.left[:2])]), "are 2 nodes"),
                  (good.replace("1.0", "1"), "a weight with a decimal point in field 6"), (rbe3([(1, 127, self.left)]), "components out of 1 to 6"),
                  ("RBE3,6002,,9001,123,1.,123,1,THRU\n", "a grid point before and after THRU in field 9"),
-                 ("RBE3,6002,,9001,123,1.,123,1\n", "ties 1 node of the solid"), ("RBE3,6002,,9001,123,nan,123,1,2,4\n", "weight nan"),
+                 ("RBE3,6002,,9001,123,1.,123,1\n", "are 1 node of the solid"), ("RBE3,6002,,9001,123,nan,123,1,2,4\n", "weight nan"),
                  ("RBE3,6002\n", "an integer in field 4, found nothing"), (good.replace("6002", "0"), None))
         for text, says in cards:
             self.nastran(NODE + text)
@@ -318,8 +329,7 @@ class DeckTies(CommandTest):
                                  ("*RIGID BODY, REF NODE=9001\n", "rigid body 9001", "ties no nodes"),
                                  ("*DISTRIBUTING COUPLING\n1, 1.\n", "distributing coupling ?", "no ELSET is named by *DISTRIBUTING COUPLING"),
                                  ("*RIGID BODY, REF NODE=9001, NSET=LEFT\n*TRANSFORM\n1., 0., 0., 0., 1., 0.\n", "rigid body 9001", "no NSET is named"),
-                                 ("*MPC\nBEAM, LEFT\n", "mpc beam ?", "BEAM has two nodes"),
-                                 ("*ELEMENT, TYPE=MASS, ELSET=M\n5, 9001\n*MASS, ELSET=M\n\n", "rigid body 9001", "*MASS: it has no numbers")):
+                                 ("*MPC\nBEAM, LEFT\n", "mpc beam ?", "BEAM has two nodes")):
             self.abaqus(nset + text)
             self.refuse("left.from", says, text=body(f"{{from: {name}}}", "inp"))
 
@@ -338,7 +348,8 @@ class DeckTies(CommandTest):
                  "CONM2,3,9001,-1,1.,.1,.2,.3\nCONM2,4,1,,7.\nCONM2,5,9002,,7.\n")
         self.nastran(NODE + "GRID,9002,,5.,0.,0.\n" + systems + rbe2(self.left) + cards)
         masses = self.ties("bar.bdf")["masses"]
-        self.assertEqual([mass["mass"] for mass in masses], [2.5, 1, 1, 7, 7])
+        self.assertEqual([mass.get("mass") for mass in masses], [2.5, 1, 1, 7, None])
+        self.assertIn("no solid cell", masses[4]["refused"])
         np.testing.assert_allclose(masses[0]["position"], [0.08, 0.31, 0.34], atol=1e-15)
         # I21 and its like are int x1 x2 dm, which the tensor has with a minus.
         np.testing.assert_allclose(masses[0]["inertia"], [[4, -1, .5], [-1, 5, -.25], [.5, -.25, 6]], atol=1e-15)

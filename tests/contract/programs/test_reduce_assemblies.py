@@ -1,12 +1,14 @@
 """bielle-reduce on geometries of several solids, and on their meshes of hexahedra: stiffness and frequencies in closed form."""
 
 import math
+import re
 import unittest
 
 import h5py
 import numpy as np
 
 from command import CommandTest
+from iges_boxes import iges_boxes
 
 # Two bars in a row, and a third one apart.
 BARS = """SetFactory("OpenCASCADE");
@@ -20,6 +22,10 @@ interfaces:
   left: {surface: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}}
   right: {surface: {plane: {point: [0.1, 0, 0], normal: [1, 0, 0]}}}
 modes: {count: 6}
+"""
+LEFT = """\
+interfaces: {left: {surface: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}, tie: average}}
+modes: {count: 0}
 """
 MATERIALS = """\
 materials:
@@ -93,6 +99,47 @@ class Assemblies(CommandTest):
         area = self.mass / (7850 * 0.1)
         self.assertAlmostEqual(area / (math.pi * 0.005**2), 1, delta=5e-3)
         self.assertAlmostEqual(self.stiffness[0, 0] / (210e9 * area / 0.1), 1, delta=5e-4)
+
+    def test_lost_volume_is_reported(self):
+        rod = 'SetFactory("OpenCASCADE"); Cylinder(1) = {0, 5, 5, 100, 0, 0, 5};\n'
+        for more in ("size: 6e-3, order: 1", "size: 3.5e-3, cells: hexahedra, order: 1", "size: 3.5e-3, cells: hexahedra"):
+            with self.subTest(more):
+                said = self.reduce(rod, f"{{{more}}}", "regions: {all: steel}", interfaces=LEFT)
+                lost = 1 - self.mass / (7850 * math.pi * 0.005**2 * 0.1)
+                told = re.search(r"warning: body.yaml:4: mesh: the mesh has ([0-9.]+) % less volume, and mass, than the geometry", said)
+                self.assertEqual(lost > 0.01, told is not None, f"{lost} {said}")
+                if told:
+                    self.assertAlmostEqual(float(told[1]) / (100 * lost), 1, delta=0.05)
+        self.assertNotIn("less volume", self.reduce(rod, "{size: 6e-3, curvature: 32, order: 1}", "regions: {all: steel}", interfaces=LEFT))
+
+    def test_sizes_name_surfaces_as_users_do(self):
+        regions, mass = "regions: {all: steel}\n", "masses: {%s: {surface: {plane: {point: [0, 0, 0], normal: [0, 1, 0]}}, mass: 1}}"
+        self.body(BAR, "{size: 5e-3, sizes: {pump: 1e-3}}", regions + mass % "pmup")
+        self.expect_refusal(1, "body.yaml", says=["body.yaml:4: mesh.sizes.pump: 'pump' is no physical group, interface, load, point or mass; "
+                                                  "did you mean 'pmup'?"])
+        self.body(BAR, "{size: 5e-3, sizes: {zz: 1e-3}}", regions + mass % "pump")
+        self.expect_refusal(1, "body.yaml", says=["or mass; expected one of 'left', 'pump', 'right'"])
+        self.body(BAR, "{size: 5e-3, sizes: {left: 1e-3}}", regions + mass % "left")
+        self.expect_refusal(1, "body.yaml", says=["body.yaml:4: mesh.sizes.left: an interface and a mass have the name 'left', but other surfaces"])
+        self.reduce(BAR, "{size: 5e-3}", regions + mass % "left")
+
+    def test_solids_of_an_iges_file_have_its_unit(self):
+        boxes = [((0, 0, 0), (60, 10, 10)), ((60, 0, 0), (100, 10, 10))]
+        for unit, metres in (("mm", 1e-3), ("in", 0.0254), ("m", 1)):
+            with self.subTest(unit):
+                scaled = [tuple(tuple(x * 1e-3 / metres for x in corner) for corner in box) for box in boxes]
+                self.write("bar.igs", iges_boxes(scaled, unit))
+                listed = self.run_program("--list", "bar.igs").stdout
+                self.assertIn("volume 2: 'SOLID', 4e-06 m^3, from (0.06, 0, 0) m to (0.1, 0.01, 0.01) m", listed)
+                for solids, length in (("glue: true", 0.1), ("volume: 1", 0.06), ("glue: true\nmesh: {size: 5e-3, heal: true}", 0.1)):
+                    self.body("", "{size: 5e-3}", f"regions: {{all: steel}}\n{solids}", interfaces=LEFT)
+                    with open(self.path("body.yaml"), encoding="utf-8") as file:
+                        text = file.read().replace("bar.geo\nlength_unit: mm", "bar.igs")
+                    self.write("body.yaml", text.replace("mesh: {size: 5e-3}\n", "", text.count("mesh:") - 1))
+                    done = self.run_program("body.yaml")
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    with h5py.File(self.path("body.h5")) as file:
+                        self.assertAlmostEqual(file["mass_properties/mass"][()] / (7850 * AREA * length), 1, delta=1e-9)
 
     def test_healing_is_reported(self):
         said = self.reduce(BAR, "{size: 5e-3, heal: true}", "regions: {all: steel}")

@@ -138,6 +138,16 @@ class Cells(CommandTest):
                     self.assertEqual(says in done.stderr, wanted)
                     self.assertEqual("integration: reduced' out" in done.stderr, wanted)
 
+    def test_warnings_of_pieces_have_their_names(self):
+        """The hourglass modes of a bar in two pieces, the second of which is held by the cut alone."""
+        self.write("bar.inp", cell_decks.Box(("hexahedron",) * 3, 2, 3).abaqus())
+        text = BODY.format(name="bar", kept="all").replace("bar.msh", "bar.inp").replace("count: 4", "count: 60")
+        text = text.split("  right:")[0] + "modes:" + text.split("modes:")[1].split("loads:")[0]
+        self.write("bar.yaml", "integration: reduced\n" + text + "pieces: {planes: {axis: x, at: 0.2}, compare: false}\n")
+        done = self.run_program("bar.yaml", "-o", "bar.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"warning: bar.yaml:1: bar\.2: integration: fixed-boundary mode [0-9]+ at .* is an hourglass mode")
+
     def test_plain_integration_locks(self):
         """hex8 without internal modes bends far too little, as other programs' C3D8."""
         self.mesh("bar", ("hexahedron",) * 12, 1)

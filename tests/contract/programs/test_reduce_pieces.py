@@ -88,6 +88,11 @@ class ReducePieces(BarTest):
                             item.dtype.kind == "f" and "units" not in item.attrs else None)
             self.assertEqual(missing, [])
 
+    def test_masses_of_pieces_are_told(self):
+        said = self.reduce(BODY + "masses: {pump: {at: [0.1, 0.01, 0.02], mass: 2}, paint: {surface: bottom, per_area: 3}}\n").stderr
+        self.assertIn("masses.pump: 2 kg with the centre (0.1, 0.01, 0.02) m follow", said)
+        self.assertIn("masses.paint: 3 kg/m^2 on 0.004 m^2 are 0.012 kg", said)
+
     def test_inspect_checks_every_piece_again(self):
         self.reduce(BODY.replace("]}}", "]}, compare: false}"))
         done = self.run_program("--inspect", "body.h5")

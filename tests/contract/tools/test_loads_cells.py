@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 from box_mesh import REPOSITORY
-from cell_decks import SIDE, SIZE, VOLUME, Box
+from cell_decks import SIDE, SIZE, VOLUME, Box, card
 from python_tool import run_python_tool
 
 from bielle_tools import cell_integrals
@@ -154,6 +154,80 @@ class MeshesOfOtherCells(unittest.TestCase):
         done = run_python_tool(TOOL, ["pyramids_run.h5", "bar", "--time", "0.01", "-o", "case.inp"], self.folder)
         self.assertEqual(done.returncode, 1)
         self.assertIn("24 pyramids of 5 nodes, which CalculiX does not know", done.stderr)
+
+
+class TiesOfDecks(unittest.TestCase):
+    """Interfaces with `from`: the forces are spread as the deck ties its nodes."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+        cls.box = Box(("hexahedron",) * 3, 1)
+        cls.left, cls.right = cls.box.left(), [k for k, x in enumerate(cls.box.points) if x[0] == SIZE[0]]
+        cls.box.points = [1000 * x for x in cls.box.points]
+        weights = [1.0 + 0.5 * (i % 3) for i in range(len(cls.right))]
+        rbe3 = card("free", "RBE3", 7, "", 9002, 123456, *(word for w, k in zip(weights, cls.right) for word in (repr(w), "123", k + 1)))
+        cls.write("bar.bdf", cls.box.nastran("MAT1,1,2.1+11,,.3,7800.\nGRID,9001,,0.,100.,50.\nGRID,9002,,650.,120.,50.\n"
+                                             + card("free", "RBE2", 6, 9001, 123456, *(k + 1 for k in cls.left)) + rbe3, form="large"))
+        cls.write("bar.yaml", cls.body())
+        cls.write("bar_model.yaml", MODEL.replace("NAME", "bar").replace("0.6, 0.1", "0.65, 0.12"))
+        cls.run_program("bielle-reduce", "bar.yaml", "-o", "bar.h5")
+        cls.run_program("bielle-mechanism", "bar_model.yaml", "-o", "bar_run.h5")
+
+    @staticmethod
+    def body(more=""):
+        return (BODY.replace("NAME.inp", "bar.bdf\nlength_unit: mm").replace("BODY", "property_1").replace("{surface: PRESS, tie: average}", "{from: RBE2 6}")
+                .replace("{surface: END, tie: average}", "{from: rbe3  7}") + more)
+
+    @classmethod
+    def write(cls, name, text):
+        with open(os.path.join(cls.folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    @classmethod
+    def run_program(cls, program, *arguments):
+        done = subprocess.run([os.path.join(PROGRAMS, program), *arguments], cwd=cls.folder, capture_output=True, text=True, timeout=200, check=False)
+        if done.returncode:
+            raise AssertionError(f"{program}: {done.stderr}")
+
+    def loaded(self, name="bar"):
+        return LoadedBody(Results(os.path.join(self.folder, f"{name}_run.h5")), "bar", {"bar": os.path.join(self.folder, f"{name}.h5")})
+
+    def test_the_forces_are_those_of_the_constraint_of_the_superelement(self):
+        loaded = self.loaded()
+        rigid, average = loaded.surfaces
+        self.assertTrue(rigid.rigid)
+        self.assertEqual(len(rigid.nodes), len(self.left))
+        places = {tuple(np.round(1000 * loaded.points[k], 6)) for k in average.nodes}
+        self.assertEqual(places, {tuple(np.round(self.box.points[k], 6)) for k in self.right})
+        # C u = q: the transpose of the spread gives the motion of the interface for each shape, that of a mode is zero.
+        motion = np.einsum("akf,akn->fn", average.spread, loaded.T[average.nodes])
+        expected = np.zeros_like(motion)
+        expected[:, 6:12] = np.eye(6)
+        np.testing.assert_allclose(motion, expected, atol=1e-10 * np.abs(loaded.T).max())
+        load = loaded.at(20)
+        self.assertLess(np.abs(load.unbalance).max(), 1e-12 * np.abs(load.interface).max())
+
+    def test_a_deck_that_has_changed_is_told(self):
+        loads = lambda: run_python_tool(TOOL, ["bar_run.h5", "bar", "--time", "0.01"], self.folder)  # noqa: E731
+        self.assertEqual(loads().returncode, 0)
+        with open(os.path.join(self.folder, "bar.bdf"), encoding="utf-8") as file:
+            text = file.read()
+        self.addCleanup(self.write, "bar.bdf", text)
+        self.write("bar.bdf", text.replace("RBE3,7,", "RBE3,8,"))
+        self.assertIn("has no tie 'rbe3  7' any more, which the interface 'tip'", loads().stderr)
+        os.remove(os.path.join(self.folder, "bar.bdf"))
+        self.assertIn("which has its nodes and weights and is not there", loads().stderr)
+
+    def test_added_masses_are_refused(self):
+        self.write("heavy.yaml", self.body("masses: {pump: {at: [0.3, 0.1, 0.05], mass: 2}}\n"))
+        self.write("heavy_model.yaml", MODEL.replace("NAME", "heavy").replace("0.6, 0.1", "0.65, 0.12"))
+        self.run_program("bielle-reduce", "heavy.yaml", "-o", "heavy.h5")
+        self.run_program("bielle-mechanism", "heavy_model.yaml", "-o", "heavy_run.h5")
+        done = run_python_tool(TOOL, ["heavy_run.h5", "bar", "--time", "0.01"], self.folder)
+        self.assertIn("carries 2 kg of added `masses`", done.stderr)
 
 
 if __name__ == "__main__":

@@ -287,7 +287,7 @@ TEST_CASE("mesh sizes by group, interface or load") {
   check("size: 3e-3", "size: 0", "4: mesh.size: expected a number greater than 0");
   check("order: 2", "ordre: 2", "4: mesh: 'ordre' is not a key of the mesh; did you mean 'order'?");
   check("order: 2", "sizes: {big_end: 1e-3, bore_big: 2e-3}",
-        "4: mesh.sizes.bore_big: the surface 'bore_big' gets its size twice");
+        "4: mesh.sizes.bore_big: the surface of 'bore_big' has a size by the name 'big_end' already");
 }
 
 TEST_CASE("regions name materials that exist") {

@@ -100,6 +100,21 @@ TEST_CASE("A warning about a key begins with it, and with its place where this i
         "warning: <mesh> mesh: coarse\nwarning: <damping> weak\nwarning: <> plain\nwarning: beware\n");
 }
 
+TEST_CASE("Warnings of a part of the work have its name, and nothing else of it is shown") {
+  CHECK(printed(false, [] {
+          const auto located = [](const std::string& subject, const std::string& message) {
+            return "<" + subject + "> " + message;
+          };
+          const Progress whole(true, located);
+          Progress part = whole.of_part("bar.2");
+          part.start("modes");
+          part.note("many");
+          part.warn("mesh", "coarse");
+          part.warn("beware");
+          part.finish();
+        }) == "warning: <mesh> bar.2: mesh: coarse\nwarning: bar.2: beware\n");
+}
+
 TEST_CASE("An exception leaves the bar's line, so that its message starts on a new one") {
   const std::string text = printed(true, [] {
     try {

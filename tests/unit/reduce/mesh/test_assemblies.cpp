@@ -135,7 +135,7 @@ TEST_CASE("solids that overlap are refused by name with their common volume") {
                                      "Box(2) = {0.5, 0.5, 0.5, 1, 1, 1};\n"),
                          {});
   wanted.glue = true;
-  CHECK_THAT(import_message(wanted), Contains("volume 1 and volume 2 by 1 m^3, 1e+02 % of the smaller one"));
+  CHECK_THAT(import_message(wanted), Contains("volume 1 and volume 2 by 1 m^3, 100 % of the smaller one"));
 }
 
 TEST_CASE("glue has nothing to do on a single solid") {

@@ -11,6 +11,7 @@
 #include "reduce/reduction/missed_modes.hpp"
 #include "reduce/reduction/reduce_pieces.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/reduction/told_masses.hpp"
 #include "tests/support/cell_box.hpp"
 #include "tests/support/messages.hpp"
 
@@ -224,11 +225,49 @@ TEST_CASE("masses on no surface, far away or outside the body are refused", "[re
   CHECK_THAT(refusal(mass_at({5, 0, 0}, 1)), Contains("masses.motor: stands 4.5"));
   MassRequest far = mass_on("z1", 1);
   far.position = Vector3d(300, 0, 0);
-  CHECK_THAT(refusal(far), Contains("masses.motor: its position is 3"));
+  CHECK_THAT(refusal(far), Contains("masses.motor: its position is 3") && Contains("m from its surface"));
+  far.group.clear();
+  far.place = mesh.points.col(40);
+  CHECK_THAT(refusal(far), Contains("m from its place"));
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average);
   options.coatings = {{"paint", "zz", 1, "masses.paint"}};
   CHECK_THAT(test::message_of<InputError>([&] { test::reduced(mesh, options); }),
              Contains("masses.paint: the mesh has no surface group 'zz'"));
+}
+
+TEST_CASE("masses beside which the body is lost in rounding are refused", "[reduction]") {
+  const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {8, 1, 1}});
+  const double own = 7800 * 0.01;
+  ReductionOptions options = test::steel_body(Tie::rigid, Tie::average);
+  const auto refusal = [&] { return test::message_of<InputError>([&] { test::reduced(mesh, options); }); };
+  for (const double mass : {2e6 * own, 1e300}) {
+    options.masses = {mass_at({0.5, 0, 0}, mass)};
+    CHECK_THAT(refusal(), Contains("masses.motor: its mass of") && Contains("a million times that of the body, 78 kg"));
+  }
+  options.masses[0].mass = 1;
+  options.masses[0].inertia = 1e300 * Matrix3d::Identity();
+  CHECK_THAT(refusal(), Contains("masses.motor: its inertia of 1.5e+300 kg m^2"));
+  options.masses.clear();
+  options.coatings = {{"paint", "z1", 1e300, "masses.paint"}};
+  CHECK_THAT(refusal(), Contains("masses.paint: its mass of 1e+299 kg") && Contains("`per_area` is in kg/m^2"));
+  options.coatings[0].mass_per_area = 0.5e6 * own / 0.1;
+  options.masses = {mass_at({0.5, 0, 0}, 0.5e6 * own)};
+  CHECK(refusal() == "(nothing thrown)");  // the checks of the superelement pass below the limits
+}
+
+TEST_CASE("a place outside of the mesh by more than half a cell is told", "[reduction]") {
+  const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {8, 1, 1}});  // cells 125 mm long
+  const Solid solid = test::steel_solid(mesh);
+  const auto told = [&](double z) {
+    ReductionOptions options;
+    options.masses = {mass_at({0.5, 0.05, z}, 1)};
+    return told_masses(solid, AddedMasses(solid, options.masses, "box"), options);
+  };
+  for (const double z : {-0.06, 0.0, 0.05, 0.1, 0.16}) CHECK(told(z).size() == 1);
+  for (const double z : {-0.07, 0.17}) {
+    REQUIRE(told(z).size() == 2);
+    CHECK_THAT(told(z)[1], Contains("is 70 mm outside of the mesh, whose elements are 125 mm long there"));
+  }
 }
 
 }  // namespace test_added_masses

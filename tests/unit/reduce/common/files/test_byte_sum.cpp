@@ -18,7 +18,7 @@ using bielle::test::TemporaryFolder;
 
 namespace {
 
-std::string bytes_of(const std::string& path) {
+std::string bytes_in_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -40,7 +40,7 @@ TEST_CASE("byte sum: a file with its sum is recognised, and every change of it")
     CHECK_FALSE(has_own_byte_sum(path));
     append_byte_sum(path);
     CHECK(has_own_byte_sum(path));
-    const std::string whole = bytes_of(path);
+    const std::string whole = bytes_in_file(path);
     REQUIRE(whole.size() == size + 32);
     CHECK(whole.substr(0, size) == text_of_size(size));
     for (std::size_t place = 0; place < whole.size(); place += 1 + whole.size() / 50)
