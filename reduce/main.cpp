@@ -15,7 +15,6 @@
 #include "reduce/body_file/deck_ties.hpp"
 #include "reduce/common/command_line.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/files/file_checks.hpp"
 #include "reduce/common/input/key_schema.hpp"
 #include "reduce/common/input/key_words.hpp"
 #include "reduce/common/process/library_settings.hpp"
@@ -24,10 +23,11 @@
 #include "reduce/dense/blas.hpp"
 #include "reduce/distributed/distributed_matrices.hpp"
 #include "reduce/distributed/greeting.hpp"
-#include "reduce/matrices/reduce_matrices.hpp"
+#include "reduce/matrices_command.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/describe.hpp"
 #include "reduce/mesh/import.hpp"
+#include "reduce/output_file.hpp"
 #include "reduce/reduction/integration_checks.hpp"
 #include "reduce/reduction/reduce_pieces.hpp"
 #include "reduce/report/summary.hpp"
@@ -39,22 +39,6 @@ namespace {
 
 using namespace bielle;
 using namespace bielle::reduce;
-
-/// Refuses output files, before the long work, that could not be written or would overwrite an input.
-void check_output(const std::string& path, const std::string& input, const std::string& geometry) {
-  namespace fs = std::filesystem;
-  check_output_file(path);
-  for (const std::string& source : {input, geometry}) {
-    std::error_code missing;
-    if (fs::equivalent(path, source, missing)) {
-      throw InputError(fmt::format("{}: the superelement would replace its own input", path));
-    }
-  }
-}
-
-std::string written(const std::string& path) {
-  return fmt::format("written: {} ({:.1f} MB)\n", path, 1e-6 * std::filesystem::file_size(path));
-}
 
 /// The location of the mesh's matrices: in this process, or on the ranks of bielle-reduce-mpi, which started it.
 class Workplace {
@@ -109,23 +93,6 @@ void reduce_in_pieces(const Mesh& mesh, const BodyFile& file, const std::string&
   }
 }
 
-/// Reduces the matrices of another program.
-void reduce_matrices_of(const MatrixBody& body, const std::string& output, const CommonOptions& common,
-                        Progress& progress) {
-  progress.start("reading");
-  MatrixSet matrices = about(
-      "matrices", [&] { return read_foreign_matrices(body.files, progress); }, Subject::hidden);
-  ReductionReport report;
-  const Superelement result = reduce_matrices(matrices, body.options, progress, common.threads, &report);
-  progress.start("writing");
-  write_superelement(result, output);
-  progress.finish();
-  if (!common.quiet) {
-    fmt::print("{}\n{}{}{}{}", matrices.source, describe(result), describe(report.checks),
-               describe(report, progress.phases()), written(output));
-  }
-}
-
 /// Executes the requests of a body file.
 void reduce(const BodyFile& file, const std::string& output, const CommonOptions& common, const MatrixMaker& matrices) {
   start_blas(common.threads);
@@ -148,20 +115,6 @@ void reduce(const BodyFile& file, const std::string& output, const CommonOptions
               : reduce_whole(mesh, file, output, progress, common, matrices);
 }
 
-/// Takes over the matrices of a file without a body file. @param units  of its numbers; empty: SI
-void reduce_from(const std::string& path, std::string output, const std::string& units, const CommonOptions& common) {
-  if (output.empty()) {
-    output = std::filesystem::path(path).replace_extension(".h5").string();
-  }
-  check_output(output, path, path);
-  start_blas(common.threads);
-  Progress progress(common.quiet);
-  MatrixBody body;
-  body.files.path = path;
-  body.files.units = units;
-  reduce_matrices_of(body, output, common, progress);
-}
-
 /// Reads a body file and executes its requests, whose errors get the line of their key.
 void reduce(const std::string& input, std::string output, bool system_calls, const CommonOptions& common,
             const MatrixMaker& matrices) {
@@ -170,7 +123,7 @@ void reduce(const std::string& input, std::string output, bool system_calls, con
   if (output.empty()) {
     output = std::filesystem::path(input).replace_extension(".h5").string();
   }
-  check_output(output, input, file.matrices ? file.matrices->files.path : file.mesh.path);
+  check_output(output, {input, file.matrices ? file.matrices->files.path : file.mesh.path});
   try {
     reduce(file, output, common, matrices);
   } catch (const InputError& error) {
