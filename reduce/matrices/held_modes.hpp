@@ -10,7 +10,7 @@ struct HeldModes {
   NaturalModes modes;              ///< modes of the free unknowns
   Eigen::MatrixXd effective_mass;  ///< (modes,6) x y z [kg], rx ry rz about the centre of mass [kg m^2]; empty: no
                                    ///< rigid motions
-  Eigen::RowVectorXd whole_mass;  ///< (6) the same numbers of the whole body
+  Eigen::RowVectorXd whole_mass;   ///< (6) the same numbers of the whole body
 };
 
 /// Unknowns of the interfaces that the set declares, or else of the nodes with six unknowns.
