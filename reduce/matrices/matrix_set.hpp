@@ -45,10 +45,10 @@ struct StatedMass {
 
 /// Matrices over n unknowns in SI units. They are as the file has them, not necessarily symmetric.
 struct MatrixSet {
-  std::string name;                    ///< of the body
+  std::string name;                    ///< name of the body
   std::string source;                  ///< format and file, for messages
   bool has_units = false;              ///< whether the file or the user declared the units of the numbers
-  std::vector<std::int64_t> numbers;   ///< of the nodes in the file
+  std::vector<std::int64_t> numbers;   ///< numbers of the nodes in the file
   Eigen::Matrix3Xd positions;          ///< (3,nodes) body axes [m]
   std::vector<Eigen::Matrix3d> axes;   ///< of each node: axes of its unknowns -> body axes
   std::vector<NodalUnknown> unknowns;  ///< (n)
