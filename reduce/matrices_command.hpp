@@ -14,7 +14,7 @@ void reduce_matrices_of(const MatrixBody& body, const std::string& output, const
                         Progress& progress);
 
 /// The same for a file without a body file. @param output  empty: the name of the file with the ending .h5
-/// @param units  of its numbers; empty: SI, or those that the file declares
+/// @param units  units of its numbers; empty: SI, or those that the file declares
 void reduce_from(const std::string& path, std::string output, const std::string& units, const CommonOptions& common);
 
 }  // namespace bielle::reduce

@@ -14,7 +14,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr Eigen::Index fewest_points = 10;  // of shapes that tell directions inside
+constexpr Eigen::Index fewest_points = 10;  // points that tell directions inside
 
 Eigen::MatrixXd sum_of(const std::array<Eigen::MatrixXd, 6>& components) {
   return components[0] + components[1] + components[2];

@@ -33,7 +33,7 @@ struct BodyInertia {
   InertiaSource source = InertiaSource::file;
   /// Largest share of the kinetic energy of a free elastic mode whose direction is not known, 0 to 1.
   double unknown_share = 0;
-  std::array<double, 6> shown{};  ///< of an estimate: as ShownMoments::shares
+  std::array<double, 6> shown{};  ///< shares of an estimate, as in ShownMoments
   std::string told() const;       ///< a sentence or two for the user
 };
 

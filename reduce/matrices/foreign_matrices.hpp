@@ -14,7 +14,7 @@ namespace bielle::reduce {
 
 /// The files that hold the matrices of a body.
 struct ForeignMatrices {
-  std::string path;                          ///< of both matrices, or of the stiffness; or a matrix file
+  std::string path;                          ///< file of both matrices, or of the stiffness; or a matrix file
   std::string mass;                          ///< another file with the mass; empty: none
   std::string nodes;                         ///< another file with the nodes (a deck, a table); empty: none
   std::string format;                        ///< its name in tools/README.md; empty: known by the file

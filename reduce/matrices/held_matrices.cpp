@@ -7,31 +7,11 @@
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/dense/dense_solves.hpp"
-#include "reduce/sparse/dense_factor.hpp"
-#include "reduce/sparse/symmetric_factor.hpp"
+#include "reduce/matrices/set_algebra.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-/// The lower triangle with its whole diagonal.
-SymmetricMatrix lower_triangle(const SparseColumns& matrix) {
-  SymmetricMatrix result;
-  result.size = matrix.cols();
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    result.rows.push_back(j);
-    result.values.push_back(0);
-    const std::size_t diagonal = result.values.size() - 1;
-    for (SparseColumns::InnerIterator entry(matrix, j); entry; ++entry) {
-      if (entry.row() == j) result.values[diagonal] = entry.value();
-      if (entry.row() <= j || entry.value() == 0) continue;
-      result.rows.push_back(entry.row());
-      result.values.push_back(entry.value());
-    }
-    result.starts.push_back(static_cast<std::int64_t>(result.rows.size()));
-  }
-  return result;
-}
 
 /// G: stiffnesses of the size of the largest one of the unknowns that a condition concerns.
 Eigen::VectorXd condition_stiffness(const SparseColumns& conditions, const Eigen::VectorXd& diagonal) {
@@ -61,12 +41,8 @@ void HeldMatrices::factorise(int threads) {
     const Eigen::VectorXd added = condition_stiffness(conditions, stiffness.diagonal());
     stiffness += SparseColumns(conditions * added.asDiagonal() * conditions.transpose());
   }
-  const SymmetricMatrix lower = lower_triangle(stiffness);
   try {
-    if (lower.size <= most_dense_unknowns)
-      factor_ = std::make_unique<DenseFactor>(lower);
-    else
-      factor_ = std::make_unique<SymmetricFactor>(lower, std::span<const std::int64_t>{}, threads);
+    factor_ = definite_factor(stiffness, threads);
   } catch (const NotPositiveDefinite& error) {
     const auto at = static_cast<std::size_t>(error.unknown());
     const Eigen::Index unknown = at < ties_.inner.size() ? ties_.inner[at] : -1;

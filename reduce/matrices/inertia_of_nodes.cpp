@@ -5,6 +5,8 @@
 // displacements and rotations, and P = tr(J)/2 I - J to that of rotations.
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/matrices/body_inertia.hpp"

@@ -35,7 +35,7 @@ struct NodePoint {
 };
 
 struct MatrixOptions {
-  std::string name;  ///< of the body; empty: that of the file
+  std::string name;  ///< name of the body; empty: that of the file
   std::string input_text;
   /// None: the nodes that the file declares as interfaces, or else all nodes.
   std::vector<NodeInterface> interfaces;

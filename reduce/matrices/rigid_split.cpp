@@ -13,7 +13,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr double thin_body = 1e-6;       // of the largest principal P
+constexpr double thin_body = 1e-6;       // relative to the largest principal P
 constexpr double known_direction = 0.5;  // share of the energy of a motion from which on its directions count as known
 
 /// A^+ of a semidefinite matrix: a line of mass has no inertia about itself.
@@ -33,7 +33,7 @@ Eigen::RowVectorXd rigid_gradient(const RigidSplit& split, int k, int l) {
   return result;
 }
 
-/// The rest has no angular momentum, so that N_kl = N_lk. Where they differ, the mean has weights by which that with
+/// The rest has no angular momentum, so that N_kl = N_lk. If they differ, the mean has weights by which that with
 /// the shorter arm counts most: a line of mass has no N_kl along l across it.
 RestMoments symmetric_moments(const RestMoments& found, const Eigen::Matrix3d& second) {
   const SymmetricEigenpairs principal = symmetric_eigenpairs(second);
@@ -166,7 +166,7 @@ RestInertia rest_inertia(const std::array<Eigen::MatrixXd, 6>& components, const
     else
       scale(k) = 0, missing(k) = 1;
   }
-  const Eigen::MatrixXd momenta = product(mass, pairs->vectors);  // of unit amplitudes
+  const Eigen::MatrixXd momenta = product(mass, pairs->vectors);  // per unit amplitude
   const Eigen::MatrixXd scaled =
       product(split.rest, product(pairs->vectors * scale.asDiagonal(), transposed_product(momenta, split.rest)));
   result.open = congruent(momenta * missing.asDiagonal() * momenta.transpose(), split.rest);

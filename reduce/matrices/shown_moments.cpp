@@ -17,7 +17,8 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr double thin_direction = 1e-6;  // of the largest principal P: below, a body counts as thin in that direction
+constexpr double thin_direction =
+    1e-6;  // relative to the largest principal P: below, a body counts as thin in that direction
 
 /// Interface coordinates (N) of the field (e_k x_l + e_l x_k) / 2, or e_k x_k; axes: principal ones -> body axes.
 Eigen::VectorXd shown_field(const std::vector<Interface>& interfaces, Eigen::Index size, const Eigen::Vector3d& centre,

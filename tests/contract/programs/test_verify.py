@@ -93,7 +93,7 @@ class Verify(CommandTest):
         self.assertIn("its units are probably those of --units mm-t-s", self.verified(1, "beam.h5"))
         said = self.verified(0, "beam.h5", "--units", "mm-t-s")
         self.assertIn("mass 0.2 kg", said)
-        self.expect_refusal(1, "--verify", "beam.h5", "--units", "mm-t-m", says=["expected one of m-kg-s, mm-t-s", "did you mean 'mm-t-s'"])
+        self.expect_refusal(1, "--verify", "beam.h5", "--units", "mm-t-m", says=["'m' is no unit of time; did you mean 'ms'"])
 
     def test_a_reduced_body_against_itself_and_against_another(self):
         self.write("bar.geo", BAR)
@@ -110,7 +110,7 @@ class Verify(CommandTest):
     def test_wrong_requests_are_refused(self):
         self.write_matrices("beam.h5")
         self.write("deck.bdf", "CEND\n")
-        self.expect_refusal(1, "--verify", "deck.bdf", says=["deck.bdf: is no superelement and no matrix file"])
+        self.expect_refusal(1, "--verify", "deck.bdf", says=["deck.bdf", "holds no DMIG"])
         self.expect_refusal(1, "--verify", "none.h5", says=["none.h5"])
         self.expect_refusal(1, "--verify", "beam.h5", "--units", "mm-t-s", says=["--units goes with files that declare no units"])
         self.expect_refusal(1, "--against", "beam.h5", says=["expected one of: a body file"])
