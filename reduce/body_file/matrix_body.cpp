@@ -23,6 +23,7 @@ ForeignMatrices read_files(const YamlValue& value) {
   files.path = value.at("file").file_path();
   if (const auto mass = value.find("mass")) files.mass = mass->file_path();
   if (const auto nodes = value.find("nodes")) files.nodes = nodes->file_path();
+  if (const auto unknowns = value.find("unknowns")) files.unknowns = unknowns->file_path();
   if (const auto format = value.find("format")) files.format = format->text();
   if (const auto units = value.find("units")) files.units = units->text();
   if (const auto names = value.find("names"))
@@ -110,6 +111,10 @@ const KeyTable& matrices_keys() {
        {"mass", file("matrices"), optional, "Another file with the mass, for formats with one matrix in each."},
        {"nodes", file("deck or table"), optional,
         "Another file with the numbers and positions of the nodes: a deck, or a table with the columns node, x, y, z."},
+       {"unknowns", file("table"), optional,
+        "Another file with the order of the unknowns, for formats that have rows alone: a table with the columns node "
+        "and "
+        "component."},
        {"units", text(), computed("SI, or those that the file declares"),
         "Units of length, mass and time of the numbers: `mm-t-s` for millimetres, tonnes and seconds (N, MPa)."},
        {"names", entries("matrix", {text()}), optional,
@@ -129,6 +134,8 @@ MatrixBody read_matrix_body(const YamlValue& root) {
     for (const auto& [name, value] : interfaces->entries())
       options.interfaces.push_back(read_node_interface(name, value));
     if (options.interfaces.empty()) interfaces->fail("expected at least one, or leave the key out");
+    for (const NodeInterface& interface : options.interfaces)
+      body.files.interfaces.insert(body.files.interfaces.end(), interface.nodes.begin(), interface.nodes.end());
   }
   if (const auto modes = root.find("modes")) {
     const RequestedModes requested = read_modes(*modes);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "reduce/common/error.hpp"
 #include "reduce/common/files/hdf5_file.hpp"
@@ -22,6 +23,8 @@ MatrixSet read_foreign_matrices(const ForeignMatrices& request, Progress& progre
   };
   add("--mass", request.mass);
   add("--nodes", request.nodes);
+  add("--unknowns", request.unknowns);
+  add("--interfaces", fmt::format("{}", fmt::join(request.interfaces, ",")));
   add("--from", request.format);
   add("--units", request.units);
   std::string names;

@@ -1,8 +1,10 @@
 // Matrices in the files of other programs: tools/bielle-exchange converts them to a matrix file in SI units.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "reduce/matrices/matrix_set.hpp"
 
@@ -17,8 +19,10 @@ struct ForeignMatrices {
   std::string path;                          ///< file of both matrices, or of the stiffness; or a matrix file
   std::string mass;                          ///< another file with the mass; empty: none
   std::string nodes;                         ///< another file with the nodes (a deck, a table); empty: none
+  std::string unknowns;                      ///< another file with the order of the unknowns; empty: none
   std::string format;                        ///< its name in tools/README.md; empty: known by the file
   std::map<std::string, std::string> names;  ///< of matrices in the file: "stiffness" -> "KAAX"
+  std::vector<std::int64_t> interfaces;      ///< numbers of nodes that become interfaces; empty: not told
   std::string units;                         ///< units of its numbers, "mm-t-s"; empty: SI, or what the file declares
 };
 

@@ -114,7 +114,7 @@ class Verify(CommandTest):
         self.expect_refusal(1, "--verify", "none.h5", says=["none.h5"])
         self.expect_refusal(1, "--verify", "beam.h5", "--units", "mm-t-s", says=["the file declares the unit of length m"])
         self.expect_refusal(1, "--against", "beam.h5", says=["expected one of: a body file"])
-        self.expect_refusal(1, "--list", "beam.h5", "--against", "beam.h5", says=["--against and --units go with --verify FILE"])
+        self.expect_refusal(1, "--list", "beam.h5", "--against", "beam.h5", says=["--against goes with --verify FILE"])
 
 
 if __name__ == "__main__":

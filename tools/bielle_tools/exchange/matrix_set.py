@@ -87,6 +87,15 @@ class MatrixSet:
             twice = next(place for place in places if places.count(place) > 1)
             raise InputError(f"the unknown {self.name_of(*twice)} stands twice")
 
+    def declare_interfaces(self, numbers):
+        """Makes nodes the interfaces. @raises InputError for a number that no node has"""
+        rows = {int(number): row for row, number in enumerate(self.numbers)}
+        names = {row: name for name, row in self.interfaces.items()}
+        for number in numbers:
+            if number not in rows:
+                raise InputError(f"there is no node {number} that could become an interface")
+        self.interfaces = {names.get(rows[number], f"node_{number}"): rows[number] for number in numbers}
+
     def matrices(self):
         """The matrices that there are, by name."""
         named = {"stiffness": self.stiffness, "mass": self.mass, "damping": self.damping,

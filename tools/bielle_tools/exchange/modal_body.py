@@ -67,7 +67,7 @@ def chosen_rows(path, numbers, wanted, most):
         if 3 * len(numbers) > most:
             raise InputError(f"'{path}': {counted(len(numbers), 'node')} are more than {most - 6} shapes can move: "
                              "name those that become "
-                             "interfaces (--interfaces 12,40)")
+                             "interfaces, by --interfaces 12,40 of bielle-exchange or the interfaces of a body file")
         return np.arange(len(numbers))
     place = {int(number): row for row, number in enumerate(numbers)}
     for number in wanted:
