@@ -8,13 +8,6 @@ namespace bielle::reduce {
 
 namespace {
 
-std::array<bool, 6> read_residual(const YamlValue& value) {
-  if (value.is_sequence()) return read_directions(value);
-  std::array<bool, 6> all{};
-  all.fill(value.boolean());
-  return all;
-}
-
 PointRequest read_point(const std::string& name, const YamlValue& value, MeshRequest& mesh) {
   check_name(name, value);
   PointRequest point;
@@ -35,6 +28,13 @@ PointRequest read_point(const std::string& name, const YamlValue& value, MeshReq
 }
 
 }  // namespace
+
+std::array<bool, 6> read_residual(const YamlValue& value) {
+  if (value.is_sequence()) return read_directions(value);
+  std::array<bool, 6> all{};
+  all.fill(value.boolean());
+  return all;
+}
 
 const KeyTable& point_keys() {
   using namespace keys;

@@ -7,6 +7,7 @@
 //     hook: {group: hook, position: [0, 0, 1], residual: [x, z, ry]}
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "reduce/mesh/mesh_request.hpp"
@@ -21,6 +22,9 @@ namespace bielle::reduce {
 
 /// Returns the keys of a point.
 const KeyTable& point_keys();
+
+/// `residual`: true, false or a list of directions. @throws InputError
+std::array<bool, 6> read_residual(const YamlValue& value);
 
 /// @param mesh  gets the surfaces
 /// @throws InputError `file:line: key: what was expected`

@@ -7,6 +7,7 @@
 
 #include "reduce/body_file/body_axes.hpp"
 #include "reduce/body_file/body_interfaces.hpp"
+#include "reduce/body_file/body_points.hpp"
 #include "reduce/body_file/requested_modes.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
@@ -80,8 +81,9 @@ NodePoint read_node_point(const std::string& name, const YamlValue& value) {
   point.subject = value.path();
   if (value.has("node") == value.has("at"))
     value.fail("expected either `node`, a node of the file, or `at`, a place among its nodes");
-  for (const char* key : {"group", "position", "residual"})
+  for (const char* key : {"group", "position"})
     if (value.has(key)) value.at(key).fail("it belongs to a geometry: matrices have nodes alone; remove this key");
+  point.residual = read_residual(value.at("residual"));
   if (const auto node = value.find("node"))
     point.node = node->integer();
   else

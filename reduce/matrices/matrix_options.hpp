@@ -31,6 +31,7 @@ struct NodePoint {
   std::string name;
   std::optional<std::int64_t> node;
   std::optional<Eigen::Vector3d> place;  ///< [m]
+  std::array<bool, 6> residual{};        ///< loads x y z rx ry rz, body axes, that get residual vectors
   std::string subject;                   ///< "points.tip"
 };
 

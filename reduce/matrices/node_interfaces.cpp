@@ -180,12 +180,12 @@ class NodeTieMaker {
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
     Mesh mesh;
     mesh.points = set_.positions;
-    Group& group = mesh.groups["tied"];
+    Group& group = mesh.groups["nodes"];
     for (const std::size_t k : order) {
       group.nodes.push_back(nodes[k]);
       group.weights.push_back(request.weights.empty() ? 1.0 : request.weights[k]);
     }
-    return integrate_tied(mesh, "tied");
+    return integrate_tied(mesh, "nodes");
   }
 
   Interface tied_interface(const NodeInterface& request, const std::vector<int>& nodes) const {

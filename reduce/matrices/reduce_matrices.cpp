@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -15,10 +14,10 @@
 #include "reduce/matrices/held_matrices.hpp"
 #include "reduce/matrices/matrix_basis.hpp"
 #include "reduce/matrices/node_interfaces.hpp"
+#include "reduce/matrices/set_points.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
-#include "reduce/superelement/point_weights.hpp"
 
 namespace bielle::reduce {
 
@@ -162,58 +161,12 @@ void put_exact_rigid_motions(const std::vector<Interface>& interfaces, const Mas
   displacement.leftCols(kept) += product(missing, nearest);
 }
 
-void add_shapes(const MatrixSet& set, const Eigen::MatrixXd& shapes, const MassProperties& properties,
-                Superelement& body) {
-  if (set.shapes) {
-    body.mesh.points = set.shapes->points;
-    body.mesh.cells = set.shapes->cells;
-    body.displacement_recovery = product(set.shapes->displacement, shapes);
-  } else {
-    std::vector<Eigen::Index> rows;
-    std::vector<int> movable;
-    std::vector<int> translations(set.numbers.size(), 0);
-    for (const NodalUnknown& u : set.unknowns)
-      if (!u.is_scalar() && !u.is_rotation()) ++translations[static_cast<std::size_t>(u.node)];
-    for (std::size_t a = 0; a < translations.size(); ++a) {
-      if (translations[a] < 3) continue;
-      movable.push_back(static_cast<int>(a));
-      for (int i = 0; i < 3; ++i) rows.push_back(3 * static_cast<Eigen::Index>(a) + i);
-    }
-    const Eigen::MatrixXd all = nodal_motions(set, false) * shapes;
-    body.mesh.points = set.positions(Eigen::all, movable);
-    body.displacement_recovery = all(rows, Eigen::all);
-  }
+void add_recovery(const PointMotions& motions, const Eigen::MatrixXd& shapes, Superelement& body) {
+  body.mesh.points = motions.points;
+  body.mesh.cells = motions.cells;
+  body.displacement_recovery = motions.displacement * shapes;
   if (body.mesh.points.cols() > 0)
-    put_exact_rigid_motions(body.interfaces, properties, body.mesh.points, body.displacement_recovery);
-}
-
-/// The motion of a named point: that of its node, with the rotation of the nodes around it if it has none of its own.
-NamedPoint named_point(const MatrixSet& set, const NodePoint& request, const Superelement& body) {
-  NamedPoint result;
-  const int node = request.node ? node_index(set, *request.node) : -1;
-  result.position = node >= 0 ? Eigen::Vector3d(set.positions.col(node)) : *request.place;
-  const PointWeights around = point_weights(body.mesh.points, result.position, set.name);
-  Eigen::MatrixXd motions(3 * static_cast<Eigen::Index>(around.nodes.size()), body.size());
-  for (std::size_t a = 0; a < around.nodes.size(); ++a)
-    motions.middleRows(3 * static_cast<Eigen::Index>(a), 3) =
-        body.displacement_recovery.middleRows(3 * around.nodes[a], 3);
-  result.shapes = product(around.rows, motions);
-  return result;
-}
-
-void add_points(const MatrixSet& set, const MatrixOptions& options, const Eigen::MatrixXd& shapes, Superelement& body) {
-  const Eigen::MatrixXd turns = options.points.empty() ? Eigen::MatrixXd() : nodal_motions(set, true) * shapes;
-  std::set<int> turning;
-  for (const NodalUnknown& u : set.unknowns)
-    if (u.is_rotation()) turning.insert(u.node);
-  for (const NodePoint& request : options.points)
-    about(request.subject, [&] {
-      NamedPoint point = named_point(set, request, body);
-      if (request.node)
-        if (const int node = node_index(set, *request.node); turning.contains(node))
-          point.shapes.bottomRows(3) = turns.middleRows(3 * node, 3);
-      body.points[request.name] = point;
-    });
+    put_exact_rigid_motions(body.interfaces, mass_properties(body), body.mesh.points, body.displacement_recovery);
 }
 
 /// The file's damping acts on deformation alone, as all damping of a superelement.
@@ -270,7 +223,10 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   const NodeTies ties = tie_nodes(set, options.interfaces.empty() ? default_interfaces(set) : options.interfaces);
   progress.start("factorisation");
   const HeldMatrices held(set, ties, threads);
-  const MatrixBasis basis = matrix_basis(set, ties, held, options, progress, threads);
+  MatrixBasis basis = matrix_basis(set, ties, held, options, progress, threads);
+  const PointMotions motions = point_motions(set);
+  const std::vector<SetPoint> points = set_points(set, motions, options.points);
+  const Eigen::Index residual_vectors = add_residual_vectors(set, ties, held, points, basis);
 
   progress.start("reduced matrices");
   const Eigen::MatrixXd& T = basis.shapes;
@@ -281,6 +237,7 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   body.input = options.input_text.empty() ? fmt::format("# from {}\n", set.source) : options.input_text;
   body.interfaces = ties.interfaces;
   body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);
+  body.residual_vectors = residual_vectors;
   body.stiffness.setZero(size, size);
   const Eigen::MatrixXd mass = transposed_product(T, set.mass * T);
   body.mass = (mass + mass.transpose()) / 2;
@@ -304,8 +261,9 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   add_spin_stiffness(set, options, T, body, progress);
   progress.note(inertia.told());
   progress.start("points and recovery");
-  add_shapes(set, T, properties, body);
-  add_points(set, options, T, body);
+  add_recovery(motions, T, body);
+  for (const SetPoint& point : points)
+    body.points[point.request.name] = {point.position, product(point.rows, T), point.request.residual};
 
   progress.start("checks");
   const std::vector<Check> checks = checks_of(body);

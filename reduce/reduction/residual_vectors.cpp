@@ -5,38 +5,12 @@
 #include <fmt/format.h>
 
 #include "reduce/common/error.hpp"
-#include "reduce/common/leading_component.hpp"
-#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/reduction/load_patterns.hpp"
-#include "reduce/reduction/reduced_matrices.hpp"
+#include "reduce/reduction/residual_combination.hpp"
 
 namespace bielle::reduce {
 
 namespace {
-
-/// Energies below this share of the whole answer's count as zero, and so do directions in which all vectors together
-/// have less. It corresponds to displacements of 1e-5, far above the rounding of solutions and far below the accuracy
-/// that a load needs.
-constexpr double negligible = 1e-10;
-
-/// Displacement fields of the held body.
-struct HeldFields {
-  RowMatrix shapes;          ///< (3 points, k)
-  Eigen::MatrixXd released;  ///< (released directions, k): their values
-
-  void combine(const Eigen::MatrixXd& weights) {
-    shapes = RowMatrix(shapes * weights);
-    released = Eigen::MatrixXd(released * weights);
-  }
-  /// Makes leading components positive, whatever the signs of the eigenvectors.
-  void choose_signs() {
-    for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
-      if (leading_component(shapes.col(k)) >= 0) continue;
-      shapes.col(k) = -shapes.col(k);
-      released.col(k) = -released.col(k);
-    }
-  }
-};
 
 RowMatrix all_loads(const std::vector<ResidualRequest>& requests, Eigen::Index rows) {
   Eigen::Index count = 0;
@@ -48,19 +22,6 @@ RowMatrix all_loads(const std::vector<ResidualRequest>& requests, Eigen::Index r
     column += request.loads.cols();
   }
   return loads;
-}
-
-/// r = u - Phi Phi^T M u
-void remove_modes(const BodyMatrices& matrices, const Basis& basis, HeldFields& fields) {
-  if (basis.modes() == 0) return;
-  const RowMatrix modes = basis.shapes.rightCols(basis.modes());
-  const Eigen::MatrixXd amplitudes = inner_products(modes, matrices.mass_times(fields.shapes));
-  fields.shapes -= modes * amplitudes;
-  fields.released -= basis.released.rightCols(basis.modes()) * amplitudes;
-}
-
-Eigen::VectorXd twice_energies(const BodyMatrices& matrices, const RowMatrix& fields) {
-  return fields.cwiseProduct(matrices.stiffness_times(fields)).colwise().sum().transpose();
 }
 
 /// Reference energy of an answer, for the case that the conditions leave nothing of it but rounding: the load against
@@ -82,22 +43,16 @@ void check_requests(const std::vector<ResidualRequest>& requests, const std::vec
   }
 }
 
-/// Combinations of unit energy that are orthogonal in K; linearly dependent ones are left out.
-Eigen::MatrixXd independent_fields(const Eigen::MatrixXd& energies) {
-  const SymmetricEigenpairs pairs = symmetric_eigenpairs(energies);
-  const Eigen::Index rank = (pairs.values.array() > negligible * pairs.values.maxCoeff()).count();
-  const Eigen::VectorXd scale = pairs.values.tail(rank).cwiseSqrt().cwiseInverse();
-  return pairs.vectors.rightCols(rank) * scale.asDiagonal();
-}
-
-void append_to_basis(const HeldFields& fields, const Eigen::VectorXd& eigenvalues, Basis& basis) {
-  const Eigen::Index count = eigenvalues.size(), before = basis.shapes.cols(), modes = basis.modes();
+void append_to_basis(const ResidualCombination& found, const Eigen::MatrixXd& released_answers, Basis& basis) {
+  const Eigen::Index count = found.eigenvalues.size(), before = basis.shapes.cols(), modes = basis.modes();
+  const Eigen::MatrixXd released =
+      released_answers * found.of_answers - basis.released.rightCols(modes) * found.of_modes;
   basis.shapes.conservativeResize(Eigen::NoChange, before + count);
-  basis.shapes.rightCols(count) = fields.shapes;
+  basis.shapes.rightCols(count) = found.fields;
   basis.released.conservativeResize(Eigen::NoChange, before + count);
-  basis.released.rightCols(count) = fields.released;
+  basis.released.rightCols(count) = released;
   basis.eigenvalues.conservativeResize(modes + count);
-  basis.eigenvalues.tail(count) = eigenvalues;
+  basis.eigenvalues.tail(count) = found.eigenvalues;
   basis.residual_vectors = count;
 }
 
@@ -120,7 +75,7 @@ SparseRows loads_of_pattern(const Solid& solid, const LoadRequest& request) {
   const PatternForces pattern = pattern_forces(solid.mesh, request);
   std::vector<Eigen::Triplet<double>> entries;
   for (int k = 0; k < 3; ++k) {
-    if (pattern.forces.row(k).norm() <= negligible * pattern.forces.norm()) continue;
+    if (pattern.forces.row(k).norm() <= negligible_energy * pattern.forces.norm()) continue;
     for (std::size_t a = 0; a < pattern.nodes.size(); ++a)
       for (int l = 0; l < 3; ++l)
         entries.emplace_back(3 * pattern.nodes[a] + l, 3 * k + l, pattern.forces(k, static_cast<Eigen::Index>(a)));
@@ -149,34 +104,12 @@ void add_residual_vectors(const std::vector<ResidualRequest>& requests, const Bo
   if (requests.empty()) return;
   const Eigen::MatrixXd loads = held.restrict(all_loads(requests, basis.shapes.rows()));
   const Eigen::MatrixXd answers = held.solve(loads);
-  HeldFields fields{held.expand(answers), answers.bottomRows(basis.released.rows())};
-  const Eigen::VectorXd whole = twice_energies(matrices, fields.shapes).cwiseMax(least_energies(matrices, loads));
-  remove_modes(matrices, basis, fields);
-  const Eigen::VectorXd rest = twice_energies(matrices, fields.shapes);
-  std::vector<bool> is_left;
-  std::vector<Eigen::Index> left;
-  for (Eigen::Index k = 0; k < rest.size(); ++k) {
-    is_left.push_back(rest(k) > negligible * whole(k));
-    if (is_left.back()) left.push_back(k);
-  }
-  check_requests(requests, is_left);
-  if (left.empty()) return;
-
-  const Eigen::VectorXd unit = rest.cwiseSqrt().cwiseInverse();
-  fields.combine(Eigen::MatrixXd(unit.asDiagonal())(Eigen::all, left));
-  fields.combine(independent_fields(inner_products(fields.shapes, matrices.stiffness_times(fields.shapes))));
-  // Remainders of the modes after cancellation become visible in small vectors, so the modes are removed once more.
-  remove_modes(matrices, basis, fields);
-  const auto pairs = symmetric_eigenpairs(inner_products(fields.shapes, matrices.mass_times(fields.shapes)),
-                                          inner_products(fields.shapes, matrices.stiffness_times(fields.shapes)));
-  if (!pairs || pairs->values.minCoeff() <= 0)
-    throw ComputationError(
-        "the residual vectors have no positive mass and stiffness: a very distorted mesh may be the cause");
-  const Eigen::VectorXd flexibilities = pairs->values.reverse();  // 1 / omega^2
-  const Eigen::MatrixXd vectors = pairs->vectors.rowwise().reverse();
-  fields.combine(vectors * flexibilities.cwiseSqrt().cwiseInverse().asDiagonal());
-  fields.choose_signs();
-  append_to_basis(fields, flexibilities.cwiseInverse(), basis);
+  const RowMatrix modes = basis.shapes.rightCols(basis.modes());
+  const ResidualCombination found = combine_residuals(held.expand(answers), modes, least_energies(matrices, loads),
+                                                      {[&](const RowMatrix& u) { return matrices.stiffness_times(u); },
+                                                       [&](const RowMatrix& u) { return matrices.mass_times(u); }});
+  check_requests(requests, found.is_left);
+  if (found.eigenvalues.size() > 0) append_to_basis(found, answers.bottomRows(basis.released.rows()), basis);
 }
 
 }  // namespace bielle::reduce

@@ -194,6 +194,29 @@ TEST_CASE("Damping and points of matrices") {
   CHECK(difference(body.damping, test::reduced(set, options).damping) > 0.01);
 }
 
+TEST_CASE("Residual vectors make static answers of points exact") {
+  MatrixOptions options;
+  options.interfaces = {test::tied("a", {10}), test::tied("b", {60})};
+  options.mode_count = 2;
+  NodePoint point;
+  point.name = "quarter";
+  point.node = 30;
+  point.residual = {false, true, false, false, false, true};
+  point.subject = "points.quarter";
+  options.points = {point};
+  const Superelement body = test::reduced(test::beam_set(5), options);
+  REQUIRE(body.residual_vectors == 2);
+  // Clamped beam of length L with a force at a: w = F a^3 b^3 / (3 EI L^3), slope F a^2 b^2 (b - a) / (2 EI L^3).
+  const double a = 0.8, b = 1.2, L = 2, EI = 3e4;
+  const Eigen::MatrixXd shapes = body.points.at("quarter").shapes.rightCols(body.modes());
+  const Eigen::VectorXd stiffness = body.stiffness.diagonal().tail(body.modes());
+  const Eigen::VectorXd answer = stiffness.cwiseInverse().cwiseProduct(shapes.row(1).transpose());
+  CHECK(shapes.row(1).dot(answer) == Approx(std::pow(a * b / L, 3) / (3 * EI)).epsilon(1e-9));
+  CHECK(shapes.row(5).dot(answer) == Approx(a * a * b * b * (b - a) / (2 * EI * L * L * L)).epsilon(1e-9));
+  options.mode_count.reset();  // all modes have the answer
+  CHECK_THROWS_WITH(test::reduced(test::beam_set(5), options), Contains("points.quarter") && Contains("leave nothing"));
+}
+
 TEST_CASE("The geometric stiffness of the file belongs to the spin that the user tells") {
   MatrixSet set = test::beam_set();
   MatrixOptions options;

@@ -103,5 +103,5 @@ TEST_CASE("Nodes in one line, and fewer than three, are refused as an interface"
   edge.nodes.resize(2);
   edge.weights.resize(2);
   CHECK_THROWS_WITH(make_ties(test::steel_solid(mesh), {test::interface("a", "hub", Tie::rigid)}),
-                    Contains("it ties 2 nodes of the solid"));
+                    Contains("the hub are 2 nodes of the solid"));
 }

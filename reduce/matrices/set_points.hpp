@@ -1,0 +1,42 @@
+// Named points of foreign matrices, and the residual vectors of loads on them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reduce/matrices/held_matrices.hpp"
+#include "reduce/matrices/matrix_basis.hpp"
+#include "reduce/matrices/matrix_options.hpp"
+
+namespace bielle::reduce {
+
+/// Displacements at points of the body in terms of the unknowns: of the shapes of the file, or of nodes with three
+/// translations.
+struct PointMotions {
+  Eigen::Matrix3Xd points;                                    ///< (3,p) [m]
+  Eigen::SparseMatrix<double, Eigen::RowMajor> displacement;  ///< (3p,n) rows x y z of the first point, of the second
+  std::map<int, Eigen::MatrixXi> cells;                       ///< as NodalShapes::cells
+};
+
+PointMotions point_motions(const MatrixSet& set);
+
+/// A point with its motion in terms of the unknowns.
+struct SetPoint {
+  NodePoint request;
+  Eigen::Vector3d position;  ///< [m]
+  Eigen::MatrixXd rows;      ///< (6,n): displacement and rotation, body axes
+};
+
+/// A node has its own displacement and rotation, if it has the unknowns for them, or else those of the points around
+/// it.
+/// @throws InputError about a request: no such node, a place away from all points, two points of one name
+std::vector<SetPoint> set_points(const MatrixSet& set, const PointMotions& motions,
+                                 const std::vector<NodePoint>& requests);
+
+/// Appends residual vectors for the loads that points request. @returns their number
+/// @throws InputError about a request of whose loads nothing is left
+Eigen::Index add_residual_vectors(const MatrixSet& set, const NodeTies& ties, const HeldMatrices& held,
+                                  const std::vector<SetPoint>& points, MatrixBasis& basis);
+
+}  // namespace bielle::reduce
