@@ -17,8 +17,14 @@ namespace bielle::reduce {
 
 namespace {
 
+/// A verification takes several factorisations: larger sets are verified only on request.
+constexpr Eigen::Index most_verified = 30000;
+
 /// Verifies the matrices as they were read. @returns the line of the summary
 std::string verified(const MatrixSet& matrices, const CommonOptions& common, Progress& progress) {
+  if (matrices.size() > most_verified)
+    return fmt::format("{}: not verified, since {} take long; --verify does it\n", matrices.source,
+                       counted(matrices.size(), "unknown"));
   progress.start("verification");
   const Verification verification = verify(matrices, common.threads);
   const std::vector<Finding> failures = verification.failures();

@@ -33,11 +33,7 @@ std::vector<MatrixSet> sets_of_superelement(const std::string& path) {
 /// The sets of a file: one, or one for each piece of a body.
 std::vector<MatrixSet> sets_of(const std::string& path, const std::string& units, Progress& progress) {
   check_input_file(path);
-  if (Hdf5File::begins_like_one(path) && !holds_matrices(path)) {
-    if (!units.empty())
-      throw InputError(fmt::format("--units goes with files that declare no units: {} is a superelement", path));
-    return sets_of_superelement(path);
-  }
+  if (Hdf5File::begins_like_one(path) && !holds_matrices(path)) return sets_of_superelement(path);
   ForeignMatrices files;
   files.path = path;
   files.units = units;
@@ -51,7 +47,7 @@ bool verify_file(const VerifyRequest& request, const CommonOptions& common) {
   Progress progress(common.quiet);
   const std::vector<MatrixSet> sets = sets_of(request.path, request.units, progress);
   std::vector<MatrixSet> others;
-  if (request.against) others = sets_of(*request.against, "", progress);
+  if (request.against) others = sets_of(*request.against, request.units, progress);
   if (request.against && (sets.size() > 1 || others.size() > 1))
     throw InputError("--against compares whole bodies: one of the files holds a body in pieces");
   bool passed = true;

@@ -51,7 +51,7 @@ NodeInterface read_node_interface(const std::string& name, const YamlValue& valu
     value.fail("expected either `node`, a node of the file, or `nodes`, a list of them");
   if (const auto node = value.find("node")) {
     interface.nodes = {node->integer()};
-    for (const char* key : {"position", "weights"})
+    for (const char* key : {"position", "weights", "tie"})
       if (value.has(key)) value.at(key).fail("a single node is where it is: remove this key, or tie `nodes`");
   } else {
     const YamlValue nodes = value.at("nodes");

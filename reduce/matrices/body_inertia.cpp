@@ -106,6 +106,14 @@ std::string BodyInertia::told() const {
           100 * unknown_share);
     case InertiaSource::nodes:
       return "the inertia of large rotations is that of the nodes";
+    case InertiaSource::nearly_nodes:
+      return fmt::format(
+          "the inertia of large rotations is that of the nodes; the mass matrix has terms that do not turn "
+          "with them, as where axial and lateral mass of a beam differ or rotations have no mass{}",
+          unknown_share < 0.005 ? std::string()
+                                : fmt::format(": of the kinetic energy of a free mode up to {:.0f} % has "
+                                              "no known direction",
+                                              100 * unknown_share));
     case InertiaSource::equal_masses:
       return fmt::format(
           "the inertia of large rotations is an estimate with the directions of the file's shapes, as if "
@@ -157,9 +165,10 @@ BodyInertia body_inertia(const MatrixSet& set, const Eigen::MatrixXd& shapes, co
       result.source = InertiaSource::equal_masses;
       known = equal_masses(*set.shapes, shapes, body.mass);
     }
+    if (result.source == InertiaSource::estimate && set.scalars() == 0) result.source = InertiaSource::nearly_nodes;
     if (!has_shapes && !is_semidefinite(known)) known = inertia_of_nodes(set, shapes, false);
     RestInertia rest = rest_inertia(known, mass, split);
-    if (result.source == InertiaSource::estimate) {
+    if (!has_shapes) {
       const ShownMoments shown = shown_moments(interfaces, mass, body.centre, split);
       take_shown(shown, rest.moments);
       result.shown = shown.shares;

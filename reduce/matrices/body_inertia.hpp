@@ -26,7 +26,7 @@
 
 namespace bielle::reduce {
 
-enum class InertiaSource { file, shapes, nodes, equal_masses, estimate };
+enum class InertiaSource { file, shapes, nodes, nearly_nodes, equal_masses, estimate };
 
 struct BodyInertia {
   std::array<Eigen::MatrixXd, 6> components;  ///< S_11 S_22 S_33 S_23 S_13 S_12, (N,N)

@@ -71,6 +71,35 @@ Eigen::Index remove_empty_unknowns(MatrixSet& set) {
   return removed;
 }
 
+double reference_eigenvalue(const MatrixSet& set) {
+  const Eigen::VectorXd k = set.stiffness.diagonal(), m = set.mass.diagonal();
+  std::vector<double> scalars, all;
+  for (Eigen::Index i = 0; i < set.size(); ++i) {
+    if (!(k(i) > 0) || !(m(i) > 0)) continue;
+    all.push_back(k(i) / m(i));
+    if (set.unknowns[static_cast<std::size_t>(i)].is_scalar()) scalars.push_back(all.back());
+  }
+  if (!scalars.empty()) return *std::min_element(scalars.begin(), scalars.end());
+  if (all.empty()) return 0;
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+void clear_rounding(MatrixSet& set) {
+  const double least = (set.scalars() > 0 ? 1e-8 : 1e-14) * reference_eigenvalue(set);
+  const Eigen::VectorXd m = set.mass.diagonal().cwiseMax(0);
+  std::vector<bool> is_rounding(set.unknowns.size(), true);
+  for (std::size_t i = 0; i < is_rounding.size(); ++i) is_rounding[i] = m(static_cast<Eigen::Index>(i)) > 0;
+  for (Eigen::Index j = 0; j < set.stiffness.outerSize(); ++j)
+    for (SparseColumns::InnerIterator entry(set.stiffness, j); entry; ++entry)
+      if (std::abs(entry.value()) > least * std::sqrt(m(entry.row()) * m(j)))
+        is_rounding[static_cast<std::size_t>(entry.row())] = is_rounding[static_cast<std::size_t>(j)] = false;
+  set.stiffness.prune([&](Eigen::Index row, Eigen::Index column, double) {
+    return !is_rounding[static_cast<std::size_t>(row)] && !is_rounding[static_cast<std::size_t>(column)];
+  });
+}
+
 SparseColumns nodal_motions(const MatrixSet& set, bool rotations) {
   Triplets entries;
   for (Eigen::Index k = 0; k < set.size(); ++k) {

@@ -74,6 +74,14 @@ MatrixSet read_matrix_set(const std::string& path);
 /// @returns their number
 Eigen::Index remove_empty_unknowns(MatrixSet& set);
 
+/// A square of a frequency that the body has at least, by the diagonals: the least one of scalars, otherwise the median
+/// of the unknowns; 0 if no unknown has both stiffness and mass [rad^2/s^2].
+double reference_eigenvalue(const MatrixSet& set);
+
+/// Clears rows and columns of the stiffness that are rounding: those of the interfaces of a body that is held
+/// statically determinate. With their own mass they would vibrate at less than 1e-4 of a frequency that the body has.
+void clear_rounding(MatrixSet& set);
+
 /// Displacements or rotations of all nodes in body axes, in terms of the unknowns: (3 nodes, n), rows x y z of the
 /// first node, of the second ... A component without an unknown is zero.
 SparseColumns nodal_motions(const MatrixSet& set, bool rotations);

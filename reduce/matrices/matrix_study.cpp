@@ -90,8 +90,10 @@ Unknowns find_references(const MatrixStudy& study, const Eigen::MatrixXd& motion
   const Eigen::VectorXd diagonal = study.stiffness.diagonal(), mass = study.mass.diagonal();
   Eigen::MatrixXd rows = nodal ? study.observed(motions) : mass.cwiseAbs().cwiseSqrt().asDiagonal() * motions;
   const Eigen::VectorXd sizes = rows.colwise().norm().cwiseMax(1e-300);
+  // A node without stiffness is no reference, unless the interfaces move the body without deformation.
+  const bool stiff = nodal && (rows.rowwise().squaredNorm().array() > 0 && diagonal.array() > 0).count() >= 6;
   for (Eigen::Index k = 0; k < study.size(); ++k)
-    if (nodal && !(diagonal(k) > 0)) rows.row(k).setZero();
+    if (stiff && !(diagonal(k) > 0)) rows.row(k).setZero();
   Unknowns order = pivoted_columns(sizes.cwiseInverse().asDiagonal() * rows.transpose());
   order.resize(6);
   std::sort(order.begin(), order.end());

@@ -247,6 +247,14 @@ int node_index(const MatrixSet& set, std::int64_t number) {
   throw InputError(fmt::format("the file has no node {}; the nearest are {}", number, fmt::join(nearest, ", ")));
 }
 
+std::string name_of_kept(const std::vector<Interface>& interfaces, Eigen::Index kept) {
+  Eigen::Index next = 0;
+  for (const Interface& interface : interfaces)
+    for (std::size_t axis = 0; axis < 6; ++axis)
+      if (interface.kept[axis] && next++ == kept) return fmt::format("{} {}", interface.name, direction_words[axis]);
+  return "";
+}
+
 std::vector<NodeInterface> default_interfaces(const MatrixSet& set) {
   std::vector<NodeInterface> result;
   const auto add = [&](const std::string& name, int node) {

@@ -29,6 +29,9 @@ std::vector<NodeInterface> default_interfaces(const MatrixSet& set);
 ///         an average tie without translations or in one line
 NodeTies tie_nodes(const MatrixSet& set, const std::vector<NodeInterface>& requests);
 
+/// "hub rx": the interface and direction of a kept direction.
+std::string name_of_kept(const std::vector<Interface>& interfaces, Eigen::Index kept);
+
 /// Index of the node with this number. @throws InputError with the nearest numbers
 int node_index(const MatrixSet& set, std::int64_t number);
 

@@ -14,6 +14,7 @@
 #include "reduce/matrices/held_matrices.hpp"
 #include "reduce/matrices/matrix_basis.hpp"
 #include "reduce/matrices/node_interfaces.hpp"
+#include "reduce/matrices/rigid_boundary.hpp"
 #include "reduce/matrices/set_points.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
@@ -25,9 +26,6 @@ namespace {
 
 /// |a_ij - a_ji| <= this times sqrt(a_ii a_jj): text formats have at least eight digits.
 constexpr double symmetric_digits = 1e-6;
-/// Force of a rigid motion relative to the stiffness it would meet without cancellation: text formats leave 1e-8.
-constexpr double grounded = 1e-5;
-
 /// Replaces a matrix by its symmetric part. @throws InputError that names the worst pair
 void make_symmetric(const MatrixSet& set, const char* name, SparseColumns& matrix) {
   if (matrix.size() == 0) return;
@@ -50,6 +48,7 @@ void make_symmetric(const MatrixSet& set, const char* name, SparseColumns& matri
 }
 
 void prepare(MatrixSet& set, Progress& progress) {
+  clear_rounding(set);
   make_symmetric(set, "stiffness", set.stiffness);
   make_symmetric(set, "mass", set.mass);
   make_symmetric(set, "damping", set.damping);
@@ -95,70 +94,6 @@ void add_missing_inertia(const MassProperties& whole, Superelement& body, Progre
       fmt::format("some directions of interfaces move no mass, as with lumped masses: each direction gets "
                   "{:.0e} of the mass or inertia of the body",
                   share));
-}
-
-/// K~_bb without the forces of rigid motions. @throws InputError if these are more than rounding
-Eigen::MatrixXd boundary_stiffness(const MatrixSet& set, const NodeTies& ties, const Eigen::MatrixXd& condensed,
-                                   const MassProperties& body) {
-  const Eigen::Index kept = condensed.rows();
-  const Eigen::MatrixXd rigid = interface_rigid_motions(ties.interfaces, body.centre);
-  const double length = radius_of_gyration(body);
-  // Forces are compared with those that a direction would meet if all else were held.
-  const SparseColumns alone = ties.carry.transpose() * set.stiffness * ties.carry;
-  Eigen::VectorXd unit(kept);
-  Eigen::Index row = 0;
-  for (const Interface& interface : ties.interfaces)
-    for (std::size_t axis = 0; axis < 6; ++axis)
-      if (interface.kept[axis]) unit(row++) = axis < 3 ? 1 : length;
-  Eigen::VectorXd stiffness = alone.diagonal().cwiseMax(condensed.diagonal()).cwiseQuotient(unit.cwiseAbs2());
-  const Eigen::MatrixXd forces = product(condensed, rigid);
-  double worst = 0;
-  Eigen::Index at = 0, motion = 0;
-  for (Eigen::Index k = 0; k < 6; ++k)
-    for (Eigen::Index i = 0; i < kept; ++i) {
-      const double relative =
-          std::abs(forces(i, k)) / (unit(i) * (k < 3 ? 1 : length) * std::max(stiffness.maxCoeff(), 1e-300));
-      if (relative > worst) {
-        worst = relative;
-        at = i;
-        motion = k;
-      }
-    }
-  const bool averages_alone = ties.averages.size() == static_cast<std::size_t>(kept);
-  if (worst > grounded && !(averages_alone && kept <= 6)) {
-    constexpr std::array<const char*, 6> motions = {"translation along x", "translation along y", "translation along z",
-                                                    "rotation about x",    "rotation about y",    "rotation about z"};
-    std::string where;
-    Eigen::Index next = 0;
-    for (const Interface& interface : ties.interfaces)
-      for (std::size_t axis = 0; axis < 6; ++axis)
-        if (interface.kept[axis] && next++ == at)
-          where =
-              fmt::format("{} {}", interface.name, std::array<const char*, 6>{"x", "y", "z", "rx", "ry", "rz"}[axis]);
-    throw InputError(
-        fmt::format("{}: a rigid {} of the body causes forces, {:.2g} of its largest stiffness, most at {}: the "
-                    "stiffness is held to "
-                    "the ground, or it does not belong to these positions, axes and units of the nodes. bielle-reduce "
-                    "--verify tells "
-                    "which",
-                    set.source, motions[static_cast<std::size_t>(motion)], worst, where));
-  }
-  if (kept <= 6) return Eigen::MatrixXd::Zero(kept, kept);  // rigid motions alone: no rounding is left
-  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(kept, kept) -
-                               product(rigid, nearest_rigid_motion(ties.interfaces, body.centre, length));
-  const Eigen::MatrixXd elastic = congruent(condensed, rest);
-  return (elastic + elastic.transpose()) / 2;
-}
-
-/// Displacements whose rigid motions are exact: the columns of the interfaces lose theirs and get the geometric ones.
-void put_exact_rigid_motions(const std::vector<Interface>& interfaces, const MassProperties& body,
-                             const Eigen::Matrix3Xd& points, Eigen::MatrixXd& displacement) {
-  const Eigen::MatrixXd rigid = interface_rigid_motions(interfaces, body.centre);
-  const Eigen::MatrixXd nearest = nearest_rigid_motion(interfaces, body.centre, radius_of_gyration(body));
-  const Eigen::Index kept = rigid.rows();
-  const Eigen::MatrixXd found = product(displacement.leftCols(kept), rigid);
-  const Eigen::MatrixXd missing = Eigen::MatrixXd(rigid_motions(points, body.centre)) - found;
-  displacement.leftCols(kept) += product(missing, nearest);
 }
 
 void add_recovery(const PointMotions& motions, const Eigen::MatrixXd& shapes, Superelement& body) {

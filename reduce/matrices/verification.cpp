@@ -56,6 +56,7 @@ Verification verify(MatrixSet set, int threads) {
   result.name = set.name;
   result.source = set.source;
   result.nodes = set.positions.cols();
+  clear_rounding(set);
   result.subjects.push_back(remove_and_name_empty(set));
   result.unknowns = set.size();
   result.scalars = set.scalars();

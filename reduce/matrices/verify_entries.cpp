@@ -86,6 +86,14 @@ void verify_presence(const MatrixStudy& study, VerifiedSubject& subject) {
     if (!limp.empty()) subject.lines.push_back(fmt::format("{} without stiffness", counted(limp.size(), "scalar")));
     limp.clear();
   }
+  const bool all_nodal = std::none_of(limp.begin(), limp.end(), [&](Eigen::Index k) {
+    return study.set.unknowns[static_cast<std::size_t>(k)].is_scalar();
+  });
+  if (!limp.empty() && limp.size() <= 6 && all_nodal && study.set.scalars() + 6 >= study.size()) {
+    subject.lines.push_back(
+        fmt::format("the interfaces move the body without deformation: {}", names_of(study.set, limp)));
+    limp.clear();
+  }
   add_finding(
       subject, {"unknowns_without_stiffness", static_cast<double>(limp.size()), 0, "no mass is without stiffness"},
       fmt::format("{} {} mass but no stiffness, so that nothing holds them to the body: {}",

@@ -140,10 +140,16 @@ std::string other_method(const std::string& method, double modes, double total) 
 
 std::string extras_of(const Superelement& body) {
   std::string result;
+  if (const auto share = body.checks.find("unknown_inertia_share"); share != body.checks.end() && share->second > 0.005)
+    result += fmt::format(
+        "the inertia of large rotations is an estimate: of the kinetic energy of a free mode up to {:.0f} % "
+        "has no known direction, and its gyroscopic terms are left out\n",
+        100 * share->second);
+  std::string patterns;
   for (const auto& [name, pattern] : body.loads) {
-    result += fmt::format("{}{}", result.empty() ? "load patterns: " : ", ", name);
+    patterns += fmt::format("{}{}", patterns.empty() ? "load patterns: " : ", ", name);
   }
-  result += result.empty() ? "" : "\n";
+  result += patterns.empty() ? "" : patterns + "\n";
   result += body.displacement_recovery.size() > 0
                 ? fmt::format("displacements can be recovered at {}", counted(body.mesh.points.cols(), "point"))
                 : std::string("displacements cannot be recovered");

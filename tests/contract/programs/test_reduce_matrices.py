@@ -166,7 +166,7 @@ damping: {ratio: 0.01}
         self.expect_refusal(1, "--from", "beam.npz", "body.yaml", says=["expected one of"])
         self.expect_refusal(1, "--from", "none.npz", says=["none.npz"])
         self.expect_refusal(1, "--from", "beam.npz", "-o", "beam.npz", says=["replace its own input"])
-        self.expect_refusal(1, "body.yaml", "--units", "mm-t-s", says=["--units goes with --from"])
+        self.expect_refusal(1, "body.yaml", "--units", "mm-t-s", says=["--units goes with --from and --verify"])
 
 
 @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (Debian: calculix-ccx)")

@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/common/error.hpp"
+#include "reduce/matrices/superelement_set.hpp"
 #include "tests/unit/reduce/matrices/matrix_bodies.hpp"
+#include "tests/unit/reduce/matrices/verified.hpp"
 
 using namespace bielle;
 using namespace bielle::reduce;
@@ -115,6 +117,25 @@ TEST_CASE("A reduced beam keeps its matrices, whatever scalars describe its insi
   CHECK(plain.centre.x() == Approx(1));
   CHECK(plain.inertia(2, 2) == Approx(2.0));  // m L^2 / 12
   CHECK(plain.inertia(0, 0) == Approx(2e-4));
+}
+
+TEST_CASE("A body with one interface has no stiffness there but rounding") {
+  MatrixOptions options;
+  options.interfaces = {test::tied("a", {10})};
+  const Superelement body = test::reduced(test::beam_set(3), options);
+  REQUIRE(body.interface_directions() == 6);
+  MatrixSet set = matrix_set_of(body);
+  const bool noisy = GENERATE(false, true);
+  if (noisy)
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) set.stiffness.coeffRef(i, j) = 1e-10 * (i - 2 * j);  // neither symmetric nor definite
+  CHECK(test::faults_of(set) == "");
+  const Superelement again = test::reduced(set, {});
+  CHECK(again.stiffness.topLeftCorner(6, 6).norm() == 0);
+  CHECK(difference(body.frequencies, again.frequencies) < 1e-9);
+  // Held to the ground by a spring that would let it swing at a tenth of its first frequency.
+  set.stiffness.coeffRef(1, 1) += 0.01 * std::pow(2 * std::numbers::pi * body.frequencies(0), 2) * body.total_mass;
+  CHECK_THROWS_WITH(test::reduced(set, {}), Contains("held to the ground"));
 }
 
 TEST_CASE("Nodes of a reduced file are its interfaces, or those that it declares") {
