@@ -139,6 +139,20 @@ class Command(InFolder):
         self.run_tool("other.h5", "same.h5", "--to", "matrices")
         assert_same(self, matrix_file.read(self.path("same.h5")), self.body, 0)
 
+    def test_losses_are_told(self):
+        body = beam(*BEAMS["m-kg-s"])
+        body = dataclasses.replace(body, inertia_components=np.zeros((6, body.size, body.size)), interfaces={"left end": 0},
+                                   geometric_stiffness=body.stiffness)
+        matrix_file.write(body, os.path.join(self.folder, "full.h5"))
+        for ending, losses in ((".fmx", ("damping", "geometric stiffness", "inertia components", "names")),
+                               (".mtx", ("geometric stiffness", "inertia components", "names")), (".npz", ("geometric stiffness",)),
+                               (".pch", ("inertia components", "names"))):
+            with self.subTest(ending):
+                said = self.run_tool("full.h5", "out" + ending).stderr
+                self.assertEqual(said.count("left out"), len(losses), said)
+                for loss in losses:
+                    self.assertRegex(said, f"left out: the {loss}|left out: the names of")
+
     def test_a_superelement(self):
         """The program is replaced by one that writes its arguments, and copies the matrices that it gets."""
         stand_in = self.write("bielle-reduce", '#!/bin/sh\necho "$1 $3 $4"; cp "$2" "$4" && exit ${BIELLE_TEST_STATUS:-0}\n')
@@ -147,7 +161,7 @@ class Command(InFolder):
         done = run_python_tool(TOOL, ["body.h5", "new.h5", "--name", "arm"], self.folder, environment)
         self.assertEqual((done.returncode, done.stdout), (0, "--from -o new.h5\n"), done.stderr)
         found = matrix_file.read(self.path("new.h5"))
-        self.assertEqual((found.name, found.length_unit), ("arm", "m"))
+        self.assertEqual((found.name, found.length_unit), ("arm", None))
         assert_same(self, found, self.body, 0)
         done = run_python_tool(TOOL, ["body.h5", "new.h5"], self.folder, {**environment, "BIELLE_TEST_STATUS": "1"})
         self.assertEqual(done.returncode, 1)
@@ -167,8 +181,8 @@ class Command(InFolder):
                 ("--names 'stifness=K': there is no member 'stifness'; did you mean 'stiffness'?", ("empty.pch", "a.op4", "--names", "stifness=K")),
                 ("--names 'K': MEMBER=NAME is expected", ("empty.pch", "a.op4", "--names", "K")),
                 ("--nodes: the format 'matrices' does not use it (it takes none)", ("body.h5", "a.op4", "--nodes", "empty.pch")),
-                ("--interfaces: the format 'dmig' does not use it (it takes --nodes and --mass and --names)",
-                 ("empty.pch", "a.op4", "--interfaces", "3")),
+                ("--unknowns: the format 'dmig' does not use it (it takes --nodes and --mass and --names)",
+                 ("empty.pch", "a.op4", "--unknowns", "empty.pch")),
                 ("--interfaces '3,x': numbers of nodes are expected, such as 12,40, found 'x'",
                  ("empty.npz", "a.op4", "--from", "exudyn", "--interfaces", "3,x")),
                 ("the format 'matrices' is in SI units", ("body.h5", "a.h5", "--to", "matrices", "--to-units", "mm-t-s")),

@@ -44,6 +44,33 @@ TAKES = {
 }
 
 
+# Parts of a MatrixSet for which a format has no place, besides those that its writer reports itself.
+BESIDES = ("geometric_stiffness", "inertia_components", "mass_properties", "shapes", "names")
+LOSES = {
+    "dmig": ("names",), "op4": ("names",), "op4-text": ("names",),
+    "calculix": BESIDES, "abaqus": BESIDES, "matrix_input": BESIDES, "matrix_market": BESIDES, "simscape": BESIDES,
+    "fedem": ("damping", *BESIDES),
+    "npz": ("geometric_stiffness",), "mbdyn": ("geometric_stiffness", "names"), "exudyn": ("geometric_stiffness", "names"),
+}
+TOLD = {
+    "damping": "the damping", "geometric_stiffness": "the geometric stiffness",
+    "inertia_components": "the inertia components, without which the inertia of large rotations is an estimate",
+    "mass_properties": "the mass properties, which follow from the mass matrix", "shapes": "the displacements inside the body",
+    "names": "the names of the interfaces",
+}
+
+
+def losses(name, matrices):
+    """Notes on the parts of a MatrixSet that a format does not hold."""
+    def is_there(part):
+        if part == "names":
+            return any(given != f"node_{matrices.numbers[row]}" for given, row in matrices.interfaces.items())
+        member = getattr(matrices, part)
+        return member is not None and getattr(member, "nnz", 1) > 0
+
+    return [f"left out: {TOLD[part]}" for part in LOSES.get(name, ()) if is_there(part)]
+
+
 @dataclass
 class Options:
     """The options of the command that a format may use."""

@@ -77,6 +77,8 @@ class MatrixSet:
             raise InputError("holds no unknowns")
         if self.positions.shape != (nodes, 3) or not np.isfinite(self.positions).all():
             raise InputError("holds positions of nodes that are no numbers")
+        if self.axes is not None:
+            self._check_axes()
         for name, matrix in self.matrices().items():
             if matrix.shape != (n, n):
                 raise InputError(f"the {name} has {matrix.shape[0]} x {matrix.shape[1]} entries for {counted(n, 'unknown')}")
@@ -86,6 +88,14 @@ class MatrixSet:
         if len(set(places)) < n:
             twice = next(place for place in places if places.count(place) > 1)
             raise InputError(f"the unknown {self.name_of(*twice)} stands twice")
+
+    def _check_axes(self):
+        if self.axes.shape != (len(self.numbers), 3, 3) or not np.isfinite(self.axes).all():
+            raise InputError("holds axes of nodes that are no numbers")
+        errors = np.abs(np.transpose(self.axes, (0, 2, 1)) @ self.axes - np.eye(3)).max(axis=(1, 2)) > 1e-6
+        wrong = np.flatnonzero(errors | (np.linalg.det(self.axes) < 0))
+        if len(wrong):
+            raise InputError(f"the axes of node {self.numbers[wrong[0]]} are no rotation")
 
     def declare_interfaces(self, numbers):
         """Makes nodes the interfaces. @raises InputError for a number that no node has"""

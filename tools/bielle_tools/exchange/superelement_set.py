@@ -25,7 +25,15 @@ def read(path, _options=None):
             damping=sparse(file["reduced/damping"][()]), inertia_components=file["reduced/inertia_components"][()],
             interfaces={name: k for k, name in enumerate(names)},
             mass_properties=MassProperties(*(file[f"mass_properties/{name}"][()] for name in ("mass", "centre", "inertia"))),
-            shapes=shapes, length_unit="m", mass_unit="kg")
+            shapes=shapes, length_unit="m", mass_unit="kg", notes=notes_on(file))
+
+
+def notes_on(file):
+    """A note on the parts of a superelement that a MatrixSet does not hold."""
+    parts = {"reduced/geometric_stiffness": "geometric stiffness of spins and loads", "loads": "load patterns", "points": "named points",
+             "recovery/stress": "stress", "adequacy": "measures of its accuracy"}
+    found = [told for group, told in parts.items() if group in file]
+    return [f"left out of the superelement: {', '.join(found)}"] if found else []
 
 
 def shapes_of(file):
