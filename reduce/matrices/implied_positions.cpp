@@ -188,7 +188,7 @@ std::optional<ImpliedPositions> implied_positions(const MatrixStudy& study, cons
   const Eigen::Matrix3Xd given = study.set.positions(Eigen::all, result.nodes);
   result.positions *= spread_of(given) / spread_of(result.positions);
   const Eigen::Matrix3Xd mirrored = -result.positions;
-  // Of a flat set of nodes both fit, and one of them turned by half a turn: the smaller turn decides.
+  // Both fit a flat set of nodes, one of them turned by half a turn: the smaller turn decides.
   const Similarity as_found = nearest_similarity(given, result.positions), other = nearest_similarity(given, mirrored);
   const double found = as_found.distances.sum(), opposite = other.distances.sum();
   const bool both = std::abs(found - opposite) < 1e-6 * spread_of(given);

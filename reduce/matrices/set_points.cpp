@@ -95,7 +95,7 @@ std::vector<SetPoint> set_points(const MatrixSet& set, const PointMotions& motio
 Eigen::Index add_residual_vectors(const MatrixSet& set, const NodeTies& ties, const HeldMatrices& held,
                                   const std::vector<SetPoint>& points, MatrixBasis& basis) {
   Eigen::MatrixXd loads(set.size(), 0);
-  std::vector<std::string> subjects;  // of each load
+  std::vector<std::string> subjects;  // one for each load
   for (const SetPoint& point : points) {
     const Eigen::MatrixXd more = loads_of(point);
     loads.conservativeResize(Eigen::NoChange, loads.cols() + more.cols());

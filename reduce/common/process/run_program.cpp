@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include <fcntl.h>
@@ -55,11 +56,15 @@ void open_closed_streams() {
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(!open("/dev/null", O_RDWR));
 }
 
+std::string output_fault(bool closed) {
+  return closed ? "standard output was closed before all was printed"
+                : "standard output cannot be written; is the disk full?";
+}
+
 void finish_standard_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  throw ComputationError(errno == EPIPE ? "standard output was closed before all was printed"
-                                        : "standard output cannot be written; is the disk full?");
+  throw ComputationError(output_fault(errno == EPIPE));
 }
 
 }  // namespace
@@ -85,6 +90,7 @@ int run_program(const std::string& program, int (*body)(int argc, char** argv), 
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::resource_unavailable_try_again)
       return report("out of memory: no further thread can be started", 2);
+    if (std::ferror(stdout) != 0) return report(output_fault(error.code() == std::errc::broken_pipe), 2);
     return report(std::string("unforeseen failure: ") + error.what(), 2);
   } catch (const std::exception& error) {
     return report(std::string("unforeseen failure: ") + error.what(), 2);
