@@ -55,15 +55,15 @@ std::array<Eigen::MatrixXd, 6> equal_masses(NodalShapes points, const Eigen::Mat
 }
 
 /// Replaces the moments of the nodes by those that the interfaces show in full.
-void take_shown(const ShownMoments& shown, RestMoments& moments) {
+void take_shown(const ShownMoments& shown, const Eigen::Matrix3d& axes, RestMoments& moments) {
   constexpr double in_full = 0.9;
-  RestMoments principal = turned_moments(moments, shown.axes);
+  RestMoments principal = turned_moments(moments, axes);
   for (std::size_t s = 0; s < 6; ++s) {
     if (shown.shares[s] < in_full) continue;
     const auto k = static_cast<std::size_t>(voigt_pairs[s][0]), l = static_cast<std::size_t>(voigt_pairs[s][1]);
     principal[k][l] = principal[l][k] = shown.moments[s];
   }
-  moments = turned_moments(principal, shown.axes.transpose());
+  moments = turned_moments(principal, axes.transpose());
 }
 
 }  // namespace
@@ -170,7 +170,7 @@ BodyInertia body_inertia(const MatrixSet& set, const Eigen::MatrixXd& shapes, co
     RestInertia rest = rest_inertia(known, mass, split);
     if (!has_shapes) {
       const ShownMoments shown = shown_moments(interfaces, mass, body.centre, split);
-      take_shown(shown, rest.moments);
+      take_shown(shown, split.axes, rest.moments);
       result.shown = shown.shares;
     }
     result.components = joined_inertia(split, rest, mass);

@@ -10,6 +10,7 @@
 #include "reduce/dense/dense_solves.hpp"
 #include "reduce/dense/orthogonal_factors.hpp"
 #include "reduce/dense/symmetric_eigenpairs.hpp"
+#include "reduce/fe/elasticity.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
@@ -104,12 +105,12 @@ SixByThree rotations_by_nodes(const NodalMotion& motion) {
 using Symmetric = Eigen::Matrix<double, 6, 9>;
 
 Symmetric symmetric_parts(const Eigen::Matrix3d& d) {
-  constexpr std::array<std::array<int, 2>, 6> pairs = {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   Symmetric result = Symmetric::Zero();
   for (int p = 0; p < 6; ++p)
     for (int k = 0; k < 3; ++k) {  // (d G)_ij = sum over k of d_ik G_kj; G by columns
-      result(p, 3 * pairs[p][1] + k) += d(pairs[p][0], k) / 2;
-      result(p, 3 * pairs[p][0] + k) += d(pairs[p][1], k) / 2;
+      const auto [i, j] = voigt_pairs[static_cast<std::size_t>(p)];
+      result(p, 3 * j + k) += d(i, k) / 2;
+      result(p, 3 * i + k) += d(j, k) / 2;
     }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/matrices/set_algebra.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
 namespace bielle::reduce {
@@ -13,17 +14,9 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// (n, kept): columns of the identity.
-SparseColumns selection(Eigen::Index n, const std::vector<Eigen::Index>& kept) {
-  Triplets entries;
-  for (std::size_t j = 0; j < kept.size(); ++j)
-    entries.emplace_back(static_cast<int>(kept[j]), static_cast<int>(j), 1.0);
-  SparseColumns result(n, static_cast<Eigen::Index>(kept.size()));
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
+}  // namespace
 
-Eigen::VectorXd largest_in_columns(const SparseColumns& matrix) {
+Eigen::VectorXd largest_entries(const SparseColumns& matrix) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(matrix.cols());
   for (Eigen::Index j = 0; j < matrix.outerSize(); ++j)
     for (SparseColumns::InnerIterator entry(matrix, j); entry; ++entry) {
@@ -32,8 +25,6 @@ Eigen::VectorXd largest_in_columns(const SparseColumns& matrix) {
     }
   return result;
 }
-
-}  // namespace
 
 Eigen::Index MatrixSet::scalars() const {
   return std::count_if(unknowns.begin(), unknowns.end(), [](const NodalUnknown& u) { return u.is_scalar(); });
@@ -48,8 +39,8 @@ std::string MatrixSet::name_of(Eigen::Index unknown) const {
 }
 
 Eigen::Index remove_empty_unknowns(MatrixSet& set) {
-  const Eigen::VectorXd largest = largest_in_columns(set.stiffness).cwiseMax(largest_in_columns(set.mass));
-  std::vector<Eigen::Index> kept;
+  const Eigen::VectorXd largest = largest_entries(set.stiffness).cwiseMax(largest_entries(set.mass));
+  Unknowns kept;
   std::vector<NodalUnknown> unknowns;
   for (Eigen::Index k = 0; k < set.size(); ++k) {
     if (largest(k) == 0) continue;
@@ -58,9 +49,8 @@ Eigen::Index remove_empty_unknowns(MatrixSet& set) {
   }
   const Eigen::Index removed = set.size() - static_cast<Eigen::Index>(kept.size());
   if (removed == 0) return 0;
-  const SparseColumns chosen = selection(set.size(), kept);
   for (SparseColumns* matrix : {&set.stiffness, &set.mass, &set.damping, &set.geometric_stiffness})
-    if (matrix->size() > 0) *matrix = SparseColumns(chosen.transpose() * *matrix * chosen);
+    if (matrix->size() > 0) *matrix = submatrix(*matrix, kept, kept);
   for (Eigen::MatrixXd& matrix : set.inertia_components)
     if (matrix.size() > 0) matrix = Eigen::MatrixXd(matrix(kept, kept));
   if (set.shapes) {

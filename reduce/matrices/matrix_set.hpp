@@ -70,6 +70,9 @@ bool holds_matrices(const std::string& path);
 /// Reads a matrix file. @throws InputError `file: ...` if it is none, or if its parts do not fit together
 MatrixSet read_matrix_set(const std::string& path);
 
+/// Largest absolute value in the row and the column of each unknown.
+Eigen::VectorXd largest_entries(const SparseColumns& matrix);
+
 /// Unknowns without any stiffness and mass, which programs leave in full matrices: they are taken out.
 /// @returns their number
 Eigen::Index remove_empty_unknowns(MatrixSet& set);

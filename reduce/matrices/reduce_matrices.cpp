@@ -15,6 +15,7 @@
 #include "reduce/matrices/matrix_basis.hpp"
 #include "reduce/matrices/node_interfaces.hpp"
 #include "reduce/matrices/rigid_boundary.hpp"
+#include "reduce/matrices/set_algebra.hpp"
 #include "reduce/matrices/set_points.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
@@ -29,8 +30,7 @@ constexpr double symmetric_digits = 1e-6;
 /// Replaces a matrix by its symmetric part. @throws InputError that names the worst pair
 void make_symmetric(const MatrixSet& set, const char* name, SparseColumns& matrix) {
   if (matrix.size() == 0) return;
-  const SparseColumns mirrored = matrix.transpose();
-  const SparseColumns difference = matrix - mirrored;
+  const SparseColumns difference = matrix - SparseColumns(matrix.transpose());
   const Eigen::VectorXd diagonal = matrix.diagonal().cwiseAbs();
   const double least = diagonal.size() > 0 ? 1e-12 * diagonal.maxCoeff() : 0;
   for (Eigen::Index j = 0; j < difference.outerSize(); ++j)
@@ -44,7 +44,7 @@ void make_symmetric(const MatrixSet& set, const char* name, SparseColumns& matri
                       set.source, name, set.name_of(entry.row()), set.name_of(j), set.name_of(j),
                       set.name_of(entry.row()), matrix.coeff(entry.row(), j), matrix.coeff(j, entry.row())));
     }
-  matrix = SparseColumns(0.5 * (matrix + mirrored));
+  matrix = symmetric_part(matrix);
 }
 
 void prepare(MatrixSet& set, Progress& progress) {

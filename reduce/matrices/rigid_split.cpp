@@ -35,11 +35,9 @@ Eigen::RowVectorXd rigid_gradient(const RigidSplit& split, int k, int l) {
 
 /// The rest has no angular momentum, so that N_kl = N_lk. If they differ, the mean has weights by which that with
 /// the shorter arm counts most: a line of mass has no N_kl along l across it.
-RestMoments symmetric_moments(const RestMoments& found, const Eigen::Matrix3d& second) {
-  const SymmetricEigenpairs principal = symmetric_eigenpairs(second);
-  const Eigen::Matrix3d axes = principal.vectors;
-  const Eigen::Vector3d P = principal.values.cwiseMax(0);
-  RestMoments result = turned_moments(found, axes);
+RestMoments symmetric_moments(const RestMoments& found, const RigidSplit& split) {
+  const Eigen::Vector3d& P = split.principal;
+  RestMoments result = turned_moments(found, split.axes);
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t l = 0; l < k; ++l) {
       const double Pk = P(static_cast<Eigen::Index>(k)), Pl = P(static_cast<Eigen::Index>(l));
@@ -47,7 +45,7 @@ RestMoments symmetric_moments(const RestMoments& found, const Eigen::Matrix3d& s
       result[k][l] = Eigen::RowVectorXd(weight * result[k][l] + (1 - weight) * result[l][k]);
       result[l][k] = result[k][l];
     }
-  return turned_moments(result, axes.transpose());
+  return turned_moments(result, split.axes.transpose());
 }
 
 /// S_kl for any k and l from the six.
@@ -85,8 +83,8 @@ std::array<Eigen::MatrixXd, 6> joined(const RigidSplit& split, const RestMoments
 
 /// Gradients of the linear fields nearest to the rest, times the roots of P, in the axes of the body: rows (3,N) of u_k
 /// in principal axes. Moments across a thin body are dropped. @param moments  in principal axes; changed accordingly
-std::array<Eigen::MatrixXd, 3> linear_part(const Eigen::Matrix3d& axes, const Eigen::Vector3d& P,
-                                           RestMoments& moments) {
+std::array<Eigen::MatrixXd, 3> linear_part(const RigidSplit& split, RestMoments& moments) {
+  const Eigen::Vector3d& P = split.principal;
   const Eigen::Index n = moments[0][0].size();
   const double least = thin_body * P.maxCoeff();
   std::array<Eigen::MatrixXd, 3> result;
@@ -98,7 +96,7 @@ std::array<Eigen::MatrixXd, 3> linear_part(const Eigen::Matrix3d& axes, const Ei
       if (Pb <= least) continue;
       for (int k = 0; k < 3; ++k)
         result[static_cast<std::size_t>(k)].row(static_cast<Eigen::Index>(b)) +=
-            axes(k, static_cast<Eigen::Index>(a)) / std::sqrt(Pb) * moments[a][b];
+            split.axes(k, static_cast<Eigen::Index>(a)) / std::sqrt(Pb) * moments[a][b];
     }
   return result;
 }
@@ -118,6 +116,9 @@ RigidSplit split_rigid(const Eigen::MatrixXd& mass, const MassProperties& body, 
   result.rigid = rigid;
   result.mass = body.mass;
   result.second = body.inertia.trace() / 2 * Eigen::Matrix3d::Identity() - body.inertia;
+  const SymmetricEigenpairs principal = symmetric_eigenpairs(result.second);
+  result.axes = principal.vectors;
+  result.principal = principal.values.cwiseMax(0);
   result.rates = product(semidefinite_inverse(congruent(mass, rigid)), transposed_product(rigid, mass));
   result.rest = Eigen::MatrixXd::Identity(mass.rows(), mass.cols()) - product(rigid, result.rates);
   return result;
@@ -189,16 +190,14 @@ RestInertia rest_inertia(const std::array<Eigen::MatrixXd, 6>& components, const
         row += e / 2 * (split.rigid.col(3 + a).transpose() * component(components, k, l)) * scaled;
       }
     }
-  result.moments = symmetric_moments(found, split.second);
+  result.moments = symmetric_moments(found, split);
   return result;
 }
 
 std::array<Eigen::MatrixXd, 6> joined_inertia(const RigidSplit& split, const RestInertia& rest,
                                               const Eigen::MatrixXd& mass) {
-  const SymmetricEigenpairs principal = symmetric_eigenpairs(split.second);
-  const Eigen::Matrix3d axes = principal.vectors;
-  RestMoments moments = turned_moments(rest.moments, axes);
-  std::array<Eigen::MatrixXd, 3> linear = linear_part(axes, principal.values.cwiseMax(0), moments);
+  RestMoments moments = turned_moments(rest.moments, split.axes);
+  const std::array<Eigen::MatrixXd, 3> linear = linear_part(split, moments);
   Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   for (const Eigen::MatrixXd& rows : linear) energy += transposed_product(rows, rows);
   double scale = 1;
@@ -212,7 +211,7 @@ std::array<Eigen::MatrixXd, 6> joined_inertia(const RigidSplit& split, const Res
     const auto k = static_cast<std::size_t>(voigt_pairs[s][0]), l = static_cast<std::size_t>(voigt_pairs[s][1]);
     deformed[s] = congruent(rest.components[s], remaining) + scale * scale * transposed_product(linear[k], linear[l]);
   }
-  return joined(split, turned_moments(moments, axes.transpose()), deformed);
+  return joined(split, turned_moments(moments, split.axes.transpose()), deformed);
 }
 
 std::array<Eigen::MatrixXd, 6> normalised_inertia(const std::array<Eigen::MatrixXd, 6>& components,

@@ -12,11 +12,13 @@ namespace bielle::reduce {
 
 /// q = U r + d with U^T M~ d = 0; r are three translations and three rotations about the centre, body axes.
 struct RigidSplit {
-  Eigen::MatrixXd rigid;   ///< U (N,6)
-  Eigen::MatrixXd rates;   ///< r in terms of q (6,N)
-  Eigen::MatrixXd rest;    ///< d in terms of q (N,N)
-  double mass = 0;         ///< [kg]
-  Eigen::Matrix3d second;  ///< P = integral of rho x x^T about the centre [kg m^2]
+  Eigen::MatrixXd rigid;                                ///< U (N,6)
+  Eigen::MatrixXd rates;                                ///< r in terms of q (6,N)
+  Eigen::MatrixXd rest;                                 ///< d in terms of q (N,N)
+  double mass = 0;                                      ///< [kg]
+  Eigen::Matrix3d second;                               ///< P = integral of rho x x^T about the centre [kg m^2]
+  Eigen::Matrix3d axes;                                 ///< its principal axes -> body axes
+  Eigen::Vector3d principal = Eigen::Vector3d::Zero();  ///< P along these, ascending, not negative [kg m^2]
 };
 
 RigidSplit split_rigid(const Eigen::MatrixXd& mass, const MassProperties& body, const Eigen::MatrixXd& rigid);

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "reduce/dense/dense_products.hpp"
-#include "reduce/dense/symmetric_eigenpairs.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/matrices/rigid_split.hpp"
 
@@ -39,18 +38,16 @@ Eigen::VectorXd shown_field(const std::vector<Interface>& interfaces, Eigen::Ind
 
 ShownMoments shown_moments(const std::vector<Interface>& interfaces, const Eigen::MatrixXd& mass,
                            const Eigen::Vector3d& centre, const RigidSplit& split) {
-  const SymmetricEigenpairs principal = symmetric_eigenpairs(split.second);
-  const Eigen::Vector3d P = principal.values.cwiseMax(0);
+  const Eigen::Vector3d& P = split.principal;
   const double least = thin_direction * P(2);
   ShownMoments result;
-  result.axes = principal.vectors;
   for (std::size_t s = 0; s < 6; ++s) {
     const auto [k, l] = voigt_pairs[s];
     const double energy = k == l ? P(k) : P(k) * P(l) / std::max(P(k) + P(l), 1e-300);
     result.moments[s].setZero(mass.rows());
     result.shares[s] = -1;
     if (energy <= least) continue;
-    const Eigen::VectorXd field = split.rest * shown_field(interfaces, mass.rows(), centre, result.axes, k, l);
+    const Eigen::VectorXd field = split.rest * shown_field(interfaces, mass.rows(), centre, split.axes, k, l);
     const Eigen::VectorXd momentum = mass * field;
     const double found = field.dot(momentum);
     result.shares[s] = std::min(1.0, found / energy);

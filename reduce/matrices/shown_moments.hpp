@@ -13,8 +13,7 @@
 namespace bielle::reduce {
 
 struct ShownMoments {
-  Eigen::Matrix3d axes;  ///< principal axes of inertia -> body axes, the heaviest P last
-  /// Integral of rho d_k x_l of each coordinate (N) in these axes, kl = 11 22 33 23 13 12.
+  /// Integral of rho d_k x_l of each coordinate (N) in principal axes of inertia, kl = 11 22 33 23 13 12.
   std::array<Eigen::RowVectorXd, 6> moments;
   /// Shares of the linear fields' energies that the interfaces show, 0 to 1; -1 if the body is thin there and needs
   /// none.

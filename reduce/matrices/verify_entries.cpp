@@ -16,14 +16,6 @@ struct NamedMatrix {
   const SparseColumns& matrix;
 };
 
-Eigen::VectorXd largest_in_rows(const SparseColumns& A) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(A.rows());
-  for (Eigen::Index j = 0; j < A.outerSize(); ++j)
-    for (SparseColumns::InnerIterator entry(A, j); entry; ++entry)
-      largest(entry.row()) = std::max(largest(entry.row()), std::abs(entry.value()));
-  return largest;
-}
-
 void verify_symmetry(const MatrixStudy& study, const NamedMatrix& of, VerifiedSubject& subject) {
   const SparseColumns transposed = of.matrix.transpose();
   const SparseColumns difference = of.matrix - transposed;
@@ -51,7 +43,7 @@ void verify_symmetry(const MatrixStudy& study, const NamedMatrix& of, VerifiedSu
 std::optional<LeastEigenvalue> least_of_stiffness(const MatrixStudy& study) {
   const Eigen::VectorXd diagonal = study.stiffness.diagonal();
   // An unknown with a null diagonal takes no part in static motions; entries besides it make K indefinite.
-  const bool whole = (diagonal.array() > 0 || largest_in_rows(study.stiffness).array() == 0).all();
+  const bool whole = (diagonal.array() > 0 || largest_entries(study.stiffness).array() == 0).all();
   if (whole && study.statical) {
     const Eigen::MatrixXd forces = study.stiffness * *study.statical;
     const Eigen::VectorXd scale = diagonal(study.references).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -76,7 +68,7 @@ void verify_definiteness(const MatrixStudy& study, const NamedMatrix& of, const 
 
 /// Unknowns that lack one of both matrices.
 void verify_presence(const MatrixStudy& study, VerifiedSubject& subject) {
-  const Eigen::VectorXd stiffness = largest_in_rows(study.stiffness), mass = largest_in_rows(study.mass);
+  const Eigen::VectorXd stiffness = largest_entries(study.stiffness), mass = largest_entries(study.mass);
   Unknowns limp, massless;
   for (Eigen::Index k = 0; k < study.size(); ++k) {
     if (stiffness(k) == 0) limp.push_back(k);

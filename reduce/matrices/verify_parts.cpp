@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reduce/dense/dense_products.hpp"
+#include "reduce/fe/elasticity.hpp"
 #include "reduce/matrices/set_mass.hpp"
 #include "reduce/matrices/verified_subjects.hpp"
 
@@ -53,13 +54,12 @@ void verify_inertia_components(const MatrixStudy& study, VerifiedSubject& subjec
               fmt::format("the inertia components along x, y and z do not add up to the mass, most between {} and {}",
                           study.set.name_of(row), study.set.name_of(column)));
   if (!study.geometric) return;
-  constexpr std::array<std::array<int, 2>, 6> pairs = {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   const Eigen::MatrixXd translations = study.geometric->leftCols(3);
   const double mass = mass_of(study).mass();
   double largest = 0;
   for (std::size_t p = 0; p < 6; ++p) {
     Eigen::Matrix3d found = congruent(parts[p], translations);
-    found(pairs[p][0], pairs[p][1]) -= mass;
+    found(voigt_pairs[p][0], voigt_pairs[p][1]) -= mass;
     largest = std::max(largest, found.cwiseAbs().maxCoeff() / std::abs(mass));
   }
   add_finding(

@@ -26,7 +26,7 @@ class ScratchFolder {
 
 /// Runs a Python tool of Bielle that converts a file. It is sought in the folder that the environment variable
 /// BIELLE_TOOLS names, then where Bielle is installed, then in its sources.
-/// @param target  file that the tool writes; its messages are kept beside it
+/// @param target  file that the tool writes; its messages are kept next to it
 /// @param source  file that it reads, for messages
 /// @returns its notes @throws InputError with the tool's own sentence; ComputationError when there is no such tool
 std::vector<std::string> run_tool(const std::string& tool, const std::vector<std::string>& arguments,

@@ -55,19 +55,19 @@ AddedMass put_on(const Solid& solid, const MassRequest& request, const std::stri
   return result;
 }
 
-/// @param mass  mass of the body alone [kg] @param size  its diagonal [m] @throws InputError for a mass or an inertia
-/// beside which those of the
-///              body are lost in rounding, which is probably a wrong unit
+/// @param mass  mass of the body alone [kg] @param size  its diagonal [m]
+/// @throws InputError for a mass or an inertia compared with which those of the body are lost in rounding, which is
+/// probably a wrong unit
 void check_size(const MassRequest& request, double mass, double size) {
   if (request.mass > most_ratio * mass)
     throw InputError(
         fmt::format("its mass of {:.3g} kg is more than a million times that of the body, {:.3g} kg, which "
-                    "is lost in rounding beside it; masses are in kilograms",
+                    "is lost in rounding compared with it; masses are in kilograms",
                     request.mass, mass));
   if (const double inertia = request.inertia.trace() / 2; inertia > most_ratio * mass * size * size)
     throw InputError(
         fmt::format("its inertia of {:.3g} kg m^2 is more than a million times that of the body, which is "
-                    "lost in rounding beside it; inertia is in kg m^2",
+                    "lost in rounding compared with it; inertia is in kg m^2",
                     inertia));
 }
 
@@ -203,7 +203,7 @@ Solid requested_solid(const Mesh& mesh, const ReductionOptions& options) {
     if (added > most_ratio * mass)
       throw InputError(request.subject,
                        fmt::format("its mass of {:.3g} kg is more than a million times that of the body, {:.3g} kg, "
-                                   "which is lost in rounding beside it; `per_area` is in kg/m^2",
+                                   "which is lost in rounding compared with it; `per_area` is in kg/m^2",
                                    added, mass));
   }
   return solid;

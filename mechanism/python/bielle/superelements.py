@@ -30,7 +30,7 @@ def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C
     interfaces: numbers of the nodes that a mechanism uses, by name; without it, all nodes.
     unknowns: a pair (number of the node, component 0 to 5: x y z rx ry rz) for each row; node 0: a scalar coordinate, such as
     the amplitude of a mode. Without it, rows are x y z (rx ry rz, if there are as many) of the nodes in order, then `scalars`.
-    arguments: further ones of bielle-reduce. program: its path, unless it is installed beside this package or in PATH.
+    arguments: further ones of bielle-reduce. program: its path, unless it is installed next to this package or in PATH.
     Returns the path of the file. Raises InputError with the sentence of the program.
     """
     try:

@@ -1,4 +1,4 @@
-"""Matrices of bodies in an OUTPUT4 file of Nastran; a deck beside it has the order of the unknowns.
+"""Matrices of bodies in an OUTPUT4 file of Nastran; a deck next to it has the order of the unknowns.
 
 Matrices of the g-set (KGG) hold the unknowns of all points of the deck by ascending numbers, others those of the a-set
 (ASET ..), or of all points if the deck declares none. DTI,TUG1 of the deck names the rows of MUG1: displacements of grid

@@ -1,4 +1,4 @@
-"""Writes a MatrixSet as an OUTPUT4 file, and a deck beside it that names the unknowns of its rows."""
+"""Writes a MatrixSet as an OUTPUT4 file, and a deck next to it that names the unknowns of its rows."""
 
 import os
 

@@ -1,7 +1,7 @@
 """Simscape Multibody's block Reduced Order Flexible Solid: its matrices as variables of a .mat file.
 
 `origins` (k,3) are the positions of the interface frames, K, M and C the stiffness, mass and damping; rows are x y z rx
-ry rz of each frame in axes of the body, then amplitudes of modes. A script FILE.m beside sets the parameters of a
+ry rz of each frame in axes of the body, then amplitudes of modes. A script FILE.m next to it sets the parameters of a
 block. (MathWorks, "Reduced Order Flexible Solid".)
 """
 

@@ -235,7 +235,7 @@ TEST_CASE("masses on no surface, far away or outside the body are refused", "[re
              Contains("masses.paint: the mesh has no surface group 'zz'"));
 }
 
-TEST_CASE("masses beside which the body is lost in rounding are refused", "[reduction]") {
+TEST_CASE("masses compared with which the body is lost in rounding are refused", "[reduction]") {
   const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {8, 1, 1}});
   const double own = 7800 * 0.01;
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average);
