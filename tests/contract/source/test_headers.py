@@ -1,7 +1,10 @@
 """Every header compiles alone: whoever includes it needs to know nothing else.
 
 The compiler is called as for a source of the same folder (`compile_commands.json` of the build), but for a file that holds the
-header twice, and to check it only.
+header twice, and to check it only. Headers that include Eigen's core, themselves or by others, get it precompiled: they have
+it in any case, and it takes half of the time.
+
+BIELLE_HEADERS=K/N, with K from 0 to N - 1, checks every N-th header only, beginning with number K.
 """
 
 import concurrent.futures
@@ -49,6 +52,36 @@ def without_help(words):
     return [word for word in words if word != "-Winvalid-pch"]
 
 
+def includes_of(header, known):
+    """The headers, of Bielle and of others, that a header of Bielle includes, itself or by others. known: those found so far"""
+    if header not in known:
+        known[header] = set()
+        with open(os.path.join(ROOT, header), encoding="utf-8") as file:
+            for name, bracket in re.findall(r'^\s*#\s*include\s*[<"]([^">]+)([">])', file.read(), re.MULTILINE):
+                known[header].add(name)
+                if bracket == '"':
+                    known[header] |= includes_of(name, known)
+    return known[header]
+
+
+def flags_of(call):
+    """The arguments of a compiler call on which a precompiled header depends: all but the folders of includes."""
+    return tuple(word for before, word in zip(["", *call], call) if "-isystem" not in (before, word) and not word.startswith("-I"))
+
+
+def precompiled(calls, folder, pool):
+    """Compiles Eigen's core once for each kind of compiler call. @returns flags -> the arguments that use it"""
+    def compile_core(numbered):
+        number, call = numbered
+        header = os.path.join(folder, f"eigen_{number}.hpp")
+        with open(header, "w", encoding="utf-8") as file:
+            file.write("#include <Eigen/Core>\n")
+        subprocess.run([*call, "-x", "c++-header", header, "-o", header + ".gch"], check=True)
+        return ["-include", header]
+    kinds = {flags_of(call): call for call in calls}
+    return dict(zip(kinds, pool.map(compile_core, enumerate(kinds.values()))))
+
+
 def errors_of(header, call, folder):
     source = os.path.join(folder, re.sub(r"\W", "_", header) + ".cpp")
     with open(source, "w", encoding="utf-8") as file:
@@ -64,8 +97,12 @@ class Headers(unittest.TestCase):
         headers = [path for path in sources(ROOT) if path.endswith(".hpp") and os.path.dirname(path) not in left_out]
         self.assertGreater(len(headers), 20)
         self.assertEqual({os.path.dirname(h) for h in headers} - set(calls), set(), "folders that are not built")
+        turn, turns = map(int, os.environ.get("BIELLE_HEADERS", "0/1").split("/"))
+        known = {}
+        jobs = [(h, calls[os.path.dirname(h)], "Eigen/Core" in includes_of(h, known)) for h in sorted(headers)[turn::turns]]
         with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            errors = list(pool.map(lambda h: errors_of(h, calls[os.path.dirname(h)], folder), headers))
+            eigen = precompiled([call for _, call, heavy in jobs if heavy], folder, pool)
+            errors = list(pool.map(lambda job: errors_of(job[0], [*job[1], *(eigen[flags_of(job[1])] if job[2] else [])], folder), jobs))
         self.assertEqual([e for e in errors if e], [])
 
 
