@@ -157,6 +157,7 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
     summaries.push_back(checkpoint && number == checkpoint->analysis
                             ? analysis.go_on(*session, checkpoint->values, *results)
                             : analysis.run(*session));
+    if (results) summaries.back().text += results->largest_values();
   }
   progress.finish();
   if (results) results->complete();

@@ -72,6 +72,7 @@ ResultsFile::ResultsFile(const std::string& path, const Model& model, const std:
   if (checkpoint.rows_sum) stream_->check_rows(checkpoint.rows, *checkpoint.rows_sum);
   rewind_to(file, checkpoint);
   stream_->resume(group_of(analysis_), checkpoint.rows);
+  stream_->largest().begin("the rows recorded since the restart", "t", " s");
   file.remove("/input");
   if (file.has("/parameters")) file.remove("/parameters");
   begin_run(*stream_, input_text);
@@ -94,6 +95,8 @@ void ResultsFile::name_equations(const System& system) {
 void ResultsFile::begin_analysis(const std::string& type, std::size_t expected_rows) {
   stream_->wait_until_all_is_written();
   stream_->begin(group_of(++analysis_), expected_rows);
+  const bool loads = type == "static";
+  stream_->largest().begin("the recorded rows", loads ? "load factor" : "t", loads ? "" : " s");
   events_ = 0;
   stream_->file().make_group(stream_->group());
   stream_->file().write_attribute(stream_->group(), "type", type);
@@ -132,6 +135,11 @@ void ResultsFile::note(const Event& event) {
   written.append_rows(group + "/time", {&event.time, 1});
   written.flush();
   ++events_;
+}
+
+std::string ResultsFile::largest_values() {
+  stream_->wait_until_all_is_written();
+  return stream_->largest().summary();
 }
 
 void ResultsFile::checkpoint(Archive& archive) {

@@ -76,6 +76,8 @@ class ResultsFile : public ResultSink {
   void exchange(Archive& archive) override;
   /// Writes the waiting rows and links the analysis's groups from the root.
   void end_analysis() override;
+  /// Lines about the largest forces, stresses and pressures of the last analysis' rows; empty without any.
+  std::string largest_values();
   void complete() override;  ///< marks the file `complete = true` and closes it
 
   /// The file, which may be written between begin_analysis and end_analysis while no row is waiting, and the path of

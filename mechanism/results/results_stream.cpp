@@ -46,7 +46,11 @@ std::size_t bytes_of(const State& state) {
 }  // namespace
 
 ResultsStream::ResultsStream(Hdf5File results, const Model& model, std::optional<ResultsLayout> layout)
-    : model_(model), rows_(model), layout_(layout_for(rows_, layout)), file_(std::move(results)) {}
+    : model_(model),
+      rows_(model),
+      largest_(rows_.kinds()),
+      layout_(layout_for(rows_, layout)),
+      file_(std::move(results)) {}
 
 // -- the run's side
 
@@ -206,6 +210,8 @@ std::size_t ResultsStream::make_rows(std::size_t first) {
     block_.times[block_.rows + k - first] = instant.step.time.value_or(instant.state.time);
   }
   rows_.fill(views_, block_.values.get() + block_.rows * rows_.size());
+  for (std::size_t row = block_.rows; row < block_.rows + count; ++row)
+    largest_.add(block_.times[row], block_.values.get() + row * rows_.size());
   block_.rows += count;
   return count;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mechanism/model/state.hpp"
+#include "mechanism/results/largest_values.hpp"
 #include "mechanism/results/results_rows.hpp"
 #include "reduce/common/files/checksum.hpp"
 #include "reduce/common/files/hdf5_file.hpp"
@@ -52,6 +53,7 @@ class ResultsStream {
   // The following functions may be called after wait_until_all_is_written:
   Hdf5File& file() { return file_; }
   ResultsRows& rows() { return rows_; }
+  LargestValues& largest() { return largest_; }  ///< of the rows of the open analysis
   const Model& model() const { return model_; }
   ResultsLayout layout() const { return layout_; }
   const std::string& group() const { return group_; }
@@ -91,6 +93,7 @@ class ResultsStream {
 
   const Model& model_;
   ResultsRows rows_;
+  LargestValues largest_;
   ResultsLayout layout_;
   Hdf5File file_;
   std::string group_;                                           ///< group of the open analysis

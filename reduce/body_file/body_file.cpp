@@ -144,9 +144,7 @@ BodyFile read(const YamlValue& file) {
         "expected at least one: a mechanism moves a body by its interfaces, and one with 'tie: average' on "
         "any surface leaves the body free");
   const RequestedModes modes = read_modes(root.at("modes"));
-  body.options.mode_count = modes.count;
-  body.options.modes_below = modes.below;
-  body.options.mode_method = modes.method;
+  body.options.modes = modes.request;
   body.options.modes_proven = modes.proven;
   body.options.inertia_relief = root.at("inertia_relief").boolean();
   if (const auto damping = root.find("damping")) {

@@ -8,15 +8,10 @@
 #include "reduce/body_file/body_axes.hpp"
 #include "reduce/body_file/body_surfaces.hpp"
 #include "reduce/body_file/deck_ties.hpp"
+#include "reduce/common/direction_words.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::reduce {
-
-namespace {
-
-const std::vector<std::string> direction_words = {"x", "y", "z", "rx", "ry", "rz"};
-
-}  // namespace
 
 void check_name(const std::string& name, const YamlValue& value) {
   if (name.empty() || name.find('/') != std::string::npos) value.fail("expected a name without '/'");
@@ -24,7 +19,9 @@ void check_name(const std::string& name, const YamlValue& value) {
 
 KeyForm tie_form() { return keys::word({"rigid", "average", "free"}, "a tie"); }
 
-KeyForm directions_form() { return keys::list_of(keys::word(direction_words, "a direction")).items_at_least(1); }
+KeyForm directions_form() {
+  return keys::list_of(keys::word({direction_words.begin(), direction_words.end()}, "a direction")).items_at_least(1);
+}
 
 Tie read_tie(const YamlValue& value) {
   const std::string word = value.word();

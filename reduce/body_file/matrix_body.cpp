@@ -142,9 +142,7 @@ MatrixBody read_matrix_body(const YamlValue& root) {
   if (const auto modes = root.find("modes")) {
     const RequestedModes requested = read_modes(*modes);
     if (requested.proven) modes->at("proof").fail("modes of matrices are not counted: remove this key");
-    options.mode_count = requested.count;
-    options.modes_below = requested.below;
-    options.mode_method = requested.method;
+    options.modes = requested.request;
   }
   if (const auto damping = root.find("damping")) {
     const RequestedDamping requested = read_damping(*damping);

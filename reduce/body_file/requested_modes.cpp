@@ -38,14 +38,14 @@ const KeyTable& damping_keys() {
 
 RequestedModes read_modes(const YamlValue& value) {
   RequestedModes options;
-  if (const auto count = value.find("count")) options.count = count->integer();
-  if (const auto below = value.find("below")) options.below = below->number();
+  if (const auto count = value.find("count")) options.request.count = count->integer();
+  if (const auto below = value.find("below")) options.request.below = below->number();
   const std::string method = value.at("method").word();
-  options.method = method == "arpack"          ? EigenMethod::arpack
-                   : method == "block_lanczos" ? EigenMethod::block_lanczos
-                                               : EigenMethod::automatic;
+  options.request.method = method == "arpack"          ? EigenMethod::arpack
+                           : method == "block_lanczos" ? EigenMethod::block_lanczos
+                                                       : EigenMethod::automatic;
   options.proven = value.at("proof").boolean();
-  if (!options.count && !options.below) value.fail("expected how many modes: count, or below [Hz], or both");
+  if (!options.request.any()) value.fail("expected how many modes: count, or below [Hz], or both");
   return options;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "reduce/spectral/eigenpairs.hpp"
+#include "reduce/reduction/mode_request.hpp"
 
 namespace bielle {
 class YamlValue;
@@ -14,12 +14,9 @@ struct KeyTable;
 
 namespace bielle::reduce {
 
-/// As in ReductionOptions.
 struct RequestedModes {
-  std::optional<int> count;
-  std::optional<double> below;  ///< [Hz]
-  EigenMethod method = EigenMethod::automatic;
-  bool proven = false;
+  ModeRequest request;
+  bool proven = false;  ///< as in ReductionOptions
 };
 
 /// Damping ratios of the free modes, or Rayleigh damping, as in ReductionOptions.

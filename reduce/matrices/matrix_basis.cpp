@@ -1,8 +1,6 @@
 #include "reduce/matrices/matrix_basis.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -46,47 +44,25 @@ Eigenpairs all_modes(const HeldMatrices& held) {
   return result;
 }
 
-Eigenpairs lowest_modes(const HeldMatrices& held, const MatrixOptions& options, Progress& progress, int threads) {
-  const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-                                   [&](const Eigen::MatrixXd& z) { return held.inertia(z); }};
-  EigenpairOptions how;
-  how.threads = threads;
-  how.method = options.mode_method;
-  how.on_solve = [&](int solves) { progress.update(std::min(0.99, solves / 200.0), counted(solves, "solution")); };
-  const auto search = [&](int count) { return shift_invert_eigenpairs(problem, count, how); };
-  if (!options.modes_below) return search(*options.mode_count);
-  const double limit = std::pow(2 * std::numbers::pi * *options.modes_below, 2);
-  Eigenpairs pairs = eigenpairs_below(search, problem, limit, 20, options.mode_count.value_or(1000));
-  return pairs;
-}
-
-void keep_requested(Eigenpairs& pairs, const MatrixOptions& options) {
-  Eigen::Index count = pairs.values.size();
-  if (options.modes_below) {
-    const double limit = std::pow(2 * std::numbers::pi * *options.modes_below, 2);
-    count = (pairs.values.array() <= limit).count();
+Eigenpairs modes_of(const HeldMatrices& held, const ModeRequest& request, Progress& progress, int threads) {
+  if (held.size() <= most_unasked_modes) {
+    check_mode_count(request, held.size());
+    if (held.size() == 0 || request.count == 0) return {};
+    Eigenpairs pairs = all_modes(held);
+    keep_requested(request, pairs, progress);
+    return pairs;
   }
-  if (options.mode_count) count = std::min<Eigen::Index>(count, *options.mode_count);
-  pairs.values.conservativeResize(count);
-  pairs.vectors.conservativeResize(Eigen::NoChange, count);
-  if (pairs.residuals.size() > count) pairs.residuals.conservativeResize(count);
-}
-
-Eigenpairs requested_modes(const HeldMatrices& held, const MatrixOptions& options, Progress& progress, int threads) {
-  const bool asked = options.mode_count || options.modes_below;
-  if (!asked && held.size() > most_unasked_modes)
+  if (!request.any())
     throw InputError(
         fmt::format("the body has {} inside: tell how many modes to keep, by 'modes: {{count: 20}}' in a "
                     "body file with the key `matrices`",
                     counted(held.size(), "unknown")));
-  if (options.mode_count.value_or(0) > held.size())
-    throw InputError("modes", fmt::format("{} are asked for, but the body has only {} inside", *options.mode_count,
-                                          counted(held.size(), "unknown")));
-  if (held.size() == 0 || options.mode_count == 0) return {};
-  Eigenpairs pairs =
-      held.size() <= most_unasked_modes ? all_modes(held) : lowest_modes(held, options, progress, threads);
-  keep_requested(pairs, options);
-  return pairs;
+  const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(z); }};
+  const auto search = [&](int count, const EigenpairOptions& how) {
+    return shift_invert_eigenpairs(problem, count, how);
+  };
+  return requested_modes(request, problem, search, progress, threads);
 }
 
 }  // namespace
@@ -101,7 +77,8 @@ MatrixBasis matrix_basis(const MatrixSet& set, const NodeTies& ties, const HeldM
   const Eigen::MatrixXd answers = held.solve(loads, averages);
 
   progress.start("fixed-boundary modes");
-  const Eigenpairs pairs = requested_modes(held, options, progress, threads);
+  const Eigenpairs pairs = about(
+      "modes", [&] { return modes_of(held, options.modes, progress, threads); }, Subject::hidden);
   MatrixBasis basis;
   basis.eigenvalues = pairs.values;
   basis.residuals = pairs.residuals;

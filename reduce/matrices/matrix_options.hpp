@@ -40,9 +40,7 @@ struct MatrixOptions {
   std::string input_text;
   /// None: the nodes that the file declares as interfaces, or else all nodes.
   std::vector<NodeInterface> interfaces;
-  std::optional<int> mode_count;      ///< with neither: all modes of a small body
-  std::optional<double> modes_below;  ///< [Hz]
-  EigenMethod mode_method = EigenMethod::automatic;
+  ModeRequest modes;                   ///< without a request: all modes of a small body
   std::vector<double> damping_ratios;  ///< as in ReductionOptions; without both: the file's damping, if it has one
   std::optional<std::array<double, 2>> rayleigh;
   std::vector<NodePoint> points;

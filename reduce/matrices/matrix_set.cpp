@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/direction_words.hpp"
 #include "reduce/matrices/set_algebra.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 
@@ -31,11 +32,10 @@ Eigen::Index MatrixSet::scalars() const {
 }
 
 std::string MatrixSet::name_of(Eigen::Index unknown) const {
-  constexpr std::array<const char*, 6> words = {"x", "y", "z", "rx", "ry", "rz"};
   const NodalUnknown& u = unknowns[static_cast<std::size_t>(unknown)];
   if (u.is_scalar()) return fmt::format("scalar {}", u.component + 1);
   return fmt::format("node {} {}", numbers[static_cast<std::size_t>(u.node)],
-                     words[static_cast<std::size_t>(u.component)]);
+                     direction_words[static_cast<std::size_t>(u.component)]);
 }
 
 Eigen::Index remove_empty_unknowns(MatrixSet& set) {

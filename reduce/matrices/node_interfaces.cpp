@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "reduce/common/counted.hpp"
+#include "reduce/common/direction_words.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/fe/weighted_nodes.hpp"
 #include "reduce/reduction/ties.hpp"
@@ -17,7 +18,6 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr std::array<const char*, 6> direction_words = {"x", "y", "z", "rx", "ry", "rz"};
 constexpr std::size_t most_default_interfaces = 200;
 
 /// Motion of a node (translation, then rotation, body axes) for one direction of an interface.

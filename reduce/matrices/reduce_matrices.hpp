@@ -15,7 +15,7 @@
 
 namespace bielle::reduce {
 
-/// Without `mode_count` and `modes_below` all modes of at most this many interior unknowns are kept.
+/// Without a request all modes of at most this many interior unknowns are kept.
 inline constexpr Eigen::Index most_unasked_modes = 300;
 
 /// Reduces the matrices of a body, or takes over those of a reduced one. The superelement has no stress and no

@@ -2,12 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include <fmt/format.h>
-
-#include "reduce/common/counted.hpp"
-#include "reduce/common/error.hpp"
 #include "reduce/dense/blas.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
 #include "reduce/spectral/eigenpairs.hpp"
@@ -15,8 +10,6 @@
 namespace bielle::reduce {
 
 namespace {
-
-constexpr int most_modes_below = 1000;  // upper bound for a frequency limit; more is probably a wrong unit
 
 /// M times the linear fields; masses have the field at their elements.
 RowMatrix linear_inertia(const Solid& solid, const BodyMatrices& matrices, const Eigen::Vector3d& centre) {
@@ -49,65 +42,6 @@ Eigen::MatrixXd static_solutions(const BodyMatrices& matrices, const Ties& ties,
     averages(k, ties.averages[k]) = 1;
   }
   return held.solve(loads, averages);
-}
-
-/// Keeps the first pairs, and the eigenvalue of the next one.
-void keep_first(Eigenpairs& pairs, Eigen::Index count) {
-  if (count >= pairs.values.size()) return;
-  pairs.next = pairs.values(count);
-  pairs.values.conservativeResize(count);
-  pairs.vectors.conservativeResize(Eigen::NoChange, count);
-  pairs.residuals.conservativeResize(count);
-}
-
-Eigenpairs fixed_boundary_modes(const BodyMatrices& matrices, const FixedInterfaceBody& held, const ModeRequest& modes,
-                                Progress& progress, int threads) {
-  if (!modes.count && !modes.below) {
-    return {};
-  }
-  if (modes.count.value_or(0) > held.size()) {
-    throw InputError(
-        fmt::format("modes.count: {} {} asked for, but the mesh has only {} inside; refine it or ask for fewer",
-                    counted(*modes.count, "fixed-boundary mode"), *modes.count == 1 ? "is" : "are",
-                    counted(held.size(), "degree of freedom", "degrees of freedom")));
-  }
-  if (modes.count == 0 || held.size() == 0) {
-    return {};
-  }
-  const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
-                                   [&](const Eigen::MatrixXd& z) { return held.inertia(matrices, z); }};
-  EigenpairOptions options;
-  const double expected = 2.0 * modes.count.value_or(20) + 150;
-  options.threads = threads;
-  options.method = modes.method;
-  options.on_solve = [&](int solves) {
-    progress.update(std::min(0.99, solves / expected), counted(solves, "solution"));
-  };
-  const auto search = [&](int count) { return matrices.eigenpairs(problem, count, options); };
-  const auto one_more = [&] { return search(static_cast<int>(std::min<Eigen::Index>(*modes.count + 1, held.size()))); };
-  if (!modes.below) {
-    Eigenpairs pairs = one_more();
-    keep_first(pairs, *modes.count);
-    return pairs;
-  }
-  const double limit = std::pow(2 * std::numbers::pi * *modes.below, 2);
-  if (!modes.count) {
-    try {
-      return eigenpairs_below(search, problem, limit, 20, most_modes_below);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("modes.below: {}; more than {} modes are computed only when `count` asks for them",
-                                   error.what(), most_modes_below));
-    }
-  }
-  Eigenpairs pairs = one_more();
-  const Eigen::Index below = (pairs.values.array() <= limit).count();
-  if (below > *modes.count) {
-    progress.note(fmt::format("modes: the count of {} leaves out modes below {:.6g} Hz, the first of them at {:.6g} Hz",
-                              *modes.count, *modes.below,
-                              std::sqrt(pairs.values(*modes.count)) / (2 * std::numbers::pi)));
-  }
-  keep_first(pairs, std::min<Eigen::Index>(below, *modes.count));
-  return pairs;
 }
 
 /// Psi <- Psi (I - U A) + U_points A
@@ -162,7 +96,10 @@ Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& t
   solutions.conservativeResize(Eigen::NoChange, kept);
 
   progress.start("fixed-boundary modes");
-  Eigenpairs pairs = fixed_boundary_modes(matrices, held, modes, progress, threads);
+  const ShiftInvertProblem problem{held.size(), 0, [&](const Eigen::MatrixXd& b) { return held.solve(b); },
+                                   [&](const Eigen::MatrixXd& z) { return held.inertia(matrices, z); }};
+  const auto search = [&](int count, const EigenpairOptions& how) { return matrices.eigenpairs(problem, count, how); };
+  Eigenpairs pairs = requested_modes(modes, problem, search, progress, threads);
   basis.eigenvalues = pairs.values;
   basis.residuals = pairs.residuals;
   basis.solves = pairs.solves;

@@ -14,7 +14,7 @@
 
 #include "reduce/common/progress.hpp"
 #include "reduce/reduction/fixed_interface_body.hpp"
-#include "reduce/spectral/eigenpairs.hpp"
+#include "reduce/reduction/mode_request.hpp"
 
 namespace bielle::reduce {
 
@@ -41,14 +41,6 @@ struct Basis {
 
   Eigen::Index modes() const { return eigenvalues.size(); }
   Eigen::Index kept() const { return shapes.cols() - modes(); }
-};
-
-/// Requested fixed-boundary modes: the lowest `count`, those below `below` [Hz], or the lowest `count` of those below;
-/// none if neither is set.
-struct ModeRequest {
-  std::optional<int> count;
-  std::optional<double> below;
-  EigenMethod method = EigenMethod::automatic;
 };
 
 /// Radius of gyration of the body [m], which scales rotations to comparable displacements.

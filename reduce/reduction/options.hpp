@@ -12,7 +12,7 @@
 
 #include "reduce/fe/integration.hpp"
 #include "reduce/fe/material.hpp"
-#include "reduce/spectral/eigenpairs.hpp"
+#include "reduce/reduction/mode_request.hpp"
 
 namespace bielle::reduce {
 
@@ -80,11 +80,9 @@ struct ReductionOptions {
   std::map<std::string, std::string> regions;  ///< volume group -> material name; key "all" for the whole body
   Integration integration = Integration::standard;
   std::vector<InterfaceRequest> interfaces;  ///< at least one: a mechanism moves a body by its interfaces
-  std::optional<int> mode_count;             ///< number of fixed-boundary modes, the lowest; with neither: none
-  std::optional<double> modes_below;         ///< those below [Hz]; with both: the lowest `mode_count` of them
-  EigenMethod mode_method = EigenMethod::automatic;
-  bool inertia_relief = false;  ///< residual vectors for its own accelerations (inertia_answer.hpp)
-  bool modes_proven = false;    ///< whether to count the modes, to prove that none was missed
+  ModeRequest modes;                         ///< fixed-boundary modes; without a request: none
+  bool inertia_relief = false;               ///< residual vectors for its own accelerations (inertia_answer.hpp)
+  bool modes_proven = false;                 ///< whether to count the modes, to prove that none was missed
   /// Damping of the eigenmodes of the free reduced body, in their order, where the last ratio holds for all further
   /// ones; or Rayleigh damping.
   std::vector<double> damping_ratios;

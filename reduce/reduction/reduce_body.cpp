@@ -202,7 +202,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   const std::vector<TiedPoint> points = tie_points(solid, options.points, options.name);
   std::vector<ResidualRequest> residual = residual_requests(solid, options.loads, points);
   warn_about_rigid_ties(ties, progress);
-  warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.mode_count.value_or(0), progress);
+  warn_about_size(static_cast<Eigen::Index>(ties.kept.size()) + options.modes.count.value_or(0), progress);
   HeldFreedoms freedoms(solid, ties);
   const std::unique_ptr<BodyMatrices> kept_matrices = make(solid, freedoms.interior(), threads);
   kept_matrices->put_on(std::move(masses));
@@ -213,9 +213,8 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
 
   progress.start("factorisation");
   const FixedInterfaceBody held(std::move(freedoms), solid, matrices, ties, threads);
-  const ModeRequest modes{options.mode_count, options.modes_below, options.mode_method};
   Basis basis = about(
-      "modes", [&] { return make_basis(solid, matrices, ties, held, properties, modes, progress, threads); },
+      "modes", [&] { return make_basis(solid, matrices, ties, held, properties, options.modes, progress, threads); },
       Subject::hidden);
   if (options.integration == Integration::reduced) warn_of_hourglass_modes(solid, basis, progress, threads);
   const std::optional<ModeCount> count =
@@ -256,7 +255,7 @@ Superelement reduce_body(const Mesh& mesh, const ReductionOptions& options, Prog
   if (options.judged) {
     progress.start("what it is good for");
     body.adequacy = measure_adequacy({solid, matrices, ties, held, basis}, body, geometric.load_fields, threads);
-    body.adequacy->wanted = options.modes_below.value_or(0);
+    body.adequacy->wanted = options.modes.below.value_or(0);
   }
 
   progress.start("checks");

@@ -25,7 +25,7 @@ struct ReductionReport {
 
 /// Reduces a solid body.
 ///
-/// Without `mode_count` and `modes_below` the body keeps its constraint modes only. Geometric stiffness of interface
+/// Without a request for modes the body keeps its constraint modes only. Geometric stiffness of interface
 /// loads is left out, with a note, for bodies with more than 60 kept directions. The superelement contains the whole
 /// mesh, or its skin if displacements are to be recovered on the surface only.
 /// @param mesh      one connected piece of solid cells that fit together, surface cells oriented outward

@@ -56,8 +56,8 @@ Superelement reduce_uncut(const Mesh& mesh, const ReductionOptions& options, Eig
                           const Progress& progress, const MatrixMaker& make) {
   ReductionOptions uncut = options;
   const auto most = static_cast<int>(mesh.point_count() / 4);  // a tiny mesh has few
-  uncut.mode_count = std::min(std::max(2 * static_cast<int>(modes), 40), most);
-  uncut.modes_below.reset();
+  uncut.modes.count = std::min(std::max(2 * static_cast<int>(modes), 40), most);
+  uncut.modes.below.reset();
   uncut.loads.clear();
   uncut.points.clear();
   uncut.damping_ratios.clear();

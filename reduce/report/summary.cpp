@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/counted.hpp"
+#include "reduce/common/direction_words.hpp"
 
 namespace bielle::reduce {
 
@@ -22,11 +23,10 @@ std::string place(const Eigen::Vector3d& x) {
 }
 
 std::string directions(const std::array<bool, 6>& chosen) {
-  constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
   std::string result;
   for (int axis = 0; axis < 6; ++axis) {
     if (chosen[axis]) {
-      result += fmt::format("{}{}", result.empty() ? "" : " ", names[axis]);
+      result += fmt::format("{}{}", result.empty() ? "" : " ", direction_words[axis]);
     }
   }
   return result;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/direction_words.hpp"
 #include "reduce/common/files/atomic_output.hpp"
 #include "reduce/common/files/byte_sum.hpp"
 #include "reduce/common/files/hdf5_file.hpp"
@@ -24,7 +25,6 @@ namespace {
 
 using Integers = std::vector<std::int64_t>;
 constexpr const char* format_name = "bielle superelement";
-constexpr std::array<const char*, 6> direction_names = {"x", "y", "z", "rx", "ry", "rz"};
 
 // `u` are the units of the generalised coordinates.
 constexpr const char* stiffness_units = "J/(u_i u_j)";
@@ -73,7 +73,7 @@ void write_coordinates(Hdf5File& file, const Superelement& body) {
   for (const Interface& interface : body.interfaces)
     for (std::size_t k = 0; k < 6; ++k)
       if (interface.kept[k]) {
-        names.push_back(fmt::format("{} {}", interface.name, direction_names[k]));
+        names.push_back(fmt::format("{} {}", interface.name, direction_words[k]));
         units.emplace_back(k < 3 ? "m" : "rad");
       }
   const Eigen::Index modes = body.fixed_boundary_modes();

@@ -74,7 +74,7 @@ void measure(double size, int threads) {
   const double dgemm = measure_dgemm(2000, threads);
 
   fmt::print("\n{} dofs ({} points, {} tet10), {} modes\n", 3 * report.points, report.points, report.cells,
-             file.options.mode_count.value_or(0));
+             file.options.modes.count.value_or(0));
   for (std::size_t k = 0; k < progress.phases().size(); ++k) {
     const PhaseReport& phase = progress.phases()[k];
     fmt::print("  {:<28} {:8.2f} s  {:6.0f} MB{}\n", phase.name, phase.seconds, phase.peak_memory_MB,

@@ -64,7 +64,7 @@ TEST_CASE("Bending of a free plate and of a cantilever plate: falling with the m
     options.regions = {{"all", "steel"}};
     options.interfaces.resize(1);
     options.interfaces[0].name = options.interfaces[0].group = "x0";
-    options.mode_count = 5;
+    options.modes.count = 5;
     options.stress_recovery = RecoveryExtent::none;
     Progress quiet(true);
     cantilever.row(level) = reduce_body(mesh, options, quiet, 2).frequencies.transpose();

@@ -37,7 +37,7 @@ Superelement bar(int n, const std::vector<std::string>& ends) {
     options.interfaces.emplace_back();
     options.interfaces.back().name = options.interfaces.back().group = end;
   }
-  options.mode_count = 24;
+  options.modes.count = 24;
   options.stress_recovery = RecoveryExtent::none;
   Progress quiet(true);
   return reduce_body(test::box_mesh({{length, 0.2, 0.2}, {n, 1, 1}}), options, quiet, 2);

@@ -184,7 +184,7 @@ TEST_CASE(
     options.interfaces.emplace_back();
     options.interfaces.back().name = options.interfaces.back().group = name;
   }
-  options.mode_count = 20;
+  options.modes.count = 20;
   Progress quiet(true);
   const Superelement shaft = reduce_body(mesh, options, quiet, 1);
   for (const auto& [i, j, sign] : {std::tuple{3, 3, 1}, {9, 9, 1}, {3, 9, -1}}) {

@@ -50,7 +50,7 @@ struct SolidBar {
     options.name = "bar";
     options.materials = {{"m", reduce::Material::isotropic(1e7, 0, 1000)}};
     options.regions = {{"all", "m"}};
-    options.mode_count = modes;
+    options.modes.count = modes;
     for (const auto& [name, group, s] : {std::tuple{"root", "x0", 0.0}, {"tip", "x1", length}}) {
       reduce::InterfaceRequest request;
       request.name = name;

@@ -25,7 +25,7 @@ void write_bar(const std::string& path, bool relieved) {
   options.name = "bar";
   options.materials = {{"steel", reduce::Material::isotropic(210e9, 0.3, density)}};
   options.regions = {{"all", "steel"}};
-  options.mode_count = 16;
+  options.modes.count = 16;
   options.inertia_relief = relieved;
   options.damping_ratios = {1};
   options.stress_recovery = reduce::RecoveryExtent::all;

@@ -53,7 +53,7 @@ Superelement bar(const Mesh& mesh) {
     options.interfaces.back().tie = Tie::free;
     options.interfaces.back().kept = {true, true, true, false, false, false};
   }
-  options.mode_count = 0;
+  options.modes.count = 0;
   options.stress_recovery = RecoveryExtent::all;
   Progress quiet(true);
   return reduce_body(mesh, options, quiet, 2);

@@ -30,7 +30,7 @@ void write_block(const std::string& path, const Eigen::Vector3d& size, const std
   options.name = "block";
   options.materials = {{"m", reduce::Material::isotropic(1e7, 0, 1000)}};
   options.regions = {{"all", "m"}};
-  options.mode_count = 4;
+  options.modes.count = 4;
   for (const char* group : {"x0", "x1"}) {
     reduce::InterfaceRequest request;
     request.name = request.group = group;

@@ -36,7 +36,7 @@ Superelement reduced_strip(Tie a, int modes) {
   options.interfaces[1].name = options.interfaces[1].group = "x1";
   options.interfaces[0].tie = a;
   options.interfaces[1].tie = Tie::average;
-  options.mode_count = modes;
+  options.modes.count = modes;
   Progress quiet(true);
   return reduce_body(test::box_mesh(strip), options, quiet, 2);
 }
@@ -125,7 +125,7 @@ TEST_CASE("Frequencies of a thick cantilever and of the free beam agree with Tim
   options.regions = {{"all", "steel"}};
   options.interfaces.resize(1);
   options.interfaces[0].name = options.interfaces[0].group = "x0";
-  options.mode_count = 3;
+  options.modes.count = 3;
   options.stress_recovery = RecoveryExtent::none;
   Progress quiet(true);
   const Mesh mesh = test::box_mesh({{1, 0.1, 0.1}, {24, 3, 3}});

@@ -28,7 +28,7 @@ Superelement beam(Tie a) {
   options.interfaces[1].name = options.interfaces[1].group = "x1";
   options.interfaces[0].tie = a;
   options.interfaces[1].tie = Tie::average;
-  options.mode_count = 12;
+  options.modes.count = 12;
   Progress quiet(true);
   return reduce_body(test::box_mesh({{1, 0.02, 0.02}, {64, 1, 1}}), options, quiet, 2);
 }

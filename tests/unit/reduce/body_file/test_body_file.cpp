@@ -88,8 +88,8 @@ TEST_CASE("a body file becomes a request for a mesh and the options of a reducti
   CHECK(options.interfaces[0].subject == "interfaces.big_end");
   CHECK(options.interfaces[1].tie == Tie::average);
   CHECK(options.interfaces[1].position == Eigen::Vector3d(0.2, 0, 0));
-  CHECK(options.mode_count == 20);
-  CHECK_FALSE(options.modes_below.has_value());
+  CHECK(options.modes.count == 20);
+  CHECK_FALSE(options.modes.below.has_value());
   CHECK(options.damping_ratios == std::vector<double>{0.01});
   CHECK_FALSE(options.rayleigh.has_value());
   REQUIRE(options.loads.size() == 1);
@@ -110,8 +110,8 @@ TEST_CASE("what may be left out is left out") {
   CHECK_FALSE(file.mesh.order.has_value());
   CHECK(file.options.interfaces[0].tie == Tie::rigid);
   CHECK_FALSE(file.options.interfaces[0].position.has_value());
-  CHECK(file.options.modes_below == 5000);
-  CHECK_FALSE(file.options.mode_count.has_value());
+  CHECK(file.options.modes.below == 5000);
+  CHECK_FALSE(file.options.modes.count.has_value());
   CHECK(file.options.damping_ratios.empty());
 }
 
@@ -185,14 +185,14 @@ TEST_CASE("interfaces keep directions, have axes, and may be free") {
 }
 
 TEST_CASE("modes by number, by frequency or both") {
-  CHECK(read("count: 20", "count: 0").options.mode_count == 0);
+  CHECK(read("count: 20", "count: 0").options.modes.count == 0);
   const BodyFile both = read("count: 20", "count: 20, below: 3e3");
-  CHECK(both.options.mode_count == 20);
-  CHECK(both.options.modes_below == 3000);
-  CHECK(both.options.mode_method == EigenMethod::automatic);
-  CHECK(read("count: 20", "count: 20, method: auto").options.mode_method == EigenMethod::automatic);
-  CHECK(read("count: 20", "count: 20, method: arpack").options.mode_method == EigenMethod::arpack);
-  CHECK(read("count: 20", "count: 20, method: block_lanczos").options.mode_method == EigenMethod::block_lanczos);
+  CHECK(both.options.modes.count == 20);
+  CHECK(both.options.modes.below == 3000);
+  CHECK(both.options.modes.method == EigenMethod::automatic);
+  CHECK(read("count: 20", "count: 20, method: auto").options.modes.method == EigenMethod::automatic);
+  CHECK(read("count: 20", "count: 20, method: arpack").options.modes.method == EigenMethod::arpack);
+  CHECK(read("count: 20", "count: 20, method: block_lanczos").options.modes.method == EigenMethod::block_lanczos);
   check("count: 20", "count: 20, method: lanczos", "11: modes.method: 'lanczos' is not a method for modes");
   check("count: 20", "count: -1", "11: modes.count: expected a number of at least 0, found -1");
   check("count: 20", "count: 2.5", "11: modes.count: expected a whole number, found 2.5");
@@ -316,7 +316,7 @@ TEST_CASE("values have units: lengths, angles, pressures, frequencies and dampin
   CHECK(read("pressure: 1e5", "pressure: 80 bar").options.loads[0].pressure == Approx(8e6));
   CHECK(read("pressure: 1e5", "traction: [0, 0, 2 MPa]").options.loads[0].traction->z() == Approx(2e6));
   CHECK(read("pressure: 1e5", "force: [0, 3 kN, 0]").options.loads[0].force->y() == Approx(3000));
-  CHECK(read("count: 20", "below: 3 kHz").options.modes_below == Approx(3000));
+  CHECK(read("count: 20", "below: 3 kHz").options.modes.below == Approx(3000));
   CHECK(read("ratio: 0.01", "rayleigh: [2 1/s, 3 ms]").options.rayleigh->at(1) == Approx(3e-3));
   const BodyFile turned = read("tie: rigid", "position: [12 mm, 0, 0], rotation_vector: [0, 0, 90 deg]");
   CHECK(turned.options.interfaces[0].position->x() == Approx(0.012));

@@ -31,7 +31,7 @@ BothWays reduced_both_ways(Tie a, Tie b, int modes, bool turned = false) {
   MatrixOptions foreign;
   foreign.interfaces = {test::tied("a", test::node_numbers(mesh, "x0"), a),
                         test::tied("b", test::node_numbers(mesh, "x1"), b)};
-  foreign.mode_count = modes;
+  foreign.modes.count = modes;
   for (std::size_t k = 0; k < 2; ++k) {
     options.interfaces[k].group += " nodes";
     const Group& group = mesh.groups.at(options.interfaces[k].group);
@@ -81,20 +81,27 @@ TEST_CASE("Modes of matrices are found by iteration where the body is large") {
   const Mesh mesh = test::box_mesh({{0.4, 0.1, 0.15}, {6, 3, 3}});
   MatrixOptions options;
   options.interfaces = {test::tied("a", test::node_numbers(mesh, "x0"))};
-  options.mode_count = 5;
+  options.modes.count = 5;
   const MatrixSet set = test::matrices_of(mesh);
   REQUIRE(set.size() > most_unasked_modes);
   const Superelement counted = test::reduced(set, options);
   CHECK(counted.modes() == 5);
-  options.mode_count.reset();
-  options.modes_below = 1.01 * counted.frequencies(3);
+  options.modes.count.reset();
+  options.modes.below = 1.01 * counted.frequencies(3);
   const Superelement below = test::reduced(set, options);
   REQUIRE(below.modes() == 4);
   CHECK(difference(counted.frequencies.head(4), below.frequencies) < 1e-8);
-  options.modes_below.reset();
+  options.modes.count = 2;  // of the four below
+  const Superelement both = test::reduced(set, options);
+  REQUIRE(both.modes() == 2);
+  CHECK(difference(counted.frequencies.head(2), both.frequencies) < 1e-8);
+  options.modes.count = 30;
+  CHECK(test::reduced(set, options).modes() == 4);
+  options.modes.count.reset();
+  options.modes.below.reset();
   CHECK_THROWS_WITH(test::reduced(set, options), Contains("tell how many modes to keep"));
-  options.mode_count = 100000;
-  CHECK_THROWS_WITH(test::reduced(set, options), Contains("100000 are asked for"));
+  options.modes.count = 100000;
+  CHECK_THROWS_WITH(test::reduced(set, options), Contains("100000 fixed-boundary modes are asked for"));
 }
 
 TEST_CASE("A reduced beam keeps its matrices, whatever scalars describe its inside") {
@@ -218,7 +225,7 @@ TEST_CASE("Damping and points of matrices") {
 TEST_CASE("Residual vectors make static answers of points exact") {
   MatrixOptions options;
   options.interfaces = {test::tied("a", {10}), test::tied("b", {60})};
-  options.mode_count = 2;
+  options.modes.count = 2;
   NodePoint point;
   point.name = "quarter";
   point.node = 30;
@@ -234,7 +241,7 @@ TEST_CASE("Residual vectors make static answers of points exact") {
   const Eigen::VectorXd answer = stiffness.cwiseInverse().cwiseProduct(shapes.row(1).transpose());
   CHECK(shapes.row(1).dot(answer) == Approx(std::pow(a * b / L, 3) / (3 * EI)).epsilon(1e-9));
   CHECK(shapes.row(5).dot(answer) == Approx(a * a * b * b * (b - a) / (2 * EI * L * L * L)).epsilon(1e-9));
-  options.mode_count.reset();  // all modes have the answer
+  options.modes.count.reset();  // all modes have the answer
   CHECK_THROWS_WITH(test::reduced(test::beam_set(5), options), Contains("points.quarter") && Contains("leave nothing"));
 }
 

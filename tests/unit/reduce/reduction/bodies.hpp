@@ -30,7 +30,7 @@ inline reduce::ReductionOptions steel_body(reduce::Tie a, reduce::Tie b, int mod
   options.materials = {{"steel", steel()}};
   options.regions = {{"all", "steel"}};
   options.interfaces = {interface("a", "x0", a), interface("b", "x1", b)};
-  options.mode_count = modes;
+  options.modes.count = modes;
   return options;
 }
 

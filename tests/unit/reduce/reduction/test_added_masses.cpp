@@ -46,7 +46,7 @@ ReductionOptions rod(int modes) {
   options.materials = {{"cork", Material::isotropic(4e8, 0, 2000)}};
   options.regions = {{"all", "cork"}};
   options.interfaces = {test::interface("root", "x0", Tie::rigid)};
-  options.mode_count = modes;
+  options.modes.count = modes;
   return options;
 }
 

@@ -42,8 +42,8 @@ TEST_CASE("The first mode left out is that of a reduction with one more") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::average, 12);
   const Eigen::VectorXd twelve = test::reduced(mesh, options).frequencies;
   const auto next = [&](std::optional<int> count, std::optional<double> below) {
-    options.mode_count = count;
-    options.modes_below = below;
+    options.modes.count = count;
+    options.modes.below = below;
     return judged(mesh, options).next_mode;
   };
   const double between = (twelve(6) + twelve(7)) / 2;
@@ -93,7 +93,7 @@ TEST_CASE("All modes together have the whole answer to accelerations, a few have
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 108);  // 36 points inside
   options.interfaces.pop_back();
   CHECK((judged(mesh, options).inertia_answer - Eigen::Vector3d::Ones()).norm() < 1e-9);
-  options.mode_count = 2;  // bending
+  options.modes.count = 2;  // bending
   const Eigen::Vector3d few = judged(mesh, options).inertia_answer;
   CHECK(few.x() < 0.1);
   CHECK(few.y() > 0.8);

@@ -151,16 +151,16 @@ TEST_CASE("Modes are counted, limited by frequency, or both") {
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid, 12);
   const Eigen::VectorXd twelve = test::reduced(mesh, options).frequencies;
   REQUIRE(twelve.size() == 12);
-  options.modes_below = (twelve(6) + twelve(7)) / 2;
+  options.modes.below = (twelve(6) + twelve(7)) / 2;
   CHECK(test::reduced(mesh, options).frequencies.size() == 7);
-  options.mode_count.reset();
+  options.modes.count.reset();
   CHECK((test::reduced(mesh, options).frequencies - twelve.head(7)).norm() < 1e-9 * twelve(6));
-  options.mode_count = 3;
+  options.modes.count = 3;
   CHECK(test::reduced(mesh, options).frequencies.size() == 3);
-  options.modes_below.reset();
-  options.mode_count = 100000;
+  options.modes.below.reset();
+  options.modes.count = 100000;
   CHECK_THROWS_WITH(test::reduced(mesh, options), Contains("modes.count: 100000 fixed-boundary modes are asked for"));
-  options.mode_count.reset();
+  options.modes.count.reset();
   CHECK(test::reduced(mesh, options).modes() == 0);
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("Effective masses add up to what the constraint modes leave") {
   const Mesh mesh = test::box_mesh({{0.2, 0.1, 0.1}, {2, 1, 1}});
   ReductionOptions options = test::steel_body(Tie::rigid, Tie::rigid);
   options.interfaces.pop_back();
-  options.mode_count = 108;  // all of them: 36 points inside
+  options.modes.count = 108;  // all of them: 36 points inside
   const Superelement body = test::reduced(mesh, options);
   // With every mode, Phi Phi^T = M_ii^-1: the sums are (M U)_i^T M_ii^-1 (M U)_i, U rigid motions about the centre.
   const Solid solid = make_solid(mesh, options.materials, options.regions);
