@@ -32,7 +32,8 @@ TEST_CASE("loads, forces and stiffness fields are drawn at their nodes") {
       two_nodes +
       "  pair: {type: node_force, nodes: [a, b], at: [0, 1, 0], force: [1, 0, 0]}\n"
       "  cylinder: {type: hydraulic_actuator, nodes: [a, b], at: [[0, 0, 0], [0.5, 0, 0]], stroke: "
-      "[2, 4], areas: [1e-3, 8e-4], supply_pressure: 1e7, valve: {flow: 1e-4, pressure_drop: 1e5}, command: 0}\n"
+      "[2, 4], piston_areas: [5e-3, 3e-3], dead_volumes: [1e-4, 1e-4], supply: {pressure: 2e7, tank: "
+      "101325}, valve: {area: 1e-5, command: 0}}\n"
       "loads: {push: {node: a, at: [2, 0, 0], force: [0, 0, 1]}}\n");
   CHECK(drawn.at(drawn.one("loads/push", "force")).x.isApprox(Vector3(1, 2, 0), 1e-14));
   CHECK(drawn.at(drawn.one("elements/pair", "force")).x.isApprox(Vector3(3, 1, 0), 1e-14));
