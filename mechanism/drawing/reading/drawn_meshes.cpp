@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <unordered_map>
 
@@ -11,6 +13,9 @@
 
 #include "mechanism/contacts/triangle_surface.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/files/scratch_folder.hpp"
+#include "reduce/common/process/other_program.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -50,6 +55,52 @@ std::shared_ptr<const DrawnMesh> mesh_of_stl(const std::string& path, double sca
     triangle[corner++ % 3] = found->second;
     if (corner % 3 == 0) mesh->triangles.push_back(triangle);
   }
+  return mesh;
+}
+
+namespace {
+
+std::shared_ptr<const DrawnMesh> tessellated(const std::string& path) {
+  const std::string reduce = find_sibling_program("bielle-reduce");
+  if (reduce.empty())
+    throw InputError(
+        fmt::format("'{}' cannot be read: bielle-reduce, which makes triangles of it, is neither next to this "
+                    "program nor on the PATH",
+                    path));
+  const ScratchFolder folder;
+  const std::string surface = (folder.path() / "surface.stl").string(), said = (folder.path() / "said").string();
+  if (run_other_program({reduce, "--surface", path, "-o", surface, "--quiet"}, said) != 0) {
+    const std::vector<std::string> lines = lines_of_file(said);
+    const std::string label = ": error: ", line = lines.empty() ? "" : lines.back();
+    const std::size_t at = line.find(label);
+    throw InputError(lines.empty() ? fmt::format("'{}' cannot be made into triangles by bielle-reduce", path)
+                                   : line.substr(at == std::string::npos ? 0 : at + label.size()));
+  }
+  auto mesh = std::make_shared<DrawnMesh>(*mesh_of_stl(surface, 1));
+  mesh->name = name_of_file(path);
+  return mesh;
+}
+
+}  // namespace
+
+std::shared_ptr<const DrawnMesh> mesh_of_geometry(const std::string& path) {
+  check_input_file(path);
+  struct Known {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size;
+    std::shared_ptr<const DrawnMesh> mesh;
+  };
+  static std::mutex guard;
+  static std::map<std::string, Known> known;  // models are read many times in a study of their parameters
+  const std::scoped_lock lock(guard);
+  const auto time = std::filesystem::last_write_time(path);
+  const auto size = std::filesystem::file_size(path);
+  const std::string name = std::filesystem::canonical(path).string();
+  if (const auto found = known.find(name);
+      found != known.end() && found->second.time == time && found->second.size == size)
+    return found->second.mesh;
+  const auto mesh = tessellated(path);
+  known[name] = {time, size, mesh};
   return mesh;
 }
 

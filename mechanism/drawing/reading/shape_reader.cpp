@@ -84,8 +84,10 @@ const KeyTable& drawn_shape_keys() {
                 "Radius at the end at -z, radius at the end at +z, and length."},
                {"ring", list_of(2, length), optional, "Radius of the centre line around z, and radius of the section."},
                {"stl", file("STL"), optional, "Surface of triangles, binary or text."},
+               {"step", file("geometry"), optional,
+                "Geometry (STEP, IGES, BREP), of which bielle-reduce makes triangles."},
                {"scale", number().positive(), otherwise("1"),
-                "Length of the file's unit in metres: 0.001 for a file in millimetres."}},
+                "Length of the unit of an STL file in metres: 0.001 for a file in millimetres."}},
               own_frame_keys(),
               {{"colour", text(), optional, "Colour: a name of CSS such as `steelblue`, or \"#rrggbb\"."},
                {"opacity", number().between(0, 1), otherwise("1"), "Opacity, from 0 (invisible) to 1."}}})};
@@ -96,13 +98,17 @@ void read_drawn_shape(const YamlValue& value, const Entry& entry, int node, Mode
   const YamlValue map = value.keyed(drawn_shape_keys());
   std::vector<std::string> names, given;
   for (const DrawnForm& form : drawn_forms) names.emplace_back(form.name);
-  names.emplace_back("stl");
+  names.insert(names.end(), {"stl", "step"});
   for (const std::string& name : names)
     if (map.has(name)) given.push_back(name);
   if (given.size() != 1) map.fail(fmt::format("expected exactly one of '{}'", fmt::join(names, "', '")));
   if (const auto scale = map.find("scale"); scale && given.front() != "stl")
-    scale->fail("belongs to a file; the lengths of all other shapes are in metres");
+    scale->fail("belongs to an STL file; a geometry has its unit, and the lengths of all other shapes are in metres");
   DrawnItem item = read_form(map, node);
+  if (given.front() == "step") {
+    item.shape = "mesh";
+    item.mesh = read_named_file(map.at("step"), mesh_of_geometry);
+  }
   if (given.front() == "stl") {
     const double scale = map.at("scale").number();
     item.shape = "mesh";

@@ -66,7 +66,7 @@ TEST_CASE("shapes have exactly one form, and known keys and colours") {
            {"{sphere: 1, color: red}", "did you mean 'colour'?"},
            {"{sphere: 1, density: 7800}", "'density' is not a key of a shape"},
            {"{sphere: 1, cut: true}", "'cut' is not a key of a shape"},
-           {"{sphere: 1, scale: 2}", "belongs to a file"},
+           {"{sphere: 1, scale: 2}", "belongs to an STL file"},
            {"{sphere: 1, colour: steelblu}", "did you mean 'steelblue'?"},
            {"{sphere: 1, colour: '#12345'}", "#rrggbb"},
            {"{sphere: 1, colour: '#12345g'}", "#rrggbb"},
@@ -99,7 +99,7 @@ TEST_CASE("files of shapes that are missing or damaged are refused") {
   CHECK_THAT(said("{stl: good.stl, scale: 0}"), Contains("nodes.a.shape.scale") && Contains("greater than 0"));
   CHECK_THAT(said("{stl: good.stl, scale: 1e300}"), Contains("nodes.a.shape.stl") && Contains("too large"));
   CHECK_THAT(said("{stl: 5}"), Contains("nodes.a.shape.stl"));
-  CHECK_THAT(said("{step: part.step}"), Contains("nodes.a.shape"));
+  CHECK_THAT(said("{step: part.step}"), Contains("nodes.a.shape.step") && Contains("part.step"));
 }
 
 }  // namespace test_shape_keys
