@@ -3,13 +3,17 @@ checked."""
 
 import json
 import os
+import re
+import shutil
 import struct
+import subprocess
 import unittest
 
 import h5py
 import numpy as np
 
-from command import CommandTest
+from command import PROGRAMS, CommandTest
+from in_folder import REPOSITORY
 
 SHAPES = """, shape: [{box: [0.4, 0.2, 0.1], position: [0.1, 0, 0], rotation_vector: [0, 0, pi/2], colour: steelblue, opacity: 0.5},
          {ring: [0.3, 0.05]}, {stl: part.stl, scale: 0.001}, {stl: part.stl, scale: 0.001, colour: red}, {stl: part.stl}]"""
@@ -181,7 +185,7 @@ class Drawing(CommandTest):
     def test_a_missing_file_is_refused_with_its_place(self):
         os.remove(self.path("part.stl"))
         self.write("model.yaml", model())
-        self.expect_refusal(1, "model.yaml", says=("model.yaml:11: elements.a.shape[3].stl: ", "part.stl"))
+        self.expect_refusal(1, "model.yaml", says=("model.yaml:9: elements.a.shape[3].stl: ", "part.stl"))
 
 
 class Checked(CommandTest):
@@ -242,6 +246,77 @@ joints:
         self.write("notes.txt", "mine")
         self.expect_refusal(1, "model.yaml", "--check", "-o", "notes.txt", says=("notes.txt: exists and is no results file",))
         self.expect_refusal(1, "model.yaml", "--check", "-o", "nowhere/x.h5", says=("nowhere",))
+
+
+CYLINDER = """\
+SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 2000, 500};
+Box(2) = {2000, 0, 0, 1000, 2000, 3000};
+"""
+
+
+def volume_inside(corners):
+    """Volume inside of closed surfaces of triangles (n, 3, 3) that are anticlockwise seen from outside."""
+    return np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+
+
+class Surface(CommandTest):
+    program = "bielle-reduce"
+
+    def surface(self, *arguments):
+        done = self.run_program("--surface", *arguments, "-o", "surface.stl")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("surface.stl"), "rb") as file:
+            data = file.read()
+        count = struct.unpack("<I", data[80:84])[0]
+        self.assertEqual(len(data), 84 + 50 * count)
+        record = np.frombuffer(data[84:], dtype=[("numbers", "<f4", 12), ("attribute", "<u2")])
+        return record["numbers"][:, 3:].reshape(-1, 3, 3).astype(float)
+
+    def test_solids_have_closed_surfaces_of_their_volume_in_metres(self):
+        self.write("two.geo", CYLINDER)
+        corners = self.surface("two.geo", "--length-unit", "mm")
+        box = corners[:, :, 0].min(axis=1) > 1
+        self.assertAlmostEqual(volume_inside(corners[box]), 6, 4)
+        # A prism of n sides in place of the cylinder has sin(2 pi/n)/(2 pi/n) of its volume: 0.99 for 25 sides.
+        ratio = volume_inside(corners[~box]) / (np.pi * 0.25 * 2)
+        self.assertTrue(0.98 < ratio < 1, ratio)
+
+    def test_wrong_calls_are_refused(self):
+        self.write("two.geo", CYLINDER)
+        self.expect_refusal(1, "--surface", "two.geo", says=("--surface needs -o",))
+        self.expect_refusal(1, "--surface", "missing.step", "-o", "x.stl", says=("missing.step",))
+        self.expect_refusal(1, "--surface", "two.geo", "-o", "two.geo", says=("two.geo",))
+        self.write("bad.step", "ISO-10303-21; nothing")
+        self.expect_refusal(1, "--surface", "bad.step", "-o", "x.stl", says=("bad.step",))
+        self.assertFalse(os.path.exists(self.path("x.stl")))
+
+
+class Geometry(CommandTest):
+    program = "bielle-mechanism"
+    MODEL = """\
+nodes: {a: {shape: {step: part.step, colour: steelblue}}}
+elements: {a: {type: point_mass, node: a, mass: 1}}
+analysis: [{type: dynamic, duration: 0.01, step: 0.01}]
+"""
+
+    def test_a_geometry_is_drawn_by_its_surface(self):
+        shutil.copy(os.path.join(REPOSITORY, "meshes", "conrod.step"), self.path("part.step"))
+        self.write("model.yaml", self.MODEL)
+        done = self.run_program("model.yaml", "-o", "run.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.path("run.h5")) as f:
+            mesh = f["/drawing_meshes/part"]
+            corners = mesh["points"][()].astype(float)[mesh["triangles"][()]]
+        listed = subprocess.run([os.path.join(PROGRAMS, "bielle-reduce"), "--list", "part.step"], cwd=self.folder, text=True, capture_output=True)
+        volume = float(re.search(r"volume 1: .*, ([\d.e+-]+) m\^3", listed.stdout)[1])
+        self.assertAlmostEqual(volume_inside(corners) / volume, 1, delta=0.02, msg=listed.stdout)
+
+    def test_a_wrong_geometry_is_refused_with_its_place(self):
+        self.write("model.yaml", self.MODEL)
+        self.expect_refusal(1, "model.yaml", says=("model.yaml:1: nodes.a.shape.step: ", "part.step"))
+        self.write("part.step", "ISO-10303-21; nothing")
+        self.expect_refusal(1, "model.yaml", says=("model.yaml:1: nodes.a.shape.step: ", "part.step"))
 
 
 if __name__ == "__main__":
