@@ -88,7 +88,7 @@ Drawing draw_model(const Model& model) {
   for (const auto& [entry, shape] : model.shapes()) shapes[entry].push_back(&shape);
   Drawing drawing;
   draw_nodes(model, shapes, drawing);
-  std::map<Entry, std::string> types;  // of entries that are begun: that of their first component
+  std::map<Entry, std::string> types;  // the type of an entry is that of its first component
   for (const Member& member : model.members()) {
     const auto [known, first] = types.emplace(member.entry, member.component->type());
     begin_drawn(member.entry, known->second, shapes, first, drawing);
