@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/io/checked_model.hpp"
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/io/mechanism_keys.hpp"
@@ -56,6 +57,14 @@ struct Options {
   CommonOptions common;
 };
 
+/// Describes the model, and writes its position if a results file is named.
+void check(const MechanismFile& file, const Options& options) {
+  const CheckedModel checked(file);
+  if (!options.results.empty()) write_checked_model(checked, options.results);
+  fmt::print("{}", describe_model(checked));
+  if (!options.results.empty()) fmt::print("results: {}\n", options.results);
+}
+
 /// Runs the model, or one of its cases.
 void run(const Options& options, const std::string& chosen_case) {
   const MechanismFile file = read_mechanism_file(options.model, read_overrides(options.settings), chosen_case);
@@ -63,7 +72,7 @@ void run(const Options& options, const std::string& chosen_case) {
   for (const std::string& warning : file.warnings) progress.warn(warning);
   if (options.expand) fmt::print("{}", file.text);
   if (options.check || options.expand) {
-    if (!options.expand) fmt::print("{}", describe_model(file));
+    if (!options.expand) check(file, options);
     return;
   }
   if (file.analyses.empty())
@@ -100,7 +109,8 @@ int body(int argc, char** argv) {
       ->expected(1);
   CLI::Option* one_case = app.add_option("--case", options.chosen_case, "runs one of the file's `cases`");
   app.add_flag("--all-cases", options.all_cases, "runs all of the file's `cases`")->excludes(one_case);
-  app.add_flag("--check", options.check, "read, assemble and describe the model without running it");
+  app.add_flag("--check", options.check,
+               "read, assemble and describe the model without running it; with -o write its position");
   app.add_flag("--expand", options.expand,
                "print the model with every included, repeated and placed entry written out");
   app.add_option("--keys", options.keys_of, "explain the keys of a type or section, or of `all`")->expected(1);

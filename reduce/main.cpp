@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -26,6 +27,7 @@
 #include "reduce/matrices_command.hpp"
 #include "reduce/mesh/checks.hpp"
 #include "reduce/mesh/describe.hpp"
+#include "reduce/mesh/geometry_surface.hpp"
 #include "reduce/mesh/import.hpp"
 #include "reduce/output_file.hpp"
 #include "reduce/reduction/integration_checks.hpp"
@@ -186,9 +188,25 @@ void list(const std::string& path, std::optional<std::string> length_unit, bool 
   fmt::print("{}", describe(read_deck(geometry.path, geometry.length_unit, notes)));
 }
 
+/// Writes the surface of a geometry as an STL file, by which it is drawn.
+void write_surface(const std::string& path, const std::string& output, const std::optional<std::string>& length_unit,
+                   bool system_calls) {
+  if (output.empty()) {
+    throw InputError("--surface needs -o: the STL file to be written");
+  }
+  check_output(output, {path});
+  Progress progress(true);
+  const std::string bytes = surface_of_geometry(path, length_unit, progress, system_calls);
+  std::ofstream file(output, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush()) {
+    throw ComputationError(fmt::format("{}: cannot be written; is the disk full?", output));
+  }
+}
+
 int body(int argc, char** argv) {
   CLI::App app{"Reduces a solid body to the motions of its interfaces and its lowest modes.", "bielle-reduce"};
-  std::string input, output, geometry, superelement, keys_of, foreign, units;
+  std::string input, output, geometry, surface, superelement, keys_of, foreign, units;
   std::optional<std::string> length_unit;
   bool system_calls = false;
   int ranks_at = -1;
@@ -199,8 +217,11 @@ int body(int argc, char** argv) {
   const auto* list_option =
       app.add_option("--list", geometry,
                      "show what a geometry or mesh (or that of a body file) offers: volumes, surfaces, groups, units");
-  const auto* unit = app.add_option("--length-unit", length_unit,
-                                    "with --list: unit of a geometry that carries none: m mm cm um km in ft");
+  const auto* surface_option = app.add_option(
+      "--surface", surface, "write the surface of a geometry to an STL file (-o), in metres, for drawings");
+  const auto* unit =
+      app.add_option("--length-unit", length_unit,
+                     "with --list and --surface: unit of a geometry that carries none: m mm cm um km in ft");
   const auto* from_option =
       app.add_option("--from", foreign, "make a superelement of another program's matrices (DMIG, OUTPUT4, .mtx ...)");
   const auto* units_option = app.add_option(
@@ -229,14 +250,14 @@ int body(int argc, char** argv) {
     return 0;
   }
   if (input_option->count() + list_option->count() + inspect_option->count() + from_option->count() +
-          verify_option->count() !=
+          verify_option->count() + surface_option->count() !=
       1) {
     throw InputError(
-        "expected one of: a body file, --from MATRICES, --list GEOMETRY, --inspect SUPERELEMENT, --verify FILE; see "
-        "--help");
+        "expected one of: a body file, --from MATRICES, --list GEOMETRY, --surface GEOMETRY, --inspect SUPERELEMENT, "
+        "--verify FILE; see --help");
   }
-  if (output_option->count() > 0 && input_option->count() + from_option->count() == 0) {
-    throw InputError("-o goes with a body file or --from: --list, --inspect and --verify write nothing");
+  if (output_option->count() > 0 && input_option->count() + from_option->count() + surface_option->count() == 0) {
+    throw InputError("-o goes with a body file, --from or --surface: --list, --inspect and --verify write nothing");
   }
   if (units_option->count() > 0 && from_option->count() + verify_option->count() == 0) {
     throw InputError("--units goes with --from and --verify; a body file has 'matrices: {file: .., units: ..}'");
@@ -244,12 +265,16 @@ int body(int argc, char** argv) {
   if (against->count() > 0 && verify_option->count() == 0) {
     throw InputError("--against goes with --verify FILE");
   }
-  if (unit->count() > 0 && list_option->count() == 0) {
-    throw InputError("--length-unit goes with --list; a body file has its own length_unit");
+  if (unit->count() > 0 && list_option->count() + surface_option->count() == 0) {
+    throw InputError("--length-unit goes with --list and --surface; a body file has its own length_unit");
   }
   if (system_calls && inspect_option->count() + verify_option->count() > 0) {
     throw InputError(fmt::format("--allow-system-calls goes with a body file or --list: {} reads no geometry",
                                  inspect_option->count() > 0 ? "--inspect" : "--verify"));
+  }
+  if (surface_option->count() > 0) {
+    write_surface(surface, output, length_unit, system_calls);
+    return 0;
   }
   if (list_option->count() > 0) {
     list(geometry, length_unit, system_calls);

@@ -78,6 +78,7 @@ class Contact final : public Component, public CoupledPairs, public OpenContact 
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
   std::string remark() const override { return remark_; }
   /// gap, touching, force; and force.x, y, z if each shape is always the first of its pairs, or always the second.
   std::vector<std::string> measure_names() const override;

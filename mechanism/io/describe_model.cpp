@@ -10,9 +10,7 @@
 #include "mechanism/model/description.hpp"
 #include "mechanism/session/unique_reactions.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
-#include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/massless_direction.hpp"
-#include "mechanism/solvers/start/redundancy_at_start.hpp"
 #include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
@@ -174,17 +172,13 @@ std::string describe_massless(const Model& model, const System& system, const St
 
 }  // namespace
 
-std::string describe_model(const MechanismFile& file) {
-  const Model& model = file.model;
-  System system(model);
-  State state = system.start(0);
-  State assembled;
-  const std::vector<int> redundant = take_out_redundant_at_start(system, model.environment, state, assembled);
-  StartReport report;
-  const AssemblyOptions kept = file.analyses.empty() ? AssemblyOptions() : file.analyses.front()->kept();
-  assemble_positions(system, model.environment, state, report,
-                     with_kept(system, model.environment, state, conditions_of_file(system), kept));
+std::string describe_model(const MechanismFile& file) { return describe_model(CheckedModel(file)); }
 
+std::string describe_model(const CheckedModel& checked) {
+  if (checked.failure) std::rethrow_exception(checked.failure);
+  const Model& model = checked.file.model;
+  const System& system = checked.system;
+  const State& state = checked.state;
   std::string text = fmt::format("{}\n", model.title.empty() ? "mechanism" : model.title);
   int internal = 0;
   for (const Node& node : model.nodes()) internal += node.internal;
@@ -198,8 +192,8 @@ std::string describe_model(const MechanismFile& file) {
   text +=
       fmt::format("  freedom      {} after {}\n", counted(mobility.degrees, "degree of freedom", "degrees of freedom"),
                   counted(mobility.independent, "independent constraint"));
-  text += format_start(report);
-  for (const std::string& names : name_constraints(system, redundant))
+  text += format_start(checked.report);
+  for (const std::string& names : name_constraints(system, checked.redundant))
     text += fmt::format("  redundant    {}: set aside\n", names);
   if (const std::string loose = describe_loose(system); !loose.empty())
     text += fmt::format("  loose        {}\n", loose);

@@ -4,15 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/io/checked_model.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "reduce/common/progress.hpp"
 
 namespace bielle::mechanism {
 
 /// Lists counts of nodes and components, unknowns, degrees of freedom, redundant constraints, the errors of the input
-/// positions, unused nodes, directions without mass, and every entry as its components describe it. The function
-/// assembles a state of its own. It takes time in proportion to the model, apart from the analysis of constraints.
+/// positions, unused nodes, directions without mass, and every entry as its components describe it. It takes time in
+/// proportion to the model, apart from the analysis of constraints.
 /// @throws ComputationError if the mechanism cannot be assembled
+std::string describe_model(const CheckedModel& checked);
 std::string describe_model(const MechanismFile& file);
 
 /// Lists times, steps, iterations, the start's changes, and the energy balance of each analysis.

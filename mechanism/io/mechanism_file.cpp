@@ -1,5 +1,7 @@
 #include "mechanism/io/mechanism_file.hpp"
 
+#include <set>
+
 #include <fmt/format.h>
 
 #include "mechanism/analyses/analysis_table.hpp"
@@ -31,6 +33,31 @@ std::vector<std::pair<std::string, YamlValue>> named_entries(const YamlValue& se
   auto entries = section.entries();
   for (const auto& [name, entry] : entries) check_name(name, entry);
   return entries;
+}
+
+/// Paths of the shapes by which nodes and elements are drawn: "elements.arm.shape".
+std::set<std::string> paths_of_shapes(const YamlValue& root) {
+  std::set<std::string> paths;
+  for (const char* section : {"nodes", "elements"})
+    if (const auto entries = root.find(section))
+      for (const auto& [name, entry] : entries->entries())
+        if (const auto shape = entry.find("shape")) paths.insert(shape->path());
+  return paths;
+}
+
+/// Returns the values that the motion of the model follows from: a run may go on with other shapes.
+std::vector<std::pair<std::string, std::string>> digest_of_model(const YamlValue& root) {
+  auto digest = root.digest({"mechanism", "parameters", "analysis", "output"});
+  const std::set<std::string> shapes = paths_of_shapes(root);
+  const auto is_of_shape = [&](const std::pair<std::string, std::string>& value) {
+    const std::string key = ".shape";
+    const std::string& path = value.first;
+    for (std::size_t at = path.find(key); at != std::string::npos; at = path.find(key, at + 1))
+      if (shapes.contains(path.substr(0, at + key.size()))) return true;
+    return false;
+  };
+  if (!shapes.empty()) std::erase_if(digest, is_of_shape);
+  return digest;
 }
 
 MechanismFile read_mechanism(const std::string& text, const std::string& name, const ModelOptions& options) {
@@ -86,7 +113,7 @@ MechanismFile read_mechanism(const std::string& text, const std::string& name, c
   }
   if (const auto output = root.find("output")) file.output = read_output(*output, end, statics, file.model);
   file.warnings = root.warnings();
-  file.model.source = root.digest({"mechanism", "parameters", "analysis", "output"});
+  file.model.source = digest_of_model(root);
   return file;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/drawing/reading/shape_reader.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_frame.hpp"
@@ -190,7 +191,8 @@ void read_node(const std::string& name, const YamlValue& entry, const Frame& fra
   read_holds(entry, node);
   check_holds(entry, node);
   check_velocities(entry, node);
-  model.add_node(std::move(node));
+  const int index = model.add_node(std::move(node));
+  if (const auto shape = entry.find("shape")) read_shapes(*shape, {Section::nodes, name}, index, model);
 }
 
 }  // namespace
@@ -216,7 +218,8 @@ const KeyTable& node_keys() {
                 "Held directions: `true`, or a number or formula of parameters that is not zero, for all six; or a "
                 "list of displacements x, y, z and rotations rx, ry, rz, along and about the inertial axes."},
                {"motion", nested(motion_keys), optional,
-                "Prescribed motion from the start, each direction as a formula of t or by its acceleration."}}})};
+                "Prescribed motion from the start, each direction as a formula of t or by its acceleration."},
+               shape_key()}})};
   return table;
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/measures/pair_rotation.hpp"
 #include "mechanism/measures/turns.hpp"
 #include "mechanism/model/description.hpp"
@@ -176,6 +177,10 @@ void Joint::describe(const LocalState& state, Description& description) const {
   description.add(fmt::format("nodes '{}' and '{}'", first_name_, second_name_));
   description.add(fmt::format("at {} m", format_vector(first.x + first.R * frames_.on_first.x)));
   description.add(fmt::format("x {}, z {}", format_vector(axes.col(0)), format_vector(axes.col(2))));
+}
+
+void Joint::draw(Drawing& drawing) const {
+  drawing.add({.shape = "joint", .places = {{frames_.first, frames_.on_first}, {frames_.second, frames_.on_second}}});
 }
 
 }  // namespace bielle::mechanism

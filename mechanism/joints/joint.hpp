@@ -93,6 +93,7 @@ class Joint : public Component {
   std::vector<std::pair<std::string, std::string>> attributes() const override;
   /// Describes the nodes, and the axes of the joint's frame.
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
   /// The names are "<coordinate>", "<coordinate>.rate", "reaction.x" (y z rx ry rz).

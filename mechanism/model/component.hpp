@@ -32,6 +32,7 @@ namespace bielle::mechanism {
 
 class Component;
 class Description;
+class Drawing;
 class StepRecorder;
 class Measure;
 class MeasureGradient;
@@ -211,6 +212,10 @@ class Component {
   /// properties (mass, stiffness, frames). Components that are made of one entry describe it one after the other.
   /// @param state  state of the assembled mechanism
   virtual void describe(const LocalState& /*state*/, Description& /*description*/) const {}
+
+  /// Adds the items by which the component is drawn. They depend on its given data alone, never on the state: they move
+  /// with nodes. A component that cannot be seen adds none.
+  virtual void draw(Drawing& /*drawing*/) const {}
 
   /// Computes new values of the component's memory after a converged step, from the state (whose memory is still the
   /// old one).

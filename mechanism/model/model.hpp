@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "mechanism/drawing/drawn_item.hpp"
 #include "mechanism/math/se3.hpp"
 #include "mechanism/model/component.hpp"
 #include "mechanism/model/entry.hpp"
@@ -111,6 +112,11 @@ class Model {
   void add_start_condition(StartCondition condition) { start_conditions_.push_back(condition); }
   const std::vector<StartCondition>& start_conditions() const { return start_conditions_; }
 
+  /// Adds an item by which an entry is drawn: a shape that the user gives it, or one that only its reader knows (the
+  /// sections of a beam, the course of a rope).
+  void add_shape(const Entry& entry, DrawnItem shape) { shapes_.emplace_back(entry, std::move(shape)); }
+  const std::vector<std::pair<Entry, DrawnItem>>& shapes() const { return shapes_; }
+
   /// Excludes a node, joint or element from the recorded results.
   void leave_out(const Entry& entry) { left_out_.insert(entry); }
   bool records(const Entry& entry) const { return !left_out_.contains(entry); }
@@ -132,6 +138,7 @@ class Model {
   std::array<std::vector<std::string>, section_count> names_;  ///< names of entries, by section
   std::vector<Chain> chains_;
   std::set<Entry> left_out_;
+  std::vector<std::pair<Entry, DrawnItem>> shapes_;
   std::vector<StartCondition> start_conditions_;
   std::array<std::vector<std::function<void()>>, 2> waiting_;  ///< deferred actions, by stage
   struct AnnouncedMeasure {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/results/model_drawing.hpp"
 #include "mechanism/results/results_datasets.hpp"
 #include "mechanism/results/results_stream.hpp"
 #include "mechanism/results/step_log.hpp"
@@ -44,6 +45,7 @@ void begin_run(ResultsStream& stream, const std::string& input_text) {
   std::string parameters;
   for (const auto& [name, value] : stream.model().parameters) parameters += fmt::format("{} = {}\n", name, value);
   if (!parameters.empty()) file.write_text("/parameters", parameters);
+  write_drawing(file, stream.model());
   file.flush();
   stream.start();
 }

@@ -1,28 +1,16 @@
 // Meshes that gmsh cannot read, or whose groups it loses: tools/convert_mesh.py converts them to MSH files.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "reduce/common/files/scratch_folder.hpp"
 
 namespace bielle {
 class Progress;
 }
 
 namespace bielle::reduce {
-
-/// A folder for temporary files that disappears with the object.
-class ScratchFolder {
- public:
-  ScratchFolder();  ///< @throws ComputationError when none can be made
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Runs a Python tool of Bielle that converts a file. It is sought in the folder that the environment variable
 /// BIELLE_TOOLS names, then where Bielle is installed, then in its sources.

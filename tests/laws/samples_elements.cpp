@@ -1,4 +1,6 @@
 // Samples of elements and loads.
+#include <fstream>
+
 #include "mechanism/elements/superelement/point_shapes.hpp"
 #include "reduce/superelement/superelement.hpp"
 #include "tests/laws/sample.hpp"
@@ -79,6 +81,40 @@ elements:
            {"solid", "[{sphere: 1, density: 1, cut: true}]", "no mass"},
            {"solid.0.density", "", ""},
            {"solid.1.cone", "[0, 0, 1]", "radii"}}};
+}
+
+Sample shaped_body() {
+  Sample sample{Section::elements,
+                "rigid_body",
+                "shapes",
+                two_nodes + R"yaml(
+elements:
+  it:
+    type: rigid_body
+    node: b
+    mass: 2
+    inertia: [1, 1.5, 2]
+    shape:
+      - {box: [1, 2, 0.5], position: [0.1, 0, 0], bryant: [0.1, 0.2, 0.3], colour: steelblue, opacity: 0.5}
+      - {tube: [0.2, 0.1, 1], colour: "#a0B0c0"}
+      - {cone: [0.5, 0.2, 1], position: [0, 0, 0.7]}
+      - {ring: [0.5, 0.2]}
+      - {sphere: 0.1}
+      - {cylinder: [0.1, 0.5]}
+      - {stl: part.stl, scale: 0.001}
+)yaml",
+                {{"shape.0.colour", "steelblu", "did you mean 'steelblue'"},
+                 {"shape.1.colour", "'#a0b0c'", "six digits"},
+                 {"shape.1.tube", "[0.1, 0.2, 1]", "inner radius"},
+                 {"shape.2.cone", "[0, 0, 1]", "radii"},
+                 {"shape.3.ring", "[0.1, 0.2]", "centre line"},
+                 {"shape.6.stl", "missing.stl", "missing.stl"},
+                 {"shape.6.scale", "1e300", ""},
+                 {"shape.5.cylinder", "", "exactly one"}}};
+  sample.files = [](const std::string& folder) {
+    std::ofstream(folder + "/part.stl") << "solid part\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  };
+  return sample;
 }
 
 Sample point_mass() {
@@ -414,6 +450,7 @@ std::vector<Sample> element_samples() {
                               turned_body(),
                               solid_body(),
                               drilled_body(),
+                              shaped_body(),
                               point_mass(),
                               beam(),
                               curved_beam(),

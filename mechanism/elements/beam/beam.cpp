@@ -128,6 +128,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
       model.add(std::make_unique<DistributedLoad>(name, span, load), own, Recorded::no);
   }
   model.add_chain(own, nodes);
+  model.add_shape(own, {.shape = "beam", .values = {{"element", results_path(own)}}, .sections = section.drawn()});
 }
 
 }  // namespace bielle::mechanism

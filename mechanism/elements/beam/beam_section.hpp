@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/drawing/drawn_item.hpp"
 #include "mechanism/elements/beam/wall_taper.hpp"
 #include "mechanism/math/types.hpp"
 #include "reduce/common/input/yaml_file.hpp"
@@ -65,6 +66,8 @@ class SectionLaw {
   explicit SectionLaw(const YamlValue& value);
   BeamSection at(double s) const;
   ElementSections over(double s_A, double s_B) const;  ///< sections of the element from s_A to s_B
+  /// Sections by which the beam is drawn, at stations along it; none if the section is given by constants.
+  std::vector<DrawnSection> drawn() const;
   std::size_t stress_points() const { return static_cast<std::size_t>(start_.points.size() / 2); }
 
  private:

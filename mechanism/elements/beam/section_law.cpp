@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam_section.hpp"
+#include "mechanism/elements/beam/section_outline.hpp"
 #include "mechanism/math/gauss.hpp"
 
 namespace bielle::mechanism {
@@ -96,6 +97,19 @@ ElementSections SectionLaw::over(double s_A, double s_B) const {
   std::array<BeamSection, 3> sections;
   for (std::size_t g = 0; g < 3; ++g) sections[g] = at(s_A + Gauss3::place[g] * (s_B - s_A));
   return ElementSections(std::move(sections));
+}
+
+std::vector<DrawnSection> SectionLaw::drawn() const {
+  if (start_.kind == "EA" || start_.kind == "stiffness") return {};
+  const int stations = uniform_ ? 1 : 16;  // the centroid of a tapered t or l does not move linearly
+  std::vector<DrawnSection> sections;
+  for (int k = 0; k <= stations; ++k) {
+    const double at = static_cast<double>(k) / stations;
+    const Definition d = between(at);
+    sections.push_back(section_outline(d.kind, d.numbers, d.offset));
+    sections.back().at = at;
+  }
+  return sections;
 }
 
 }  // namespace bielle::mechanism

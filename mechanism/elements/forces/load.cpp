@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
 
@@ -119,6 +120,10 @@ void read_load(const std::string& name, const YamlValue& entry, Model& model) {
     if (moment) load->read(*moment, true, model);
   });
   model.add(std::move(load), Entry{Section::loads, name}, Recorded::no);
+}
+
+void Load::draw(Drawing& drawing) const {
+  drawing.add({.shape = "force", .places = {{node_, {c_, Matrix3::Identity()}}}});
 }
 
 }  // namespace bielle::mechanism

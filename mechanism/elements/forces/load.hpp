@@ -31,6 +31,7 @@ class Load : public Component, public TimeDependent {
   void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
   std::vector<Formula> time_formulas() const override { return formulas_.time_formulas(); }
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
     formulas_.calc_time_formulas(state, values);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
 
@@ -147,6 +148,10 @@ void read_node_force(const std::string& name, const YamlValue& entry, Model& mod
     if (moment) added->read(*moment, true, model);
   });
   model.add(std::move(made), Entry{Section::elements, name});
+}
+
+void NodeForce::draw(Drawing& drawing) const {
+  drawing.add({.shape = "force", .places = {{nodes_[1], {c_, Matrix3::Identity()}}}});
 }
 
 }  // namespace bielle::mechanism

@@ -33,6 +33,7 @@ class NodeForce final : public Component, public TimeDependent {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
   std::vector<Formula> time_formulas() const override { return formulas_.time_formulas(); }
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
     formulas_.calc_time_formulas(state, values);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
@@ -247,6 +248,15 @@ void read_spring_damper(const std::string& name, const YamlValue& entry, Model& 
     model.when_read(Model::Stage::formulas,
                     [spring = spring.get(), formula = *force, &model] { spring->read(formula, model); });
   model.add(std::move(spring), Entry{Section::elements, name});
+}
+
+void SpringDamper::draw(Drawing& drawing) const {
+  const bool damps = law_.has_damping();
+  const bool springs = law_.stiffness() != 0 || !law_.is_linear() || !damps;
+  drawing.add_between(!damps    ? "coil"
+                      : springs ? "coil_damper"
+                                : "damper",
+                      {node_a_, {c_a_, Matrix3::Identity()}}, {node_b_, {c_b_, Matrix3::Identity()}});
 }
 
 }  // namespace bielle::mechanism

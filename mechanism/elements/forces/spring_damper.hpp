@@ -40,6 +40,7 @@ class SpringDamper : public Component, public TimeDependent {
   std::vector<Formula> time_formulas() const override;
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
   std::vector<std::string> measure_names() const override { return {"elongation", "elongation.rate"}; }
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/laws/read_elastic_law.hpp"
 #include "mechanism/measures/middle_frame.hpp"
 #include "mechanism/model/description.hpp"
@@ -169,6 +170,10 @@ void read_stiffness_field(const std::string& name, const YamlValue& entry, Model
   model.add(std::make_unique<StiffnessField>(name, std::array<int, 2>{nodes[0], nodes[1]},
                                              std::array<Frame, 2>{on(a), on(b)}, way, K, D),
             Entry{Section::elements, name});
+}
+
+void StiffnessField::draw(Drawing& drawing) const {
+  drawing.add({.shape = "stiffness", .places = {{nodes_[0], {}}, {nodes_[1], {}}}});
 }
 
 }  // namespace bielle::mechanism

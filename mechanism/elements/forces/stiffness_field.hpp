@@ -38,6 +38,7 @@ class StiffnessField final : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
  private:
   ElasticLaw::Measures measures(const LocalState& state, bool second) const;

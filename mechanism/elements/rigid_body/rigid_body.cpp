@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
@@ -101,6 +102,11 @@ void RigidBody::write_output(const LocalState& state, double* values) const {
   Eigen::Map<Eigen::Matrix<double, 9, 1>> out(values);
   const Vector3 momentum = m_ * (n.v + n.R * n.Omega.cross(c_));
   out << n.x + n.R * c_, momentum, n.x.cross(momentum) + n.R * (J_ * n.Omega + m_ * c_.cross(n.R.transpose() * n.v));
+}
+
+void RigidBody::draw(Drawing& drawing) const {
+  if (drawing.shaped()) return;
+  drawing.add({.shape = "body", .places = {{node_, {}}}, .values = {{"centre", numbers_of(properties_.centre)}}});
 }
 
 }  // namespace bielle::mechanism

@@ -41,6 +41,7 @@ class RigidBody final : public Component {
   std::vector<std::pair<std::string, std::string>> attributes() const override { return attributes_; }
 
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
   int node() const { return node_; }
   const MassProperties& properties() const { return properties_; }  ///< in the node's axes

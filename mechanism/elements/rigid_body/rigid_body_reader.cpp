@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/reading/shape_reader.hpp"
 #include "mechanism/elements/rigid_body/rigid_body.hpp"
 #include "mechanism/elements/rigid_body/solid_reader.hpp"
 #include "mechanism/reading/names.hpp"
@@ -85,6 +86,11 @@ void carry(const YamlValue& also, int carrier, const std::string& body, Model& m
   }
 }
 
+void draw_solids(const YamlValue& value, const Entry& own, int node, const Vector3& offset, Model& model) {
+  if (!value.is_sequence()) return draw_solid(value.keyed(solid_keys()), own, node, offset, model);
+  for (const YamlValue& item : value.items()) draw_solid(item.keyed(solid_keys()), own, node, offset, model);
+}
+
 const KeyTable& inertia_axes_keys() {
   static const KeyTable table{"`inertia_axes`", "Axes of an inertia tensor by their orientation.", orientation_keys()};
   return table;
@@ -113,7 +119,8 @@ const KeyTable& rigid_body_keys() {
         {nested(solid_keys), list_of(nested(solid_keys)).items_at_least(1)},
         optional,
         "Solid, or list of solids that are added up, in place of mass and inertia."},
-       {"also", list_of(name_of("node")), optional, "Further nodes that the body carries rigidly."}}};
+       {"also", list_of(name_of("node")), optional, "Further nodes that the body carries rigidly."},
+       shape_key()}};
   return table;
 }
 
@@ -136,8 +143,12 @@ void read_rigid_body(const std::string& name, const YamlValue& entry, Model& mod
   check_representable(entry, p);
   warn_of_units(entry, p);
   if (const auto also = entry.find("also")) carry(*also, node, name, model);
-  model.add(std::make_unique<RigidBody>("rigid_body", name, node, p, model.node(node).name),
-            Entry{Section::elements, name});
+  const Entry own{Section::elements, name};
+  if (const auto shape = entry.find("shape"))
+    read_shapes(*shape, own, node, model);
+  else if (const auto solid = entry.find("solid"))
+    draw_solids(*solid, own, node, solids_are_placed(*solid) ? Vector3::Zero() : p.centre, model);
+  model.add(std::make_unique<RigidBody>("rigid_body", name, node, p, model.node(node).name), own);
 }
 
 const KeyTable& point_mass_keys() {
@@ -148,7 +159,8 @@ const KeyTable& point_mass_keys() {
       {type_key(),
        {"node", name_of("node"), required, "The node that moves with the mass."},
        {"mass", number("kg").non_negative(), required, "Mass."},
-       {"centre", vector3("m").as_point(), otherwise("[0, 0, 0]"), "Place of the mass in the axes of the node."}}};
+       {"centre", vector3("m").as_point(), otherwise("[0, 0, 0]"), "Place of the mass in the axes of the node."},
+       shape_key()}};
   return table;
 }
 
@@ -158,8 +170,9 @@ void read_point_mass(const std::string& name, const YamlValue& entry, Model& mod
   p.centre = entry.at("centre").vector3();
   if (p.mass > 0) check_representable(entry, p);
   const int node = node_named_by(entry.at("node"), model);
-  model.add(std::make_unique<RigidBody>("point_mass", name, node, p, model.node(node).name),
-            Entry{Section::elements, name});
+  const Entry own{Section::elements, name};
+  if (const auto shape = entry.find("shape")) read_shapes(*shape, own, node, model);
+  model.add(std::make_unique<RigidBody>("point_mass", name, node, p, model.node(node).name), own);
 }
 
 }  // namespace bielle::mechanism

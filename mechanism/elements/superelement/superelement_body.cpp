@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/elements/superelement/frame_conditions.hpp"
 #include "mechanism/elements/superelement/known_state.hpp"
 #include "mechanism/elements/superelement/recovery/stress_peaks.hpp"
@@ -468,6 +469,13 @@ void SuperelementBody::calc_time_formulas(const LocalState& state, std::span<dou
 void SuperelementBody::add_break_points(std::vector<double>& times) const {
   for (const Load& load : loads_)
     for (double time : load.factor.break_points()) times.push_back(time);
+}
+
+void SuperelementBody::draw(Drawing& drawing) const {
+  std::vector<std::pair<std::string, DrawnValue>> values = {{"element", results_path({Section::elements, name()})}};
+  for (const auto& [attribute, value] : attributes_)
+    if (attribute == "file" || attribute == "group") values.emplace_back(attribute, value);
+  drawing.add({.shape = "superelement", .values = std::move(values)});
 }
 
 }  // namespace bielle::mechanism

@@ -105,6 +105,7 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   std::unique_ptr<StepRecorder> make_step_recorder() const override;
   /// Describes file, mass, modes with the range of their frequencies, interfaces with their nodes, loads.
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
   const SuperelementMatrices& matrices() const { return *matrices_; }
   const MatrixX& damping() const { return damping_.size() > 0 ? damping_ : matrices_->C; }  ///< C~ of this body

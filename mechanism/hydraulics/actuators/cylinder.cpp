@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/hydraulics/actuators/stroke_watch.hpp"
 #include "mechanism/measures/nested.hpp"
 #include "mechanism/model/description.hpp"
@@ -312,6 +313,12 @@ std::vector<std::string> Cylinder::measure_names() const {
 
 std::unique_ptr<Measure> Cylinder::make_measure(const std::string& name, const std::string& measure) const {
   return std::make_unique<CylinderMeasure>(name, *this, measure);
+}
+
+void Cylinder::draw(Drawing& drawing) const {
+  drawing.add_between("jack", {geometry_.node_a, {geometry_.at_a, Matrix3::Identity()}},
+                      {geometry_.node_b, {geometry_.at_b, Matrix3::Identity()}},
+                      {{"stroke", std::vector<double>{geometry_.shortest, geometry_.longest}}});
 }
 
 }  // namespace bielle::mechanism

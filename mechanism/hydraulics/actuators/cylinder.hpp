@@ -52,6 +52,7 @@ class Cylinder final : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
   std::unique_ptr<StepRecorder> make_step_recorder() const override;
   const Geometry& geometry() const { return geometry_; }
   /// The names are length, length.rate, force, pressure_1, pressure_2.

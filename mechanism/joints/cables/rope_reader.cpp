@@ -118,6 +118,21 @@ void add_grips(const std::string& name, const std::vector<const RopeSection*>& s
   }
 }
 
+/// Draws the course of the rope, and its pulleys.
+void add_course(const std::string& name, const RopePath& path, bool closed, Model& model) {
+  const Entry entry{Section::joints, name};
+  DrawnItem course{.shape = "course", .values = {{"closed", closed}}};
+  for (std::size_t k = 0; k < path.nodes.size(); ++k) {
+    const Pulley& pulley = path.pulleys[k];
+    const double radius = std::abs(pulley.radius);
+    const DrawnPlace place{path.nodes[k], pulley.on_node};
+    course.places.push_back(place);
+    course.pulleys.push_back({radius, pulley.radius < 0 ? -1 : 1});
+    if (radius > 0) model.add_shape(entry, {.shape = "pulley", .places = {place}, .values = {{"radius", radius}}});
+  }
+  model.add_shape(entry, std::move(course));
+}
+
 }  // namespace
 
 namespace {
@@ -171,6 +186,7 @@ void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
     sections.push_back(
         &add_section("belt", name, path, {k, (k + 1) % count}, material, entry, Recorded::stacked, model));
   add_grips(name, sections, true, model);
+  add_course(name, path, true, model);
 }
 
 void read_cable(const std::string& name, const YamlValue& entry, Model& model) {
@@ -203,6 +219,7 @@ void read_cable(const std::string& name, const YamlValue& entry, Model& model) {
   for (const std::vector<std::size_t>& section : sections)
     added.push_back(&add_section("cable", name, path, section, material, entry, recorded, model));
   add_grips(name, added, false, model);
+  add_course(name, path, false, model);
 }
 
 }  // namespace bielle::mechanism

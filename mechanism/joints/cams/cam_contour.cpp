@@ -42,6 +42,14 @@ std::vector<CamContour::Sample> CamContour::sample(int per_piece) const {
   return samples;
 }
 
+std::vector<Vector3> CamContour::points() const {
+  constexpr Eigen::Index enough = 360;
+  std::vector<Vector3> points;
+  for (const Sample& each : sample(static_cast<int>(std::max<Eigen::Index>(1, enough / points_))))
+    points.push_back(each.point);
+  return points;
+}
+
 Curve CamContour::pitch_curve(double radius) const {
   if (radius == 0) return contour_;
   const std::vector<Sample> samples = sample(8);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mechanism/math/curve.hpp"
 
@@ -20,6 +21,7 @@ class CamContour {
   /// @param polar  (n, 2): angle [rad], ascending over less than a turn, and radius [m], positive
   /// @throws InputError naming the file
   CamContour(const Eigen::Ref<const MatrixX>& polar, std::string name);
+  std::vector<Vector3> points() const;  ///< points of the contour, anticlockwise [m]
   /// @throws InputError if the roller is too large for a concave part of the contour
   Curve pitch_curve(double radius) const;
   /// Returns H over psi, periodic. @throws InputError  if the contour is concave

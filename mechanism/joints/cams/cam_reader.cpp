@@ -44,6 +44,26 @@ void add_lift(const std::string& name, const YamlValue& entry, Model& model) {
   model.add(std::make_unique<LiftedCoordinate>(name, angle, lifted, std::move(lift)), Entry{Section::joints, name});
 }
 
+/// The frame of a roller in the axes of the follower's node: z along the camshaft as drawn.
+Frame roller_frame(const JointFrames& frames, const Model& model) {
+  const Matrix3 cam = model.node(frames.first).frame.R * frames.on_first.R;
+  return {frames.on_second.x, model.node(frames.second).frame.R.transpose() * cam};
+}
+
+/// Draws the cam by its contour.
+void add_drawn_cam(const std::string& name, const CamContour& contour, const Joint& camshaft, Model& model) {
+  std::vector<std::vector<double>> line;
+  for (const Vector3& point : contour.points()) line.push_back({point.x(), point.y()});
+  model.add_shape({Section::joints, name}, {.shape = "cam",
+                                            .places = {{camshaft.frames().second, camshaft.frames().on_second}},
+                                            .values = {{"contour", std::move(line)}}});
+}
+
+CamContour read_contour(const YamlValue& entry) {
+  return read_named_file(entry.at("profile"),
+                         [](const std::string& path) { return CamContour(read_table(path, 2), path); });
+}
+
 /// Adds cam and follower, and the friction between them.
 void add_contact(std::unique_ptr<Joint> made, const YamlValue& entry, Model& model) {
   const Joint& joint = *made;
@@ -61,14 +81,18 @@ void add_roller(const std::string& name, const YamlValue& entry, Model& model) {
   Frame middle;
   middle.x = entry.at("at").vector3();
   JointFrames frames = frames_of(camshaft, follower, middle);
-  Curve pitch = read_named_file(entry.at("profile"), [&](const std::string& path) {
-    return CamContour(read_table(path, 2), path).pitch_curve(radius);
-  });
+  const CamContour contour = read_contour(entry);
+  Curve pitch = read_named_file(entry.at("profile"), [&](const std::string&) { return contour.pitch_curve(radius); });
   const Frame cam = model.node(frames.first).frame * frames.on_first;
   const Frame& node = model.node(frames.second).frame;
   Vector3 drawn = cam.R.transpose() * (node.x + node.R * middle.x - cam.x);
   drawn.z() = 0;
   const double start = pitch.nearest(drawn);
+  add_drawn_cam(name, contour, camshaft, model);
+  if (radius > 0)
+    model.add_shape(
+        {Section::joints, name},
+        {.shape = "pulley", .places = {{frames.second, roller_frame(frames, model)}}, .values = {{"radius", radius}}});
   add_contact(std::make_unique<PointOnCurve>("cam", name, std::move(frames), std::move(pitch), start,
                                              PointOnCurve::Guide::plane, model, radius),
               entry, model);
@@ -92,8 +116,9 @@ void add_flat(const std::string& name, const YamlValue& entry, Model& model) {
   face.R.col(1) = node.R.transpose() * normal.cross(across);
   face.R.col(2) = node.R.transpose() * normal;
   JointFrames frames = frames_of(camshaft, follower, face);
-  Interpolation support = read_named_file(
-      entry.at("profile"), [](const std::string& path) { return CamContour(read_table(path, 2), path).support(); });
+  const CamContour contour = read_contour(entry);
+  Interpolation support = read_named_file(entry.at("profile"), [&](const std::string&) { return contour.support(); });
+  add_drawn_cam(name, contour, camshaft, model);
   add_contact(std::make_unique<FlatFollower>(name, std::move(frames), std::move(support), model), entry, model);
 }
 

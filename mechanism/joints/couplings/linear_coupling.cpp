@@ -211,8 +211,15 @@ void read_differential(const std::string& name, const YamlValue& entry, Model& m
 
 void read_rack_and_pinion(const std::string& name, const YamlValue& entry, Model& model) {
   const double radius = other_than_zero(entry.at("radius"));
-  connect_later(add_coupling("rack_and_pinion", name, model), joints_of(entry, 2, "two joints: [pinion, rack]"),
-                {-radius, 1}, {Kind::angle, Kind::displacement}, model);
+  const YamlValue joints = joints_of(entry, 2, "two joints: [pinion, rack]");
+  connect_later(add_coupling("rack_and_pinion", name, model), joints, {-radius, 1}, {Kind::angle, Kind::displacement},
+                model);
+  model.when_read(Model::Stage::connections, [name, joints, radius, &model] {
+    const JointFrames& pinion = coordinate_named_by(joints.at(0), model, Kind::angle).joint->frames();
+    model.add_shape({Section::joints, name}, {.shape = "gear",
+                                              .places = {{pinion.second, pinion.on_second}},
+                                              .values = {{"radius", std::abs(radius)}, {"inner", false}}});
+  });
 }
 
 }  // namespace bielle::mechanism

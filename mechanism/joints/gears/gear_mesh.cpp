@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
@@ -202,6 +203,26 @@ void ElasticGearMesh::describe(const LocalState& state, Description& description
   if (spring_.damping > 0) text += fmt::format(", damping {:.6g} N s/m", spring_.damping);
   if (spring_.backlash > 0) text += fmt::format(", backlash {:.6g} m", spring_.backlash);
   description.add(text);
+}
+
+/// Wheels are discs through the point where the teeth meet. The larger of two parallel wheels is a ring if both axes
+/// are on the same side of that point.
+void GearMesh::draw(Drawing& drawing) const {
+  const ToothGeometry& g = contact_.geometry();
+  std::array<Vector3, 2> arm;  // from each axis to the pitch point, in the carrier's axes
+  std::array<double, 2> along{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vector3 way = g.P - g.centre[k];
+    along[k] = g.axis[k].dot(way);
+    arm[k] = way - along[k] * g.axis[k];
+  }
+  const bool internal = g.axis[0].cross(g.axis[1]).norm() < 1e-6 && arm[0].dot(arm[1]) > 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Frame wheel{along[k] * g.wheel[k].col(2), g.wheel[k]};
+    const bool inner = internal && arm[k].norm() > arm[1 - k].norm();
+    drawing.add(
+        {.shape = "gear", .places = {{nodes_[k + 1], wheel}}, .values = {{"radius", arm[k].norm()}, {"inner", inner}}});
+  }
 }
 
 }  // namespace bielle::mechanism

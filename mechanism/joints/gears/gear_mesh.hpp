@@ -33,6 +33,7 @@ class GearMesh : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
  protected:
   /// Normal forces of the flanks n_+, n_- [N].

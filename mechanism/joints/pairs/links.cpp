@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/names.hpp"
@@ -229,6 +230,15 @@ void read_revolute_spherical(const std::string& name, const YamlValue& entry, Mo
   link.frames.on_first.R = model.node(link.frames.first).frame.R.transpose() * axes;
   link.frames.on_second.R = model.node(link.frames.second).frame.R.transpose() * axes;
   add_pair(std::make_unique<RevoluteSphericalLink>(name, std::move(link.frames), length, offset, model), entry, model);
+}
+
+void DistanceJoint::draw(Drawing& drawing) const {
+  drawing.add_between("bar", {frames().first, frames().on_first}, {frames().second, frames().on_second});
+}
+
+void RevoluteSphericalLink::draw(Drawing& drawing) const {
+  Joint::draw(drawing);
+  drawing.add_between("bar", {frames().first, frames().on_first}, {frames().second, frames().on_second});
 }
 
 }  // namespace bielle::mechanism

@@ -28,6 +28,7 @@ class DistanceJoint final : public MeasuredPair, public TimeDependent {
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   double turning_rate(const LocalState& state) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
  private:
   void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
@@ -40,6 +41,7 @@ class RevoluteSphericalLink final : public MeasuredPair {
   RevoluteSphericalLink(std::string name, JointFrames frames, double length, double offset, const Model& model);
   double turning_rate(const LocalState& state) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
  private:
   void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;

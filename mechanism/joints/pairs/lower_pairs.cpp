@@ -1,5 +1,6 @@
 #include "mechanism/joints/pairs/lower_pairs.hpp"
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/joints/pairs/read_pair.hpp"
 
 namespace bielle::mechanism {
@@ -254,6 +255,11 @@ void read_planar(const std::string& name, const YamlValue& entry, Model& model) 
   read_lower_pair("planar", name, entry, model, AxisNeed::required,
                   {{"x", CoordinateKind::displacement, 0}, {"y", CoordinateKind::displacement, 1}, angle},
                   {{false, false, true}, Rotation::tilt});
+}
+
+void LowerPair::draw(Drawing& drawing) const {
+  Joint::draw(drawing);
+  if (type() == "point_on_plane") drawing.add({.shape = "plane", .places = {{frames().first, frames().on_first}}});
 }
 
 }  // namespace bielle::mechanism

@@ -33,6 +33,7 @@ class LowerPair final : public Joint {
             const LockedMotions& locked, const Model& model);
 
   void declare(Declaration& declaration) const override;
+  void draw(Drawing& drawing) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;

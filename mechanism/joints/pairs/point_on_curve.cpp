@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/joints/lift_off.hpp"
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/joints/path_press.hpp"
@@ -190,6 +191,18 @@ void read_point_on_curve(const std::string& name, const YamlValue& entry, Model&
   add_pair(std::make_unique<PointOnCurve>("point_on_curve", name, std::move(frames), std::move(curve), start,
                                           PointOnCurve::Guide::space, model),
            entry, model);
+}
+
+void PointOnCurve::draw(Drawing& drawing) const {
+  Joint::draw(drawing);
+  if (drawing.shaped()) return;  // the contour of a cam
+  constexpr int points = 200;
+  std::vector<std::vector<double>> line;
+  const int last = curve_.closed() ? points - 1 : points;
+  for (int k = 0; k <= last; ++k) line.push_back(numbers_of(curve_(curve_.end() * k / points).point));
+  drawing.add({.shape = "curve",
+               .places = {{frames().first, frames().on_first}},
+               .values = {{"points", std::move(line)}, {"closed", curve_.closed()}}});
 }
 
 }  // namespace bielle::mechanism

@@ -40,6 +40,7 @@ class PointOnCurve final : public Joint {
   void calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const override;
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
  private:
   CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const override;

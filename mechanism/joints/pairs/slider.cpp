@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/joints/path_press.hpp"
 #include "mechanism/model/description.hpp"
 #include "reduce/common/error.hpp"
@@ -260,6 +261,12 @@ void SliderJoint::describe(const LocalState& state, Description& description) co
       fmt::format("node '{}' at {} m", second_name(), format_vector(node.x + node.R * frames().on_second.x)));
   description.add(
       fmt::format("{:.6g} m from the start of a beam of {:.6g} m", state.amplitude()[0], line_.place.back()));
+}
+
+/// The slider moves along the beam: its frame alone shows the place.
+void SliderJoint::draw(Drawing& drawing) const {
+  const DrawnPlace slider{frames().second, frames().on_second};
+  drawing.add({.shape = "joint", .places = {slider, slider}});
 }
 
 }  // namespace bielle::mechanism

@@ -49,6 +49,7 @@ class SliderJoint final : public Joint {
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
  private:
   /// A row along the increments of all local nodes and u.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/drawing/drawing.hpp"
 #include "mechanism/joints/lift_off.hpp"
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/joints/pairs/tyre_force.hpp"
@@ -172,6 +173,11 @@ void read_wheel(const std::string& name, const YamlValue& entry, Model& model) {
   const WheelJoint& rolling = *wheel;
   add_pair(std::move(wheel), entry, model);
   if (law) model.add(std::make_unique<TyreForce>(name, rolling, *law), Entry{Section::joints, name});
+}
+
+void WheelJoint::draw(Drawing& drawing) const {
+  drawing.add({.shape = "plane", .places = {{frames().first, frames().on_first}}});
+  drawing.add({.shape = "tyre", .places = {{frames().second, frames().on_second}}, .values = {{"radius", radius_}}});
 }
 
 }  // namespace bielle::mechanism

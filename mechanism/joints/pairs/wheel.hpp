@@ -25,6 +25,7 @@ class WheelJoint final : public MeasuredPair {
   void declare(Declaration& declaration) const override;
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  void draw(Drawing& drawing) const override;
 
   /// Slip velocities as gradients w with their derivatives; the value is the velocity itself [m/s].
   struct Slip {

@@ -17,7 +17,8 @@ class Entries:
             node: Mapping[str, Any] | str, mass: float | str | None = None, centre: Sequence[Any] | None = None,
             inertia: Sequence[Any] | None = None, inertia_about: str | None = None,
             inertia_axes: Mapping[str, Any] | None = None, solid: Mapping[str, Any] | Sequence[Any] | None = None,
-            also: Sequence[Any] | None = None, **more: Any) -> None:
+            also: Sequence[Any] | None = None, shape: Mapping[str, Any] | Sequence[Any] | None = None,
+            **more: Any) -> None:
         """A rigid body on a node, by its mass and inertia or by solids.
 
         node: The node that moves with the body. (name of a node)
@@ -33,21 +34,26 @@ class Entries:
         solid: Solid, or list of solids that are added up, in place of mass and inertia. (keys of a solid; or list of
         at least 1: keys of a solid)
         also: Further nodes that the body carries rigidly. (list: name of a node)
+        shape: Shape, or list of shapes, by which it is drawn; it changes no result. (keys of a shape; or list of at
+        least 1: keys of a shape)
         """
         self.add("elements", name, {"type": "rigid_body", "node": node, "mass": mass, "centre": centre,
             "inertia": inertia, "inertia_about": inertia_about, "inertia_axes": inertia_axes, "solid": solid,
-            "also": also, **more})
+            "also": also, "shape": shape, **more})
 
     def point_mass(self, name: str, *,
             node: Mapping[str, Any] | str, mass: float | str, centre: Sequence[Any] | None = None,
-            **more: Any) -> None:
+            shape: Mapping[str, Any] | Sequence[Any] | None = None, **more: Any) -> None:
         """A mass without inertia about its centre.
 
         node: The node that moves with the mass. (name of a node)
         mass: Mass. (number [kg] of at least 0)
         centre: Place of the mass in the axes of the node. (list of 3: number [m]; default: [0, 0, 0])
+        shape: Shape, or list of shapes, by which it is drawn; it changes no result. (keys of a shape; or list of at
+        least 1: keys of a shape)
         """
-        self.add("elements", name, {"type": "point_mass", "node": node, "mass": mass, "centre": centre, **more})
+        self.add("elements", name, {"type": "point_mass", "node": node, "mass": mass, "centre": centre,
+            "shape": shape, **more})
 
     def beam(self, name: str, *,
             nodes: Sequence[Any], section: Mapping[str, Any] | Sequence[Any], elements: float | str | None = None,

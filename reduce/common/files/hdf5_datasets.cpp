@@ -64,6 +64,18 @@ void Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> v
                         description);
 }
 
+void Hdf5File::write_floats(const std::string& dataset, std::span<const float> values, const Shape& shape,
+                            const std::string& units, const std::string& description) {
+  handle_->write_values(dataset, H5T_NATIVE_FLOAT, H5T_IEEE_F32LE, values.data(), values.size(), shape, units,
+                        description);
+}
+
+void Hdf5File::write_indices(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
+                             const std::string& description) {
+  handle_->write_values(dataset, H5T_NATIVE_INT32, H5T_STD_I32LE, values.data(), values.size(), shape, "-",
+                        description);
+}
+
 void Hdf5File::write(const std::string& dataset, const Eigen::MatrixXd& matrix, const std::string& units,
                      const std::string& description) {
   const Shape shape{static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())};

@@ -65,6 +65,11 @@ class Hdf5File {
   void write(const std::string& dataset, const Eigen::VectorXd& vector, const std::string& units,
              const std::string& description = "");
   void write(const std::string& dataset, double value, const std::string& units, const std::string& description = "");
+  /// Numbers of 32 bits, for large meshes that are only drawn.
+  void write_floats(const std::string& dataset, std::span<const float> values, const Shape& shape,
+                    const std::string& units, const std::string& description = "");
+  void write_indices(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape,
+                     const std::string& description = "");
   void write_text(const std::string& dataset, const std::string& text);
   void write_names(const std::string& dataset, const std::vector<std::string>& names);  ///< variable-length UTF-8
 

@@ -146,7 +146,8 @@ std::string keys_of_named(const KeyTable& root, const std::string& name) {
   for (const KeyTable* table : tables_below(root)) {
     names.push_back(thing_named(table->of));
     if (name != "all" && names.back() != name) continue;
-    text += (text.empty() ? "" : "\n") + keys_as_text(*table);
+    if (!text.empty()) text += "\n";
+    text += keys_as_text(*table);
   }
   if (text.empty())
     throw InputError(fmt::format("--keys {}: nothing has this name{}", name, did_you_mean(name, names)));

@@ -12,7 +12,7 @@ import re
 FOLDERS = {
     "reduce": ["common", "common/process", "common/files", "common/formula", "common/input", "dense", "sparse", "spectral", "superelement", "mesh", "fe", "reduction", "matrices", "distributed", "distributed/ranks",
                "body_file", "report", ""],
-    "mechanism": ["math", "model", "reading", "language", "measures", "laws", "contacts",
+    "mechanism": ["math", "drawing", "model", "reading", "language", "measures", "laws", "contacts", "drawing/reading",
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
                   "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams",
