@@ -309,6 +309,19 @@ elements:
           {{"nodes", "[b, b]", "two different nodes"}, {"force", "sin(", ""}}};
 }
 
+/// The force of another spring is a measure of elongation and rate.
+Sample following_spring() {
+  return {Section::elements,
+          "spring_damper",
+          "force of a spring",
+          two_nodes + R"yaml(
+elements:
+  other: {type: spring_damper, nodes: [a, b], at: [[0.1, 0.3, 0.2], [0, 0.2, -0.1]], force: "3*e + e^3 + 0.7*v"}
+  it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0, 0, 0]], force: "0.5*other.force + 0.1*other.force^2"}
+)yaml",
+          {{"force", "other.forces", "did you mean 'force'"}}};
+}
+
 /// A bent body with three interfaces, load patterns, damping and prestress; nodes stand as meshed. Small local
 /// displacements are its premise.
 Sample superelement(const std::string& loads) {
@@ -461,6 +474,7 @@ std::vector<Sample> element_samples() {
                               spring(),
                               spring_by_formula(),
                               timed_spring(),
+                              following_spring(),
                               superelement_with_followers(),
                               superelement_with_dead_load(),
                               superelement_with_free_directions(),

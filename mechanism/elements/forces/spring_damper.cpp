@@ -161,6 +161,21 @@ void SpringDamper::write_output(const LocalState& state, double* values) const {
   values[2] = law_.force(state, L.l - length_, L.v);
 }
 
+double SpringDamper::force(const LocalState& state) const {
+  const auto [e, v] = elongation(state);
+  return law_.force(state, e, v);
+}
+
+LawForce SpringDamper::calc_force(const LocalState& state) const {
+  if (law_.reads_state())
+    throw ComputationError(fmt::format(
+        "the force of spring_damper '{0}' is a formula of measures, so that '{0}.force' has no derivatives: "
+        "use these measures in its place",
+        name()));
+  const auto [e, v] = elongation(state);
+  return law_.calc(state, e, v, false);
+}
+
 namespace {
 
 /// "spring.elongation", "spring.elongation.rate"
@@ -188,9 +203,32 @@ class ElongationMeasure final : public Measure {
   bool rate_;
 };
 
+/// "spring.force"
+class SpringForceMeasure final : public Measure {
+ public:
+  SpringForceMeasure(std::string name, const SpringDamper& spring) : Measure(std::move(name)), spring_(spring) {}
+  std::string units() const override { return "N"; }
+  double value(const LocalState& state) const override { return spring_.force(state.of(0)); }
+  double calc(const LocalState& state, MeasureGradient& gradient) const override {
+    gradient.prepare(state.slots().size());
+    const LocalState of_spring = state.of(0);
+    const SpringDamper::Gradients g = spring_.calc_elongation(of_spring);
+    const LawForce law = spring_.calc_force(of_spring);
+    const int row = state.slots().reference_row(0);
+    gradient.position().segment<12>(row) = law.N_x * g.e_gradient + law.N_v * g.v_gradient;
+    gradient.rate().segment<12>(row) = law.N_v * g.e_gradient;
+    return law.N;
+  }
+
+ private:
+  void declare_subjects(Declaration& declaration) const override { declaration.references = {&spring_}; }
+  const SpringDamper& spring_;
+};
+
 }  // namespace
 
 std::unique_ptr<Measure> SpringDamper::make_measure(const std::string& name, const std::string& measure) const {
+  if (measure == "force") return std::make_unique<SpringForceMeasure>(name, *this);
   return std::make_unique<ElongationMeasure>(name, *this, measure != "elongation");
 }
 

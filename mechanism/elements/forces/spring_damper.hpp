@@ -41,7 +41,7 @@ class SpringDamper : public Component, public TimeDependent {
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
   void draw(Drawing& drawing) const override;
-  std::vector<std::string> measure_names() const override { return {"elongation", "elongation.rate"}; }
+  std::vector<std::string> measure_names() const override { return {"elongation", "elongation.rate", "force"}; }
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
   /// Returns the elongation [m] and its rate [m/s].
@@ -53,6 +53,11 @@ class SpringDamper : public Component, public TimeDependent {
     Eigen::Matrix<double, 12, 1> e_gradient, v_gradient;
   };
   Gradients calc_elongation(const LocalState& state) const;
+  /// Returns the tension [N], positive when it pulls the points together.
+  double force(const LocalState& state) const;
+  /// Computes the tension with its derivatives by elongation and rate.
+  /// @throws ComputationError if it is a formula of measures, whose derivatives are not among those of the spring
+  LawForce calc_force(const LocalState& state) const;
 
  private:
   struct Line;
