@@ -101,6 +101,11 @@ class Results:
         return ""
 
     @property
+    def stacked(self):
+        """Tells whether the file has the stacked layout."""
+        return self._stacked is not None
+
+    @property
     def axis(self):
         """Label of the horizontal axis of a figure over the rows."""
         return "load factor" if self.static else "time [s]"

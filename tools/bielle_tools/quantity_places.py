@@ -1,0 +1,119 @@
+"""The quantities over time of a results file, and the names by which users call them.
+
+A quantity has the name of its dataset, `joints/main/reaction`. The short names of formulas serve as well: a dot in place of `/`, and no
+section, if one entry alone has such a quantity (`main.reaction`; a joint, an element or a measure precedes others); and the coordinates of
+joints with their rates, `main.angle`, `main.angle.rate`. Quotes around a name are optional: `'rod.wrist'.position`.
+"""
+
+import h5py
+
+from .body_quantities import MADE, has_body
+from .messages import InputError, did_you_mean
+from .results_columns import names_in
+from .results_file import WITHOUT_ROWS, reading
+from .stacked_layout import SECTIONS
+
+NO_QUANTITIES = (*WITHOUT_ROWS, "events", "peaks", "validity", "checkpoints", "input", "parameters", "equations", "crossings", "study_said")
+FIRST = ("joints", "elements", "measures")  # sections that precede others in short names
+
+
+class Places:
+    """The quantities of open results. recorded: paths of datasets; made: paths of what can be computed from them."""
+
+    def __init__(self, results):
+        self.results = results
+        with reading(results.path, "/"):
+            self.recorded = [place for section in results.root if _is_section(results, section) for place in _below(results, section)]
+            self.made = [f"elements/{name}/{field}" for name in results.elements_with("frame", "coordinates") if has_body(results, name)
+                         for field in MADE if f"elements/{name}/{field}" not in self.recorded]
+        self._named = None
+
+    def find(self, text):
+        """@returns the place of a quantity, the number of its column or None, and the rest of the text, `.x` or `[3]`. @raises InputError"""
+        written = text.replace("'", "").strip().strip("/")
+        plain = written.replace("/", ".")
+        ends = [k for k, letter in enumerate(plain) if letter in ".[("] + [len(plain)]
+        for end in sorted(ends, reverse=True):
+            found = self._names().get(plain[:end])
+            if found:
+                return (*self._one(plain[:end], found), written[end:])
+        raise InputError(f"'{self.results.path}' has no quantity '{text}'{self._nearest(plain)}")
+
+    def _one(self, name, found):
+        """Picks one of several quantities that share a short name. @raises InputError if none precedes the others"""
+        exact = [one for one in found if one[1] is None and one[0].replace("/", ".") == name]
+        best = exact or [one for one in found if one[0].split("/")[0] in FIRST] or found
+        if len(best) > 1:
+            raise InputError(f"'{name}' may be {' or '.join(place for place, _ in best)}: say which")
+        return best[0]
+
+    def _names(self):
+        """{dotted name: [(place, column or None)]}"""
+        if self._named is None:
+            self._named = {}
+            for place in self.recorded + self.made:
+                self._add(place.replace("/", "."), place)
+                section, _, rest = place.partition("/")
+                if rest:
+                    self._add(rest.replace("/", "."), place)
+                if section == "joints" and place.endswith("/coordinate"):
+                    self._add_coordinates(rest.rpartition("/")[0], place)
+        return self._named
+
+    def _add(self, name, place, column=None):
+        self._named.setdefault(name, []).append((place, column))
+
+    def _add_coordinates(self, joint, place):
+        width = self.results.shape(place)[-1]
+        for column, name in enumerate(names_in(self.results.text(place, "description"), width)):
+            if name and not name.isdigit():
+                self._add(f"{joint}.{name}".replace("/", "."), place, column)
+                rate = place.rpartition("/")[0] + "/rate"
+                if self.results.has(rate):
+                    self._add(f"{joint}.{name}.rate".replace("/", "."), rate, column)
+
+    def _nearest(self, plain):
+        """Names the nearest quantity; for a wrong field of a known entry, one of its fields."""
+        names = list(self._names())
+        entry = plain
+        while "." in entry:
+            entry = entry.rpartition(".")[0]
+            fields = [name for name in names if name.startswith(entry + ".")]
+            if fields:
+                return did_you_mean(plain, fields) if len(fields) <= 12 or did_you_mean(plain, fields).startswith(";") else ""
+        return did_you_mean(plain, names) if len(names) <= 12 or did_you_mean(plain, names).startswith(";") else \
+            ": 'bielle-table --list' shows all of them"
+
+
+def _is_section(results, name):
+    """Tells whether an object at the root holds quantities over the rows of these results: a group may lead to another analysis."""
+    if name in NO_QUANTITIES or name.startswith("analysis_"):
+        return False
+    links = [results.root.get(each, getlink=True) for each in ("time", name) if each in results.root]
+    if len(links) == 2 and all(isinstance(link, h5py.SoftLink) for link in links):
+        return links[0].path.rpartition("/")[0] == links[1].path.rpartition("/")[0]
+    return "time" in results.root
+
+
+def _below(results, section):
+    """Paths of the datasets over time in a section of either layout, at any depth: names may contain `/`."""
+    group = results.root[section]
+    if isinstance(group, h5py.Dataset):
+        return [section] if _is_over_time(group.dtype, group.shape, results) else []
+    if section in SECTIONS and results.stacked:
+        paths = [f"measures/{name}" for name in results.names(section)] if section == "measures" else \
+            [f"{section}/{name}/{field}" for name in results.names(section) for field in results.datasets(f"{section}/{name}")]
+        return [path for path in paths if results.shape(path)[:1] and results.shape(path)[0] >= len(results.time)]
+    found = []
+
+    def visit(name, item):
+        if isinstance(item, h5py.Dataset) and _is_over_time(item.dtype, item.shape, results):
+            found.append(f"{section}/{name}")
+
+    group.visititems(visit)
+    turning = [path.rpartition("/")[0] for path in found if section == "nodes" and path.endswith("/rotation")]
+    return found + [f"{node}/{field}" for node in turning for field in results.datasets(node) if f"{node}/{field}" not in found]
+
+
+def _is_over_time(dtype, shape, results):
+    return dtype.kind in "fiu" and len(shape) > 0 and shape[0] >= len(results.time)
