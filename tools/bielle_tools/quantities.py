@@ -54,25 +54,25 @@ class Quantities:
         """The datasets of which a quantity is made. @raises InputError for an unknown name"""
         of_one = OF_ANALYSIS.fullmatch(text.strip())
         if of_one:
-            with Results(self.results.path, int(of_one[1])) as one:
+            with Results(self.results.path, int(of_one[1]), self.results.group) as one:
                 return [f"analysis_{of_one[1]}/{place}" for place in Quantities(one).needs(of_one[2])]
         place, _, _ = self.places.find(text)
         if place in self.places.made:
             return [f"{place.rpartition('/')[0]}/{field}" for field in ("frame", "coordinates")]
         return [made_of(place)[1]]
 
-    def read(self, text, rows=None):
-        """A quantity at all rows that count, or at these. @raises InputError"""
+    def read(self, text, select=None):
+        """A quantity at all rows that count, or at the ascending rows that `select` gives for its Results. @raises InputError"""
         of_one = OF_ANALYSIS.fullmatch(text.strip())
         if of_one:
-            with Results(self.results.path, int(of_one[1])) as one:
-                found = Quantities(one, self.superelements).read(of_one[2], rows)
+            with Results(self.results.path, int(of_one[1]), self.results.group) as one:
+                found = Quantities(one, self.superelements).read(of_one[2], select)
             before = f"analysis_{of_one[1]}/"
             return dataclasses.replace(found, name=before + found.name, place=before + found.place,
                                        labels=[before + label for label in found.labels])
         place, columns, description, read = self._found(text.strip())
         name = text.strip()
-        rows = np.arange(len(self.results.time)) if rows is None else rows
+        rows = np.arange(len(self.results.time)) if select is None else select(self.results)
         values = _values(columns, read, rows, len(rows) if made_of(place)[0] else max(1, AT_ONCE // (8 * max(1, columns.numbers))))
         return Quantity(name, place, description, [name + label for label in columns.labels()], columns.all_units(),
                         self.results.time[rows], values, self.results.axis)
