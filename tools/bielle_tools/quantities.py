@@ -100,10 +100,16 @@ class Quantities:
 
             def read(rows):
                 return self.results.rows(place, rows)
-        columns = Columns(place, shape, units, description)
+        columns = Columns(place, shape, units, self._names_of_columns(place, description))
         for word in ([] if column is None else [f"[{column + 1}]"]) + words_of(rest, text):
             columns.take(word)
         return place, columns, description, read
+
+    def _names_of_columns(self, place, description):
+        """The description that names the columns: forces along the coordinates of a joint have those of the coordinates."""
+        folder, _, field = place.rpartition("/")
+        along = place.startswith("joints/") and field in ("drive_force", "spring_force", "stop_force", "lock_force", "rate")
+        return self.results.text(f"{folder}/coordinate", "description") if along else description
 
 
 def _values(columns, read, rows, block):

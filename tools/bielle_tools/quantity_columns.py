@@ -43,10 +43,11 @@ class Columns:
         self.axes = [[str(k + 1) for k in range(size)] for size in shape]
         self.units = units_in(units, shape[-1]) if shape else [units]
         self.is_stress = bool(shape) and shape[-1] == 6 and ("stress" in field or "strain" in field) and "," not in units
-        self.is_vector = bool(shape) and shape[-1] in (3, 6) and (field in VECTORS or len(set(self.units)) == 2 and shape[-1] == 6)
+        named = names_in(description, shape[-1]) if shape else ["1"]
+        unnamed = all(name.isdigit() for name in named)
+        self.is_vector = bool(shape) and shape[-1] in (3, 6) and (field in VECTORS or shape[-1] == 6 and len(set(self.units)) == 2)
         if shape:
-            named = names_in(description, shape[-1])
-            self.axes[-1] = list(STRESS) if self.is_stress else VECTOR[:shape[-1]] if self.is_vector else named
+            self.axes[-1] = list(STRESS) if self.is_stress else VECTOR[:shape[-1]] if self.is_vector and (unnamed or field in VECTORS) else named
         self.steps = []
         self.words = ""  # the components as written
 
@@ -125,6 +126,8 @@ class Columns:
     def labels(self):
         """Names of the columns behind that of the quantity: `.x`, `[3]`, `[2].x`; one empty one for a single number."""
         texts = [""]
+        if all(len(axis) == 1 for axis in self.axes):
+            return texts
         for number, axis in enumerate(self.axes):
             last = number == len(self.axes) - 1
             ends = [f"[{k + 1}]" if name.isdigit() or not last else f".{name}" for k, name in enumerate(axis)]

@@ -50,11 +50,13 @@ def spectra(found, kind):
     """Curves over the frequency. kind: `amplitude` or `psd`. Notes tell the resolution, and what was done to a signal."""
     results = []
     for curve in found:
+        if curve.axis != "time [s]":
+            raise InputError(f"{curve.label} is over the {curve.axis}: a spectrum is of a signal over time")
         spectrum = (amplitude_spectrum if kind == "amplitude" else power_density)(curve.x, curve.y, curve.label)
         note(f"{curve.label}: resolution {spectrum.resolution:.4g} Hz" + "".join(f"; {remark}" for remark in spectrum.remarks))
         if not np.any(np.nan_to_num(np.diff(curve.y)) != 0):
             note(f"{curve.label} does not change: its spectrum is zero")
-        unit = curve.unit if kind == "amplitude" else f"({curve.unit})^2/Hz"
+        unit = curve.unit if kind == "amplitude" else f"({curve.unit})^2/Hz" if curve.unit not in ("", "-", "1") else "1/Hz"
         results.append(dataclasses.replace(curve, unit=unit, axis="frequency [Hz]", x=spectrum.x, y=spectrum.values))
     return results
 

@@ -38,18 +38,35 @@ def even_signal(time, values, what):
     begin, end = _longest_part(time, values, what)
     remarks = [] if end - begin == len(values) else \
         [f"of {len(values)} rows the longest part without a gap: {end - begin} from {time[begin]:.6g} to {time[end - 1]:.6g}"]
-    time, values = time[begin:end], values[begin:end]
+    step, even, more = resampled(time[begin:end], values[begin:end], what)
+    return step, even, remarks + more
+
+
+def even_channels(time, values, names):
+    """Signals (nt, channels) without gaps at even steps: step, values, remarks. @raises InputError"""
+    if len(time) < 2:
+        raise InputError(f"{names[0]}: there is one time only; a step needs two")
+    for name, column in zip(names, values.T):
+        if not np.isfinite(column).all():
+            raise InputError(f"'{name}' has no number at {time[int(np.argmin(np.isfinite(column)))]:g} s; channels have no gaps: leave it out, or take "
+                             "another --span")
+    return resampled(time, values, names[0])
+
+
+def resampled(time, values, what):
+    """Signals (nt, ..) at even steps, by cubic splines at the median step unless their steps are even: step, values, remarks.
+    @raises InputError if the times do not increase"""
     steps = np.diff(time)
     if np.any(steps <= 0):
         row = int(np.flatnonzero(steps <= 0)[0])
-        raise InputError(f"{what}: a spectrum needs times that increase: after {time[row]:g} comes {time[row + 1]:g}")
+        raise InputError(f"{what}: even steps need times that increase: after {time[row]:g} comes {time[row + 1]:g}")
     step = (time[-1] - time[0]) / len(steps)
     if np.abs(steps - step).max() <= EVEN * step:
-        return step, values, remarks
-    count = max(int(round((time[-1] - time[0]) / np.median(steps))), LEAST_ROWS)
+        return step, values, []
+    count = max(int(round((time[-1] - time[0]) / np.median(steps))), 1)
     step = (time[-1] - time[0]) / count
-    remarks.append(f"resampled from steps of {steps.min():.3g} to {steps.max():.3g} s at {step:.4g} s")
-    return step, CubicSpline(time, values)(np.linspace(time[0], time[-1], count + 1)), remarks
+    return step, CubicSpline(time, values)(np.linspace(time[0], time[-1], count + 1)), \
+        [f"resampled from steps of {steps.min():.3g} to {steps.max():.3g} s at {step:.4g} s"]
 
 
 def _longest_part(time, values, what):
