@@ -12,7 +12,6 @@ import h5py
 import numpy as np
 
 from .messages import InputError, did_you_mean, note, place as shown
-from .radiated_power import IMPEDANCE, body_form, body_velocities
 from .superelement_body import find_superelement, interfaces_of, superelement_of
 
 MADE = {"von_mises": ("Pa", "von Mises stress, recovered from the superelement"),
@@ -64,6 +63,7 @@ class Bodies:
 
     def _power(self, element, elastic):
         if (element, elastic) not in self._powers:
+            from .radiated_power import IMPEDANCE, body_form, body_velocities  # SciPy takes a while
             form = IMPEDANCE * body_form(self.body(element), self.path(element))
             if len(self.results.time) < 2:
                 raise InputError(f"'{self.results.path}' has one time only: velocities need several")

@@ -41,12 +41,14 @@ class _Finder:
 
     def look(self, place):
         """Adds the peaks of a recorded quantity, if its kind is one of interest."""
-        section, _, field = place.split("/")[0], None, place.rpartition("/")[2]
+        section, field = place.split("/")[0], place.rpartition("/")[2]
         if section in ("joints", "supports") and field == "reaction":
             for part in ("force", "moment"):
                 self.scalar("reaction" if section == "joints" else "support", f"{place}.{part}")
         elif section == "contacts" and field == "force":
             self.contact(place)
+        elif section == "joints" and field == "normal_force":
+            self.scalar("contact", place)
         elif field == "von_mises":
             self.field(place, self.node_of_body if self.results.has(place.replace("von_mises", "frame")) else self.place_in_beam)
         elif field.startswith("stress_at_"):

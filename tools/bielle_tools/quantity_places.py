@@ -37,7 +37,7 @@ class Places:
             found = self._names().get(plain[:end])
             if found:
                 return (*self._one(plain[:end], found), written[end:])
-        raise InputError(f"'{self.results.path}' has no quantity '{text}'{self._nearest(plain)}")
+        raise InputError(f"'{self.results.path}' has no quantity '{text}'{self._nearest(written)}")
 
     def _one(self, name, found):
         """Picks one of several quantities that share a short name. @raises InputError if none precedes the others"""
@@ -72,17 +72,18 @@ class Places:
                 if self.results.has(rate):
                     self._add(f"{joint}.{name}.rate".replace("/", "."), rate, column)
 
-    def _nearest(self, plain):
-        """Names the nearest quantity; for a wrong field of a known entry, one of its fields."""
-        names = list(self._names())
-        entry = plain
-        while "." in entry:
-            entry = entry.rpartition(".")[0]
-            fields = [name for name in names if name.startswith(entry + ".")]
+    def _nearest(self, written):
+        """Names the nearest quantity, as a path if a path was written; for a wrong field of a known entry, one of its fields."""
+        names = self.recorded + self.made if "/" in written else list(self._names())
+        plain, entry = written, written
+        while "." in entry or "/" in entry:
+            entry = entry[:max(entry.rfind("."), entry.rfind("/"))]
+            fields = [name for name in names if name.startswith((entry + ".", entry + "/"))]
             if fields:
-                return did_you_mean(plain, fields) if len(fields) <= 12 or did_you_mean(plain, fields).startswith(";") else ""
-        return did_you_mean(plain, names) if len(names) <= 12 or did_you_mean(plain, names).startswith(";") else \
-            ": 'bielle-table --list' shows all of them"
+                names = fields
+                break
+        advice = did_you_mean(plain, names)
+        return advice if advice.startswith(";") or len(names) <= 12 else ": 'bielle-table --list' shows all of them"
 
 
 def _is_section(results, name):
