@@ -33,7 +33,9 @@ class StackedLayout:
         entries = self._section(section)
         if section == "measures":
             return (*entries[rest], "value") if rest in entries else ()
-        name, _, field = rest.partition("/")
+        if rest in entries:
+            return (*entries[rest], "")
+        name, _, field = rest.rpartition("/")  # names may contain `/`
         return (*entries[name], field) if name in entries else ()
 
     def has(self, found):
