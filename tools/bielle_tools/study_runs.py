@@ -17,6 +17,7 @@ import h5py
 from .messages import InputError
 from .quantities import Quantities
 from .results_file import Results
+from .study_plan import GROUPS
 
 PROGRESS = re.compile(r"\s*(?:\w+ \.\.\.|\w+: [\d.]+ m?s)\s*")  # lines of a program that is not asked to be quiet
 
@@ -97,7 +98,7 @@ def _write_run(plan, path, results, status, message, said):
 
 def _datasets(source, path, kept):
     """The kept names as they are in the file: quantities (`main.reaction.norm`) become the datasets of which they are made."""
-    named = [name for name in kept if name not in source and re.search(r"[./(]", name)]
+    named = [name for name in kept if name not in source and name not in GROUPS]
     if not named:
         return kept
     found = []
