@@ -54,8 +54,7 @@ class _Finder:
         elif field.startswith("stress_at_"):
             self.scalar("stress", f"{place}.von_mises", lambda row, column: self.results.text(place.rpartition("/")[0], field))
         elif section == "joints" and field == "drive_force":
-            for column in range(self.results.shape(place)[-1]):
-                self.scalar("drive", f"{place}[{column + 1}]")
+            self.scalar("drive", place)
         elif field.startswith("pressure") and section in ("elements", "hydraulics"):
             self.scalar("pressure", place)
 
