@@ -33,7 +33,7 @@ class Spectrum:
 
 
 def even_signal(time, values, what):
-    """A signal at even steps: step, values, remarks. Of a signal with gaps the longest part without one is taken.
+    """A signal at even steps: step, values, remarks. A signal with gaps gives its longest part without one.
     @raises InputError if too little is left, or if the times do not increase"""
     begin, end = _longest_part(time, values, what)
     remarks = [] if end - begin == len(values) else \

@@ -20,7 +20,7 @@ from bielle_tools import messages, plot_style  # noqa: E402
 
 ARGUMENTS = {"bielle-plot": ["-o", "plots"], "bielle-animate": ["-o", "run.png", "--frames", "2"],
              "bielle-paraview": ["-o", "run.pvd", "--frames", "2"],
-             "bielle-rainflow": ["joints/main/reaction", "--component", "5"]}
+             "bielle-rainflow": ["joints/main/reaction", "--component", "5"], "bielle-table": ["--peaks"]}
 
 
 def module_of(name):
