@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 
 from .messages import InputError, did_you_mean, note, place as shown
+from .results_file import reading
 from .superelement_body import find_superelement, interfaces_of, superelement_of
 
 MADE = {"von_mises": ("Pa", "von Mises stress, recovered from the superelement"),
@@ -89,28 +90,36 @@ class Bodies:
 
     def _point(self, element, word):
         """Place of a point and its displacement (3,n) per coordinate, body axes."""
-        body, path, group = self.body(element), self.path(element), self.results.text(f"elements/{element}", "group")
-        interfaces = interfaces_of(path, group)
-        with h5py.File(path, "r") as opened:
-            file = opened[group] if group else opened
-            named = list(file["points"]) if "points" in file else []
-            if word in named:
-                return np.asarray(file[f"points/{word}/position"], float), np.asarray(file[f"points/{word}/shapes"], float)[:3]
-            positions = np.asarray(file["interface/positions"], float)
-        begin = 0
-        for (name, kept, R), X in zip(interfaces, positions):
-            if name == word:
-                if not kept[:3].all():
-                    raise InputError(f"the interface '{name}' of '{element}' does not keep its translations: it has no displacement of its own")
-                u = np.zeros((3, body.displacement.shape[1]))
-                u[:, begin:begin + 3] = R
-                return X, u
-            begin += int(kept.sum())
+        body = self.body(element)
+        named = self._named_points(element)
+        if word in named:
+            position, u = named[word]
+            if u is None:
+                raise InputError(f"the interface '{word}' of '{element}' does not keep its translations: it has no displacement of its own")
+            return position, u
         row = _mesh_row(body, word)
         if row is None:
-            known = [name for name, _, _ in interfaces] + named
-            raise InputError(f"'{element}' has no interface or point '{word}'{did_you_mean(word, known)}")
+            raise InputError(f"'{element}' has no interface or point '{word}'{did_you_mean(word, list(named))}")
         return body.points[body.displaced[row]], body.displacement[3 * row:3 * row + 3]
+
+    def _named_points(self, element):
+        """{name: (place, displacement (3,n) per coordinate)} of interfaces and points; None for a displacement that the file does not have."""
+        path, group = self.path(element), self.results.text(f"elements/{element}", "group")
+        count, found = self.body(element).displacement.shape[1], {}
+        with reading(path, "interface"), h5py.File(path, "r") as opened:
+            file = opened[group] if group else opened
+            for name, point in file["points"].items() if "points" in file else ():
+                found[name] = np.asarray(point["position"], float).reshape(3), np.asarray(point["shapes"], float)[:3].reshape(3, count)
+            has_interfaces = "interface" in file
+            positions = np.asarray(file["interface/positions"], float) if has_interfaces else ()
+        begin = 0
+        for (name, kept, R), X in zip(interfaces_of(path, group) if has_interfaces else (), positions):
+            u = np.zeros((3, count)) if kept[:3].all() and begin + 3 <= count else None
+            if u is not None:
+                u[:, begin:begin + 3] = R
+            found[name] = X.reshape(3), u
+            begin += int(kept.sum())
+        return found
 
 
 def _mesh_row(body, word):

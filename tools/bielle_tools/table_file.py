@@ -21,6 +21,7 @@ def output(path, inputs, mode="w"):
     if path == "-":
         if "b" in mode:
             raise InputError("a binary file is not written to the standard output: say a name")
+        sys.stdout.reconfigure(errors="surrogateescape")  # names of damaged files
         yield sys.stdout
     elif os.path.exists(path) and not os.path.isfile(path):
         if os.path.isdir(path):
