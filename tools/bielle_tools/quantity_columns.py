@@ -45,6 +45,7 @@ class Columns:
         self.is_stress = bool(shape) and shape[-1] == 6 and ("stress" in field or "strain" in field) and "," not in units
         named = names_in(description, shape[-1]) if shape else ["1"]
         unnamed = all(name.isdigit() for name in named)
+        self.is_strain = "strain" in field
         self.is_vector = bool(shape) and shape[-1] in (3, 6) and (field in VECTORS or shape[-1] == 6 and len(set(self.units)) == 2)
         if shape:
             self.axes[-1] = list(STRESS) if self.is_stress else VECTOR[:shape[-1]] if self.is_vector and (unnamed or field in VECTORS) else named
@@ -61,7 +62,7 @@ class Columns:
             self._pick(len(self.axes) - 1, self.axes[-1].index(word))
         elif self.is_vector and word in ("norm", "force", "moment"):
             self._norm(word)
-        elif self.is_stress and word in ("von_mises", "principal"):
+        elif self.is_stress and word in self._invariants():
             self._of_stress(word)
         else:
             raise InputError(f"'{self.place}{self.words}' has no component '{word}'{did_you_mean(word, self.known())}")
@@ -71,7 +72,11 @@ class Columns:
         """The words that may follow."""
         names = [name for name in self.axes[-1] if not name.isdigit()] if self.axes else []
         norms = ["norm", "force", "moment"] if self.is_vector and len(self.axes[-1]) == 6 else ["norm"] if self.is_vector else []
-        return names + norms + ["von_mises", "principal"] * self.is_stress + list(OVER_ALL)
+        return names + norms + self._invariants() * self.is_stress + list(OVER_ALL)
+
+    def _invariants(self):
+        """Scalars of a symmetric tensor: a strain has no equivalent that all agree on."""
+        return ["principal"] if self.is_strain else ["von_mises", "principal"]
 
     def _index(self, inside):
         if not self.axes:
@@ -103,7 +108,8 @@ class Columns:
         self._drop_components(self.units[first:first + 1])
 
     def _of_stress(self, word):
-        self.steps.append(lambda values: stress_signal(values.reshape(-1, 6), word).reshape(values.shape[:-1]))
+        factors = [1, 1, 1, 0.5, 0.5, 0.5] if self.is_strain else np.ones(6)  # strains have engineering shears
+        self.steps.append(lambda values: stress_signal((values * factors).reshape(-1, 6), word).reshape(values.shape[:-1]))
         self._drop_components(self.units[:1])
 
     def _drop_components(self, units):

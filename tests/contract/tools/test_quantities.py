@@ -101,6 +101,18 @@ class OfSynthetic(InFolder):
         self.assertEqual(quantity[3], 4e7)
         self.assertEqual(np.flatnonzero(np.isnan(quantity)).tolist(), [4])
 
+    def test_invariants_of_stress_and_of_strain_with_engineering_shears(self):
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            shear = np.tile([0, 0, 0, 0, 0, 2.0], (len(self.time), 1))
+            for name, units in (("stress_at_root", "Pa"), ("strain_at_root", "-")):
+                synthetic.put(file, f"elements/rod/{name}", shear, units)
+        for text, value in (("rod.stress_at_root.xy", 2), ("rod.stress_at_root.principal", 2), ("rod.stress_at_root.von_mises", 2 * 3 ** 0.5),
+                            ("rod.strain_at_root.xy", 2), ("rod.strain_at_root.principal", 1)):
+            np.testing.assert_allclose(self.read(text).one, value, rtol=1e-14, err_msg=text)
+        with self.assertRaises(InputError) as caught:
+            self.read("rod.strain_at_root.von_mises")
+        self.assertIn("has no component 'von_mises'", str(caught.exception))
+
     def test_rows_in_blocks_are_the_rows(self):
         from bielle_tools import quantities
         whole, made = self.read("shaft.resultants").values, self.read("rod.von_mises").values
