@@ -18,6 +18,7 @@ from scipy.interpolate import CubicSpline
 from .messages import InputError
 
 LEAST_ROWS = 16
+MOST_POINTS = 20_000_000
 FLAT_TOP = 3.77  # noise bandwidth of the window in lines
 EVEN = 1e-6      # relative deviation of steps that counts as rounding
 
@@ -113,28 +114,32 @@ class Orders:
     resolution: float
 
 
-def order_analysis(time, values, speed, what, revolutions=None):
-    """Amplitudes over the speed [rad/s] and its orders. revolutions: of each piece (default: an eighth of all, 4 at least).
-    @raises InputError if the speed does not keep its sign, or there are too few revolutions"""
-    joined = np.where(np.isfinite(speed), values, np.nan)
-    begin, end = _longest_part(time, joined, what)
+def order_analysis(time, values, speed, what):
+    """Amplitudes over the speed [rad/s] and its orders, in pieces of an eighth of all revolutions, 4 at least and 20 at most.
+    The angle is divided so finely that nothing is lost where the speed is least; orders go up to half the rows per
+    revolution where it is largest. @raises InputError if the speed does not keep its sign, or makes too few revolutions"""
+    begin, end = _longest_part(time, np.where(np.isfinite(speed), values, np.nan), what)
     time, values, speed = time[begin:end], values[begin:end], _one_way(speed[begin:end], what)
     if np.any(np.diff(time) <= 0):
         raise InputError(f"{what}: an order analysis needs times that increase")
     angle = CubicSpline(time, speed).antiderivative()(time) / (2 * np.pi)  # revolutions
-    revolutions = max(4, int(angle[-1] // 8)) if revolutions is None else revolutions
+    revolutions = int(np.clip(angle[-1] // 8, 4, 20))
     if angle[-1] < revolutions:
         raise InputError(f"{what}: the speed makes {angle[-1]:.3g} revolutions; an order analysis needs {revolutions}")
-    each = int(np.ceil(1 / np.diff(angle).max()))  # rows per revolution where it is fastest
-    if each < 4:
-        raise InputError(f"{what}: {each} rows per revolution are too few for an order analysis")
-    length = each * revolutions
-    places = np.arange(int(angle[-1] * each) + 1) / each
+    coarse, fine = int(1 / np.diff(angle).max() + EVEN), int(np.ceil(1 / np.diff(angle).min()))  # rows per revolution
+    if coarse < 4:
+        raise InputError(f"{what}: {coarse} rows per revolution are too few for an order analysis")
+    if angle[-1] * fine > MOST_POINTS:
+        raise InputError(f"{what}: the speed varies too much for an order analysis of all of it: take a --span in which it is faster")
+    length = fine * revolutions
+    places = np.arange(int(angle[-1] * fine) + 1) / fine
     turned, when = CubicSpline(angle, values)(places), CubicSpline(angle, time)(places)
-    starts = np.arange(0, len(places) - length + 1, max(length // 2, 1))
-    pieces = np.array([turned[k:k + length] for k in starts])
-    mean = np.array([2 * np.pi * revolutions * (length - 1) / length / (when[k + length - 1] - when[k]) for k in starts])
-    return Orders(mean, np.arange(length // 2 + 1) / revolutions, amplitudes(pieces), FLAT_TOP / revolutions)
+    starts = range(0, len(places) - length + 1, length // 2)
+    orders = np.arange(coarse * revolutions // 2 + 1)
+    found = np.array([amplitudes(turned[k:k + length])[orders] for k in starts])
+    turns = 2 * np.pi * revolutions * (length - 1) / length
+    speeds = np.array([turns / (when[k + length - 1] - when[k]) for k in starts])
+    return Orders(speeds, orders / revolutions, found, FLAT_TOP / revolutions)
 
 
 def _one_way(speed, what):

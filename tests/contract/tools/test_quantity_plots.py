@@ -84,6 +84,16 @@ class Spectra(unittest.TestCase):
             self.assertGreater(found.speed[0], speed[0])
             self.assertLess(found.speed[-1], speed[-1])
 
+    def test_what_is_above_the_orders_at_a_low_speed_does_not_come_back_as_lower_ones(self):
+        time = np.linspace(0, 10, 40001)  # 160 rows per revolution where it is fastest: orders up to 80
+        found = spectra.order_analysis(time, np.sin(2 * np.pi * 1500 * time), 2 * np.pi * (5 + 2 * time), "o")
+        self.assertEqual(found.order[-1], 80)
+        slow = found.speed < 2 * np.pi * 15  # 1500 Hz is above order 100 there
+        self.assertGreater(slow.sum(), 3)
+        self.assertLess(found.amplitude[slow].max(), 0.02)
+        tone = np.abs(found.order[None] * found.speed[:, None] / 2 / np.pi - 1500) < 150
+        self.assertGreater(found.amplitude[tone & ~slow[:, None]].max(), 0.1)
+
     def test_what_has_no_spectrum_is_told(self):
         time = np.linspace(0, 1, 50)
         back = np.concatenate([time, time])
