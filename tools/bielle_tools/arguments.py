@@ -40,7 +40,8 @@ def results_parser(name, description, several=False):
 
 def add_row_options(parser):
     """Options that pick rows of results; `selected_rows` reads them."""
-    parser.add_argument("--span", metavar="A:B", help="only the times from A to B [s] (load factors in statics); one of them may be missing")
+    parser.add_argument("--span", metavar="A:B", help="only the times from A to B [s] (load factors in statics); one of "
+                        "them may be missing")
     parser.add_argument("--every", type=int, metavar="N", help="only every N-th of these times")
 
 

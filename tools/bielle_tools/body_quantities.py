@@ -5,7 +5,7 @@
     arm.radiated_power_elastic            the same of the elastic deformation alone, without the motion of the frame
     arm.deflection(POINT, A, B)           displacement x y z of a point relative to the chord from A to B, body axes
 
-POINT, A and B are interfaces or named points of the superelement, numbers of mesh nodes, or places `0.1 0 0.02` [m] near one.
+POINT, A and B are interfaces or named points of the superelement, numbers of mesh nodes, or places `0.1 0 0.02` [m].
 """
 
 import h5py
@@ -17,7 +17,7 @@ from .superelement_body import find_superelement, interfaces_of, superelement_of
 
 MADE = {"von_mises": ("Pa", "von Mises stress, recovered from the superelement"),
         "radiated_power": ("W", "equivalent radiated power of the surface in air"),
-        "radiated_power_elastic": ("W", "equivalent radiated power of the surface in air by the elastic deformation alone"),
+        "radiated_power_elastic": ("W", "equivalent radiated power of the surface in air by the deformation alone"),
         "deflection": ("m", "displacement relative to a chord, body axes, say deflection(POINT, A, B): x, y, z")}
 
 
@@ -44,8 +44,8 @@ class Bodies:
         """Number of columns of a quantity that is made."""
         if field == "von_mises":
             if self.body(element).stress is None:
-                raise InputError(f"'{self.path(element)}' keeps no stress: set 'recovery: {{stress: surface}}' in its body file and reduce it "
-                                 "again")
+                raise InputError(f"'{self.path(element)}' keeps no stress: set 'recovery: {{stress: surface}}' in its "
+                                 "body file and reduce it again")
             return len(self.body(element).stressed)
         return 3 if field == "deflection" else 1
 
@@ -69,24 +69,28 @@ class Bodies:
             if len(self.results.time) < 2:
                 raise InputError(f"'{self.results.path}' has one time only: velocities need several")
             everything = slice(0, len(self.results.time))
-            w = body_velocities(self.results.time, self.results.rows(f"elements/{element}/frame"), self._coordinates(element, everything))
+            frame = self.results.rows(f"elements/{element}/frame")
+            w = body_velocities(self.results.time, frame, self._coordinates(element, everything))
             first = 6 if elastic else 0
             self._powers[element, elastic] = np.einsum("ti,ti->t", w[:, first:] @ form[first:, first:], w[:, first:])
         return self._powers[element, elastic]
 
     def _deflection(self, element, q, arguments):
         if len(arguments) != 3 or not all(arguments):
-            raise InputError(f"{element}.deflection: expected a point and the two ends of the chord, '{element}.deflection(POINT, A, B)', each an "
-                             "interface, a named point, the number of a mesh node, or its place 'x y z'")
+            raise InputError(f"{element}.deflection: expected a point and the two ends of the chord, '{element}."
+                             "deflection(POINT, A, B)', each an interface, a named point, the number of a mesh node, "
+                             "or its place 'x y z'")
         (P, u), (A, u_a), (B, u_b) = (self._point(element, word) for word in arguments)
         chord = B - A
         length = np.linalg.norm(chord)
         if length == 0:
-            raise InputError(f"{element}.deflection: '{arguments[1]}' and '{arguments[2]}' are at the same place: there is no chord")
+            raise InputError(f"{element}.deflection: '{arguments[1]}' and '{arguments[2]}' are at the same place: "
+                             "there is no chord")
         share = (P - A) @ chord / length ** 2
         a, b = A + q @ u_a.T, B + q @ u_b.T
         beside = P - A - share * chord  # turns with the chord, by the shortest way
-        return P + q @ u.T - a - share * (b - a) - _turned(chord / length, (b - a) / np.linalg.norm(b - a, axis=1)[:, None], beside)
+        directions = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
+        return P + q @ u.T - a - share * (b - a) - _turned(chord / length, directions, beside)
 
     def _point(self, element, word):
         """Place of a point and its displacement (3,n) per coordinate, body axes."""
@@ -95,7 +99,8 @@ class Bodies:
         if word in named:
             position, u = named[word]
             if u is None:
-                raise InputError(f"the interface '{word}' of '{element}' does not keep its translations: it has no displacement of its own")
+                raise InputError(f"the interface '{word}' of '{element}' does not keep its translations: it has no "
+                                 "displacement of its own")
             return position, u
         row = _mesh_row(body, word)
         if row is None:
@@ -103,13 +108,15 @@ class Bodies:
         return body.points[body.displaced[row]], body.displacement[3 * row:3 * row + 3]
 
     def _named_points(self, element):
-        """{name: (place, displacement (3,n) per coordinate)} of interfaces and points; None for a displacement that the file does not have."""
+        """{name: (place, displacement (3,n) per coordinate)} of interfaces and points; None for a displacement that the
+        file does not have."""
         path, group = self.path(element), self.results.text(f"elements/{element}", "group")
         count, found = self.body(element).displacement.shape[1], {}
         with reading(path, "interface"), h5py.File(path, "r") as opened:
             file = opened[group] if group else opened
             for name, point in file["points"].items() if "points" in file else ():
-                found[name] = np.asarray(point["position"], float).reshape(3), np.asarray(point["shapes"], float)[:3].reshape(3, count)
+                place, shapes = (np.asarray(point[field], float) for field in ("position", "shapes"))
+                found[name] = place.reshape(3), shapes[:3].reshape(3, count)
             has_interfaces = "interface" in file
             positions = np.asarray(file["interface/positions"], float) if has_interfaces else ()
         begin = 0
@@ -132,13 +139,15 @@ def _mesh_row(body, word):
         distances = np.linalg.norm(body.points[body.displaced] - numbers, axis=1)
         row = int(distances.argmin())
         if distances[row] > 1e-6 * np.ptp(body.points, axis=0).max():
-            note(f"the node nearest to {shown(numbers)} is {distances[row]:.3g} m away, at {shown(body.points[body.displaced[row]])}")
+            note(f"the node nearest to {shown(numbers)} is {distances[row]:.3g} m away, at "
+                 f"{shown(body.points[body.displaced[row]])}")
         return row
     found = np.flatnonzero(body.displaced == int(numbers[0])) if len(numbers) == 1 and word.strip().isdigit() else []
     return int(found[0]) if len(found) else None
 
 
 def _turned(start, ends, vector):
-    """(nt,3) the vector, turned as the unit vector `start` turns to each of `ends` by the shortest way (not through half a turn)."""
+    """(nt,3) the vector, turned as the unit vector `start` turns to each of `ends` by the shortest way (not through
+    half a turn)."""
     axis, cosine = np.cross(start, ends), (ends @ start)[:, None]
     return cosine * vector + np.cross(axis, vector) + axis * (axis @ vector)[:, None] / (1 + cosine)

@@ -161,8 +161,8 @@ def volumes(points, cells):
 
 
 def surface_points(points, faces):
-    """The points of integration of a surface, one of each face at a time: (type, nodes (n,k), N (k), vectors (n,3)), the vectors being normal
-    to the faces with the length of the area that the point stands for. faces: {type: (n,k)}"""
+    """The points of integration of a surface, one of each face at a time: (type, nodes (n,k), N (k), vectors (n,3)), the
+    vectors being normal to the faces with the length of the area that the point stands for. faces: {type: (n,k)}"""
     for kind, nodes in faces.items():
         for N, dN, weight in zip(*_rule(kind)):
             tangents = np.einsum("enk,nj->ejk", points[nodes], dN)

@@ -1,8 +1,10 @@
-"""Quantities over time as users name them: `main.reaction.norm`, `arm.von_mises.max`, `nodes/pin/position.x`, `crank.angle`.
+"""Quantities over time as users name them: `main.reaction.norm`, `arm.von_mises.max`, `nodes/pin/position.x`,
+`crank.angle`.
 
-NAME[COMPONENTS], with the names of quantity_places.py and the components of quantity_columns.py: `.x .y .z .rx .ry .rz`, names of the
-columns, `[3]` (counted from 1; `[3,1]` or `[3].x` of elements with components), `.norm` (of six components: of the first three), `.force`, `.moment`, `.max`, `.min`, `.abs`
-over all columns; `.von_mises` and `.principal` of a stress. `analysis_2/NAME` is the quantity in one analysis of several.
+NAME[COMPONENTS], with the names of quantity_places.py and the components of quantity_columns.py: `.x .y .z .rx .ry
+.rz`, names of the columns, `[3]` (counted from 1; `[3,1]` or `[3].x` of elements with components), `.norm` (of six
+components: of the first three), `.force`, `.moment`, `.max`, `.min`, `.abs` over all columns; `.von_mises` and
+`.principal` of a stress. `analysis_2/NAME` is the quantity in one analysis of several.
 """
 
 import dataclasses
@@ -18,12 +20,14 @@ from .results_file import Results
 from .rotations import made_of
 
 AT_ONCE = 2**27  # bytes of rows that are read together
+ALONG_COORDINATES = ("drive_force", "spring_force", "stop_force", "lock_force", "rate")
 OF_ANALYSIS = re.compile(r"analysis_([1-9]\d*)[/.](.+)", re.DOTALL)
 
 
 @dataclasses.dataclass
 class Quantity:
-    """values (nt, columns) over time (nt); labels and units of each column; place: its dataset. axis: label of the times"""
+    """values (nt, columns) over time (nt); labels and units of each column; place: its dataset. axis: label of the
+    times"""
 
     name: str
     place: str
@@ -38,8 +42,8 @@ class Quantity:
     def one(self):
         """The values of a quantity with one column. @raises InputError for several"""
         if len(self.labels) != 1:
-            raise InputError(f"'{self.name}' has {len(self.labels)} columns: say which, '{self.labels[0]}' (.. '{self.labels[-1]}'), or .max, "
-                             ".min, .abs")
+            raise InputError(f"'{self.name}' has {len(self.labels)} columns: say which, '{self.labels[0]}' "
+                             f"(.. '{self.labels[-1]}'), or .max, .min, .abs")
         return self.values[:, 0]
 
 
@@ -62,7 +66,8 @@ class Quantities:
         return [made_of(place)[1]]
 
     def read(self, text, select=None):
-        """A quantity at all rows that count, or at the ascending rows that `select` gives for its Results. @raises InputError"""
+        """A quantity at all rows that count, or at the ascending rows that `select` gives for its Results.
+        @raises InputError"""
         of_one = OF_ANALYSIS.fullmatch(text.strip())
         if of_one:
             with Results(self.results.path, int(of_one[1]), self.results.group) as one:
@@ -73,12 +78,14 @@ class Quantities:
         place, columns, description, read = self._found(text.strip())
         name = text.strip()
         rows = np.arange(len(self.results.time)) if select is None else select(self.results)
-        values = _values(columns, read, rows, len(rows) if made_of(place)[0] else max(1, AT_ONCE // (8 * max(1, columns.numbers))))
+        block = len(rows) if made_of(place)[0] else max(1, AT_ONCE // (8 * max(1, columns.numbers)))
+        values = _values(columns, read, rows, block)
         return Quantity(name, place, description, [name + label for label in columns.labels()], columns.all_units(),
                         self.results.time[rows], values, self.results.axis)
 
     def described(self, place):
-        """Shape of a row, units and description of a quantity by its place; the shape is None if a superelement would have to be read."""
+        """Shape of a row, units and description of a quantity by its place; the shape is None if a superelement would
+        have to be read."""
         if place in self.places.made:
             return (None, *MADE[place.rpartition("/")[2]])
         return self.results.shape(place)[1:], self.results.units(place), self.results.text(place, "description")
@@ -106,9 +113,9 @@ class Quantities:
         return place, columns, description, read
 
     def _names_of_columns(self, place, description):
-        """The description that names the columns: forces along the coordinates of a joint have those of the coordinates."""
+        """The description that names the columns: forces along the coordinates of a joint have the names of these."""
         folder, _, field = place.rpartition("/")
-        along = place.startswith("joints/") and field in ("drive_force", "spring_force", "stop_force", "lock_force", "rate")
+        along = place.startswith("joints/") and field in ALONG_COORDINATES
         return self.results.text(f"{folder}/coordinate", "description") if along else description
 
 
@@ -133,7 +140,8 @@ def _arguments(rest):
 
 
 def split_names(text):
-    """`a.x, b.deflection(p, q, r), 'c,d'.y` -> the names between commas outside of brackets and quotes. @raises InputError if there is none"""
+    """`a.x, b.deflection(p, q, r), 'c,d'.y` -> the names between commas outside of brackets and quotes.
+    @raises InputError if there is none"""
     names, depth, quoted = [""], 0, False
     for letter in text:
         quoted ^= letter == "'"

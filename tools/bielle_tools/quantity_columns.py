@@ -1,7 +1,7 @@
-"""Components of quantities: `.x`, `[3]`, `.norm`, `.max`: which numbers of each row they take, and the names and units of what is left.
+"""Components of quantities, `.x`, `[3]`, `.norm`, `.max`: the numbers of each row that they take, with names and units.
 
-An axis is the list of the names of its columns. The first axes count places, points of a body or elements of a beam; the last one has
-components, unless each place has one number.
+An axis is the list of the names of its columns. The first axes count places, points of a body or elements of a beam;
+the last one has components, unless each place has one number.
 """
 
 import re
@@ -13,10 +13,12 @@ from .rainflow import stress_signal
 from .results_columns import names_in, units_in
 
 VECTOR = ["x", "y", "z", "rx", "ry", "rz"]
-VECTORS = ("position", "velocity", "acceleration", "reaction", "reaction_inertial", "point", "force", "moment", "deformation", "centre", "momentum",
-           "angular_momentum", "displacement", "resultants", "interface_force", "rotation_vector", "deflection")
+VECTORS = ("position", "velocity", "acceleration", "reaction", "reaction_inertial", "point", "force", "moment",
+           "deformation", "centre", "momentum", "angular_momentum", "displacement", "resultants", "interface_force",
+           "rotation_vector", "deflection")
 STRESS = ["xx", "yy", "zz", "yz", "xz", "xy"]
-OVER_ALL = {"max": np.fmax.reduce, "min": np.fmin.reduce, "abs": lambda values, axis: np.fmax.reduce(np.abs(values), axis=axis)}
+OVER_ALL = {"max": np.fmax.reduce, "min": np.fmin.reduce,
+            "abs": lambda values, axis: np.fmax.reduce(np.abs(values), axis=axis)}
 SUFFIX = re.compile(r"\.([A-Za-z_]\w*)|\[([^\[\]]*)\]")
 
 
@@ -29,7 +31,8 @@ def words_of(text, where):
         words.append(found[1] if found[1] else f"[{found[2].strip()}]")
         end = found.end()
     if end != len(text):
-        raise InputError(f"{where}: '{text[end:]}' is not understood; components are written '.x', '[3]', '.norm', '.max'")
+        raise InputError(f"{where}: '{text[end:]}' is not understood; components are written '.x', '[3]', '.norm', "
+                         "'.max'")
     return words
 
 
@@ -42,13 +45,15 @@ class Columns:
         self.place, self.numbers = place, int(np.prod(shape, dtype=float))
         self.axes = [[str(k + 1) for k in range(size)] for size in shape]
         self.units = units_in(units, shape[-1]) if shape else [units]
-        self.is_stress = bool(shape) and shape[-1] == 6 and ("stress" in field or "strain" in field) and "," not in units
+        six = bool(shape) and shape[-1] == 6
+        self.is_stress = six and ("stress" in field or "strain" in field) and "," not in units
         named = names_in(description, shape[-1]) if shape else ["1"]
         unnamed = all(name.isdigit() for name in named)
         self.is_strain = "strain" in field
-        self.is_vector = bool(shape) and shape[-1] in (3, 6) and (field in VECTORS or shape[-1] == 6 and len(set(self.units)) == 2)
+        self.is_vector = six and len(set(self.units)) == 2 or bool(shape) and shape[-1] in (3, 6) and field in VECTORS
         if shape:
-            self.axes[-1] = list(STRESS) if self.is_stress else VECTOR[:shape[-1]] if self.is_vector and (unnamed or field in VECTORS) else named
+            as_vector = self.is_vector and (unnamed or field in VECTORS)
+            self.axes[-1] = list(STRESS) if self.is_stress else VECTOR[:shape[-1]] if as_vector else named
         self.steps = []
         self.words = ""  # the components as written
 
@@ -71,7 +76,7 @@ class Columns:
     def known(self):
         """The words that may follow."""
         names = [name for name in self.axes[-1] if not name.isdigit()] if self.axes else []
-        norms = ["norm", "force", "moment"] if self.is_vector and len(self.axes[-1]) == 6 else ["norm"] if self.is_vector else []
+        norms = ["norm", "force", "moment"][:3 if len(self.axes[-1]) == 6 else 1] if self.is_vector else []
         return names + norms + self._invariants() * self.is_stress + list(OVER_ALL)
 
     def _invariants(self):
@@ -86,11 +91,13 @@ class Columns:
             self._pick(len(self.axes) - 1, self.axes[-1].index(words[0]))
             return
         if len(words) > len(self.axes):
-            raise InputError(f"'{self.place}{self.words}' has {self.size()} numbers at each time: [{inside}] are too many")
+            raise InputError(f"'{self.place}{self.words}' has {self.size()} numbers at each time: [{inside}] are too "
+                             "many")
         for word in words:
             names = self.axes[0]
             if not re.fullmatch(r"[1-9]\d*", word) or int(word) > len(names):
-                raise InputError(f"'{self.place}{self.words}' has no column '{word}': they count from 1 to {len(names)}")
+                raise InputError(f"'{self.place}{self.words}' has no column '{word}': they count from 1 to "
+                                 f"{len(names)}")
             self._pick(0, int(word) - 1)
 
     def _pick(self, axis, number):
@@ -109,7 +116,11 @@ class Columns:
 
     def _of_stress(self, word):
         factors = [1, 1, 1, 0.5, 0.5, 0.5] if self.is_strain else np.ones(6)  # strains have engineering shears
-        self.steps.append(lambda values: stress_signal((values * factors).reshape(-1, 6), word).reshape(values.shape[:-1]))
+
+        def signal(values):
+            return stress_signal((values * factors).reshape(-1, 6), word).reshape(values.shape[:-1])
+
+        self.steps.append(signal)
         self._drop_components(self.units[:1])
 
     def _drop_components(self, units):
@@ -118,8 +129,8 @@ class Columns:
 
     def _over_all(self, word):
         if len(set(self.units)) > 1:
-            raise InputError(f"'{self.place}{self.words}' has columns in {' and '.join(dict.fromkeys(self.units))}: .{word} takes those of one "
-                             f"unit; there are {', '.join(self.known())}")
+            raise InputError(f"'{self.place}{self.words}' has columns in {' and '.join(dict.fromkeys(self.units))}: "
+                             f".{word} takes those of one unit; there are {', '.join(self.known())}")
         if not all(self.axes):
             raise InputError(f"'{self.place}{self.words}' has no columns")
         self.steps.append(lambda values: OVER_ALL[word](values.reshape(len(values), -1), axis=1))

@@ -24,16 +24,20 @@ class Curve:
 
 
 def curves(runs, names, select, against=None):
-    """A curve for each column of each quantity in each run. @raises InputError. against: name of the quantity of the horizontal axis"""
+    """A curve for each column of each quantity in each run. against: name of the quantity of the horizontal axis.
+    @raises InputError"""
     found = []
     read = {name: [run.quantities.read(name, select) for run in runs] for name in names}
     alone = all(len(quantity.labels) == 1 for quantity in read[names[0]]) and len(names) == 1
     across = [run.quantities.read(against, select) for run in runs] if against else [None] * len(runs)
     for name in names:
         for run, quantity, other in zip(runs, read[name], across):
-            x, axis = (quantity.time, quantity.axis) if other is None else (other.one, header(other.name, other.units[0]))
+            x, axis = quantity.time, quantity.axis
+            if other is not None:
+                x, axis = other.one, header(other.name, other.units[0])
             if len(x) != len(quantity.time):
-                raise InputError(f"'{name}' has {len(quantity.time)} rows, '{against}' {len(x)}: they are of different analyses")
+                raise InputError(f"'{name}' has {len(quantity.time)} rows, '{against}' {len(x)}: they are of different "
+                                 "analyses")
             for label, unit, values in zip(quantity.labels, quantity.units, quantity.values.T):
                 text = (run.label or label) if alone else f"{label}, {run.label}" if run.label else label
                 found.append(Curve(text, label, unit, axis, x, values))
@@ -43,20 +47,22 @@ def curves(runs, names, select, against=None):
 def with_gaps(curve):
     """The curve with a gap wherever its time goes back, as it does at a new analysis."""
     back = np.flatnonzero(np.diff(curve.x) < 0) + 1
-    return dataclasses.replace(curve, x=np.insert(curve.x, back, np.nan), y=np.insert(curve.y, back, np.nan)) if len(back) else curve
+    return dataclasses.replace(curve, x=np.insert(curve.x, back, np.nan), y=np.insert(curve.y, back, np.nan))
 
 
 def spectra(found, kind):
-    """Curves over the frequency. kind: `amplitude` or `psd`. Notes tell the resolution, and what was done to a signal."""
+    """Curves over the frequency. kind: `amplitude` or `psd`. Notes tell the resolution, and what was done to a
+    signal."""
     results = []
     for curve in found:
         if curve.axis != "time [s]":
             raise InputError(f"{curve.label} is over the {curve.axis}: a spectrum is of a signal over time")
         spectrum = (amplitude_spectrum if kind == "amplitude" else power_density)(curve.x, curve.y, curve.label)
-        note(f"{curve.label}: resolution {spectrum.resolution:.4g} Hz" + "".join(f"; {remark}" for remark in spectrum.remarks))
+        note("; ".join([f"{curve.label}: resolution {spectrum.resolution:.4g} Hz", *spectrum.remarks]))
         if not np.any(np.nan_to_num(np.diff(curve.y)) != 0):
             note(f"{curve.label} does not change: its spectrum is zero")
-        unit = curve.unit if kind == "amplitude" else f"({curve.unit})^2/Hz" if curve.unit not in ("", "-", "1") else "1/Hz"
+        squared = f"({curve.unit})^2/Hz" if curve.unit not in ("", "-", "1") else "1/Hz"
+        unit = curve.unit if kind == "amplitude" else squared
         results.append(dataclasses.replace(curve, unit=unit, axis="frequency [Hz]", x=spectrum.x, y=spectrum.values))
     return results
 
@@ -67,7 +73,8 @@ def orders(runs, names, select, speed):
     for run in runs:
         turning = run.quantities.read(speed, select)
         if turning.units != ["rad/s"]:
-            raise InputError(f"--orders {speed}: an angular speed [rad/s] is expected; this is in {', '.join(dict.fromkeys(turning.units)) or '-'}")
+            raise InputError(f"--orders {speed}: an angular speed [rad/s] is expected; this is in "
+                             f"{', '.join(dict.fromkeys(turning.units)) or '-'}")
         for curve in curves([run], names, select):
             if len(curve.x) != len(turning.time):
                 raise InputError(f"'{curve.name}' and '{speed}' are of different analyses")
@@ -78,17 +85,19 @@ def orders(runs, names, select, speed):
 
 
 def envelopes(found):
-    """[(Curve of the least values, Curve of the largest)] of all runs of each quantity, in intervals of the horizontal axis."""
+    """[(Curve of the least values, Curve of the largest)] of all runs of each quantity, in intervals of the horizontal
+    axis."""
     results = []
     for name in dict.fromkeys(curve.name for curve in found):
         those = [curve for curve in found if curve.name == name]
         x, least, largest = envelope([(curve.x, curve.y) for curve in those])
-        results.append([dataclasses.replace(those[0], label=f"{name}, {text}", x=x, y=y) for text, y in (("least", least), ("largest", largest))])
+        results.append([dataclasses.replace(those[0], label=f"{name}, {text}", x=x, y=y)
+                        for text, y in (("least", least), ("largest", largest))])
     return results
 
 
 def envelope(pairs):
-    """Middle of intervals, least and largest value of all polygons (x, y) in them. Values are not a number where there are none."""
+    """Middle of intervals, least and largest value of all polygons (x, y) in them; empty intervals have no numbers."""
     pairs = [(x[keep], y[keep]) for x, y in pairs for keep in [np.isfinite(x) & np.isfinite(y)]]
     rows = [len(x) for x, _ in pairs if len(x)]
     if not rows:
@@ -130,6 +139,7 @@ def columns_of_orders(found):
     columns = []
     for curve, orders_ in found:
         shape = orders_.amplitude.shape
-        columns += [(f"speed of {curve.label} [rad/s]", np.repeat(orders_.speed, shape[1])), ("order", np.tile(orders_.order, shape[0])),
+        columns += [(f"speed of {curve.label} [rad/s]", np.repeat(orders_.speed, shape[1])),
+                    ("order", np.tile(orders_.order, shape[0])),
                     (header(f"amplitude of {curve.label}", curve.unit), orders_.amplitude.ravel())]
     return columns

@@ -26,7 +26,8 @@ def draw_curves(curves, title, path, logarithmic=False):
     fig, panels = _panels(curves, title)
     for unit, panel in panels.items():
         those = [with_gaps(curve) for curve in curves if curve.unit == unit]
-        colours = style.COLOURS if len(those) <= len(style.COLOURS) else plt.get_cmap("viridis")(np.linspace(0, 0.9, len(those)))
+        many = len(those) > len(style.COLOURS)
+        colours = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(those))) if many else style.COLOURS
         with style.curves_of(max(len(curve.x) for curve in those)):
             for curve, colour in zip(those, colours):
                 panel.plot(curve.x, curve.y, label=curve.label, color=colour)
@@ -42,21 +43,30 @@ def draw_envelopes(pairs, title, path):
     for unit, panel in panels.items():
         those = [pair for pair in pairs if pair[0].unit == unit]
         for k, (low, high) in enumerate(those):
-            panel.fill_between(low.x, low.y, high.y, color=style.COLOURS[k % len(style.COLOURS)], alpha=0.35, label=low.name)
+            colour = style.COLOURS[k % len(style.COLOURS)]
+            panel.fill_between(low.x, low.y, high.y, color=colour, alpha=0.35, label=low.name)
         _finish(panel, [low for low, _ in those], unit)
     return style.save(fig, path)
 
 
 def draw_orders(found, title, path):
-    """Draws amplitudes over order and speed as colours, a panel per curve. @returns the path"""
+    """Draws amplitudes over order and speed as colours, a panel per curve; at a constant speed their mean over the pieces.
+    @returns the path"""
     if len(found) > MOST_PANELS:
-        raise InputError(f"these are {len(found)} order analyses; {MOST_PANELS} panels fit into a figure: name fewer quantities or runs")
+        raise InputError(f"these are {len(found)} order analyses; {MOST_PANELS} panels fit into a figure: name fewer "
+                         "quantities or runs")
     fig, axes = style.figure(len(found), title, height=3.5)
     for panel, (curve, orders) in zip(axes[:, 0], found):
-        mesh = panel.pcolormesh(orders.order, orders.speed, orders.amplitude, shading="nearest" if len(orders.speed) > 1 else "auto")
+        panel.set_title(curve.label)
+        if np.ptp(orders.speed) < 0.01 * orders.speed.max():  # a plane of colours would have no height
+            panel.plot(orders.order, orders.amplitude.mean(axis=0))
+            panel.set_ylabel(style.label("amplitude", curve.unit))
+            panel.set_title(f"{curve.label}, at {orders.speed.mean():.6g} rad/s")
+            continue
+        rising = np.argsort(orders.speed, kind="stable")
+        mesh = panel.pcolormesh(orders.order, orders.speed[rising], orders.amplitude[rising], shading="nearest")
         fig.colorbar(mesh, ax=panel, label=style.label("amplitude", curve.unit))
         panel.set_ylabel("speed [rad/s]")
-        panel.set_title(curve.label)
     axes[-1, 0].set_xlabel("order")
     return style.save(fig, path)
 

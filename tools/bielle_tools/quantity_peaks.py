@@ -1,4 +1,5 @@
-"""The largest values of a run with their times and places: reactions of joints and supports, contact forces, stresses, drives, pressures."""
+"""The largest values of a run with their times and places: reactions of joints and supports, contact forces, stresses,
+drives, pressures."""
 
 import dataclasses
 import math
@@ -10,7 +11,7 @@ from .messages import InputError, note, place as shown
 
 @dataclasses.dataclass
 class Peak:
-    """value: the largest magnitude; time [s], in statics the load factor; place: words, empty if the quantity has none"""
+    """value: the largest magnitude; time [s], in statics the load factor; place: words, empty if there is none"""
 
     kind: str
     quantity: str
@@ -32,7 +33,8 @@ def peaks(run, select):
             except InputError as error:
                 note(f"no stress of '{place.split('/')[1]}': {error}")
     order = ["reaction", "support", "contact", "stress", "drive", "pressure"]
-    return sorted(finder.found, key=lambda peak: (order.index(peak.kind), peak.unit, -peak.value, peak.quantity)) + _during_steps(run.results)
+    found = sorted(finder.found, key=lambda peak: (order.index(peak.kind), peak.unit, -peak.value, peak.quantity))
+    return found + _during_steps(run.results)
 
 
 class _Finder:
@@ -41,7 +43,7 @@ class _Finder:
 
     def look(self, place):
         """Adds the peaks of a recorded quantity, if its kind is one of interest."""
-        section, field = place.split("/")[0], place.rpartition("/")[2]
+        section, (folder, _, field) = place.split("/")[0], place.rpartition("/")
         if section in ("joints", "supports") and field == "reaction":
             for part in ("force", "moment"):
                 self.scalar("reaction" if section == "joints" else "support", f"{place}.{part}")
@@ -50,13 +52,18 @@ class _Finder:
         elif section == "joints" and field == "normal_force":
             self.scalar("contact", place)
         elif field == "von_mises":
-            self.field(place, self.node_of_body if self.results.has(place.replace("von_mises", "frame")) else self.place_in_beam)
+            is_body = self.results.has(f"{folder}/frame")
+            self.field(place, self.node_of_body if is_body else self.place_in_beam)
         elif field.startswith("stress_at_"):
-            self.scalar("stress", f"{place}.von_mises", lambda row, column: self.results.text(place.rpartition("/")[0], field))
+            self.scalar("stress", f"{place}.von_mises", lambda row, column: self.results.text(folder, field))
         elif section == "joints" and field == "drive_force":
             self.scalar("drive", place)
         elif field.startswith("pressure") and section in ("elements", "hydraulics"):
             self.scalar("pressure", place)
+
+    def row(self, number):
+        """Row of the results of one of those selected."""
+        return int(self.select(self.results)[number]) if self.select else number
 
     def scalar(self, kind, name, where=None):
         """Adds the largest magnitude of each column. where(row, column): words for its place"""
@@ -64,19 +71,21 @@ class _Finder:
         for column, (label, unit, values) in enumerate(zip(quantity.labels, quantity.units, np.abs(quantity.values).T)):
             row = _largest(values)
             if row is not None and values[row] > 0:
-                rows = self.select(self.results) if self.select else np.arange(len(quantity.time))
-                self.found.append(Peak(kind, label, float(values[row]), unit, float(quantity.time[row]), where(int(rows[row]), column) if where else ""))
+                words = where(self.row(row), column) if where else ""
+                self.found.append(Peak(kind, label, float(values[row]), unit, float(quantity.time[row]), words))
 
     def field(self, place, where):
-        """Adds the largest value of a field, read in blocks: where(place, row, column) describes the place of a column."""
+        """Adds the largest value of a field, read in blocks. where(place, row, column): words for the place of a
+        column"""
         quantity = self.quantities.read(f"{place}.max", self.select)
         row = _largest(quantity.values[:, 0])
         if row is None or not quantity.values[row, 0] > 0:
             return
-        number = int((self.select(self.results) if self.select else np.arange(len(quantity.time)))[row])
+        number = self.row(row)
         one = self.quantities.read(place, lambda results: np.array([number]))
-        self.found.append(Peak("stress", place, float(quantity.values[row, 0]), quantity.units[0], float(quantity.time[row]),
-                               where(place, number, int(np.nanargmax(one.values[0])))))
+        words = where(place, number, int(np.nanargmax(one.values[0])))
+        self.found.append(Peak("stress", place, float(quantity.values[row, 0]), quantity.units[0],
+                               float(quantity.time[row]), words))
 
     def contact(self, place):
         """Adds the largest force of a contact, at the place of the smallest gap then."""
@@ -122,7 +131,7 @@ def _during_steps(results):
                 place = f"peaks/{element}/{region}/{quantity}"
                 value, time = (float(results.array(f"{place}/{name}")) for name in ("value", "time"))
                 if math.isfinite(value):
+                    node, position = int(results.array(f"{place}/node")), shown(results.array(f"{place}/position"))
                     found.append(Peak("recorded", place, value, results.units(f"{place}/value"), time,
-                                      f"node {int(results.array(f'{place}/node'))} of the mesh at {shown(results.array(f'{place}/position'))} m "
-                                      "in the body, of all steps"))
+                                      f"node {node} of the mesh at {position} m in the body, of all steps"))
     return found

@@ -1,8 +1,9 @@
 """The quantities over time of a results file, and the names by which users call them.
 
-A quantity has the name of its dataset, `joints/main/reaction`. The short names of formulas serve as well: a dot in place of `/`, and no
-section, if one entry alone has such a quantity (`main.reaction`; a joint, an element or a measure precedes others); and the coordinates of
-joints with their rates, `main.angle`, `main.angle.rate`. Quotes around a name are optional: `'rod.wrist'.position`.
+A quantity has the name of its dataset, `joints/main/reaction`. The short names of formulas serve as well: a dot in
+place of `/`, and no section, if one entry alone has such a quantity (`main.reaction`; a joint, an element or a measure
+precedes others); and the coordinates of joints with their rates, `main.angle`, `main.angle.rate`. Quotes around a name
+are optional: `'rod.wrist'.position`.
 """
 
 import h5py
@@ -13,7 +14,8 @@ from .results_columns import names_in
 from .results_file import WITHOUT_ROWS, reading
 from .stacked_layout import SECTIONS
 
-NO_QUANTITIES = (*WITHOUT_ROWS, "events", "peaks", "validity", "checkpoints", "input", "parameters", "equations", "crossings", "study_said")
+NO_QUANTITIES = (*WITHOUT_ROWS, "events", "peaks", "validity", "checkpoints", "input", "parameters", "equations",
+                 "crossings", "study_said")
 FIRST = ("joints", "elements", "measures")  # sections that precede others in short names
 
 
@@ -23,13 +25,17 @@ class Places:
     def __init__(self, results):
         self.results = results
         with reading(results.path, "/"):
-            self.recorded = [place for section in results.root if _is_section(results, section) for place in _below(results, section)]
-            self.made = [f"elements/{name}/{field}" for name in results.elements_with("frame", "coordinates") if has_body(results, name)
-                         for field in MADE if f"elements/{name}/{field}" not in self.recorded]
+            sections = [name for name in results.root if _is_section(results, name)]
+            self.recorded = [place for section in sections for place in _below(results, section)]
+            bodies = [name for name in results.elements_with("frame", "coordinates") if has_body(results, name)]
+            known = set(self.recorded)
+            self.made = [place for name in bodies for place in (f"elements/{name}/{field}" for field in MADE)
+                         if place not in known]
         self._named = None
 
     def find(self, text):
-        """@returns the place of a quantity, the number of its column or None, and the rest of the text, `.x` or `[3]`. @raises InputError"""
+        """@returns the place of a quantity, the number of its column or None, and the rest of the text, `.x` or `[3]`.
+        @raises InputError"""
         written = text.replace("'", "").strip().strip("/")
         plain = written.replace("/", ".")
         ends = [k for k, letter in enumerate(plain) if letter in ".[("] + [len(plain)]
@@ -73,7 +79,8 @@ class Places:
                     self._add(f"{joint}.{name}.rate".replace("/", "."), rate, column)
 
     def _nearest(self, written):
-        """Names the nearest quantity, as a path if a path was written; for a wrong field of a known entry, one of its fields."""
+        """Names the nearest quantity, as a path if a path was written; for a wrong field of a known entry, one of its
+        fields."""
         names = self.recorded + self.made if "/" in written else list(self._names())
         plain, entry = written, written
         while "." in entry or "/" in entry:
@@ -87,7 +94,8 @@ class Places:
 
 
 def _is_section(results, name):
-    """Tells whether an object at the root holds quantities over the rows of these results: a group may lead to another analysis."""
+    """Tells whether an object at the root holds quantities over the rows of these results: a group may lead to another
+    analysis."""
     if name in NO_QUANTITIES or name.startswith("analysis_"):
         return False
     links = [results.root.get(each, getlink=True) for each in ("time", name) if each in results.root]
@@ -102,8 +110,9 @@ def _below(results, section):
     if isinstance(group, h5py.Dataset):
         return [section] if _is_over_time(group.dtype, group.shape, results) else []
     if section in SECTIONS and results.stacked:
-        paths = [f"measures/{name}" for name in results.names(section)] if section == "measures" else \
-            [f"{section}/{name}/{field}" for name in results.names(section) for field in results.datasets(f"{section}/{name}")]
+        paths = [f"{section}/{name}" for name in results.names(section)]
+        if section != "measures":
+            paths = [f"{path}/{field}" for path in paths for field in results.datasets(path)]
         return [path for path in paths if results.shape(path)[:1] and results.shape(path)[0] >= len(results.time)]
     found = []
 
@@ -113,7 +122,9 @@ def _below(results, section):
 
     group.visititems(visit)
     turning = [path.rpartition("/")[0] for path in found if section == "nodes" and path.endswith("/rotation")]
-    return found + [f"{node}/{field}" for node in turning for field in results.datasets(node) if f"{node}/{field}" not in found]
+    known = set(found)
+    made = [f"{node}/{field}" for node in turning for field in results.datasets(node)]
+    return found + [path for path in made if path not in known]
 
 
 def _is_over_time(dtype, shape, results):

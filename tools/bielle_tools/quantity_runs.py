@@ -33,7 +33,8 @@ def open_runs(options):
                     note(f"{path}: {group} ({values}) has no results and is left out")
                     continue
                 results = stack.enter_context(Results(path, options.analysis, group))
-                label = ": ".join(text for text in (short if len(options.files) > 1 or not study else "", values) if text)
+                before = short if len(options.files) > 1 or not study else ""
+                label = ": ".join(text for text in (before, values) if text)
                 opened.append((label, results))
         if not opened:
             raise InputError(f"'{options.files[0]}' is a study without a run that has results")
@@ -51,13 +52,15 @@ def _short_names(paths):
 
 
 def _study_runs(path):
-    """[(group, `mass = 2`)] of the runs of a study that were done, by the parameters that differ; empty for another file."""
+    """[(group, `mass = 2`)] of the runs of a study that were done, by the parameters that differ; empty for another
+    file."""
     if not os.path.isfile(path) or not h5py.is_hdf5(path):
         return []  # Results says what it is
     with reading(path, "/"), h5py.File(path, "r") as file:
         if file.attrs.get("format") != "bielle study":
             return []
-        values = {name: file[f"parameters/{name}"].asstr()[:] for name in file["parameters"]} if "parameters" in file else {}
+        given = file["parameters"] if "parameters" in file else {}
+        values = {name: given[name].asstr()[:] for name in given}
         status = file["status"][:]
         differing = {name: texts for name, texts in values.items() if len(set(texts)) > 1}
         named = [", ".join(f"{name} = {texts[k]}" for name, texts in differing.items()) for k in range(len(status))]

@@ -1,9 +1,10 @@
 """The equivalent radiated power of a surface: P = Z times the integral of v_n^2 over it [W].
 
-v_n is the normal velocity of the surface, Z = rho c the impedance of air for plane waves. P is the sound power that the surface would
-radiate if each part of it radiated as a plane does: an upper estimate without cancellation between parts that move against each other.
-Its mean over a period is Z v^2 S/2 for an area S that oscillates with the amplitude v. In a body that moves as x + R (X + U q), v_n is
-linear in w = (R^T x', Omega, q'), hence P = w^T F w with a constant matrix F; the displacement is neglected beside X in Omega x (X + U q).
+v_n is the normal velocity of the surface, Z = rho c the impedance of air for plane waves. P is the sound power that the
+surface would radiate if each part of it radiated as a plane does: an upper estimate without cancellation between parts
+that move against each other. Its mean over a period is Z v^2 S/2 for an area S that oscillates with the amplitude v. In
+a body that moves as x + R (X + U q), v_n is linear in w = (R^T x', Omega, q'), hence P = w^T F w with a constant matrix
+F; the displacement is neglected beside X in Omega x (X + U q).
 Reference: F. Fahy, P. Gardonio, Sound and Structural Vibration, 2nd ed. 2007, section 3.3 (radiation efficiency 1).
 """
 
@@ -17,7 +18,8 @@ IMPEDANCE = 1.204 * 343.2  # [N s/m^3] of air at 20 degrees Celsius and 101325 P
 
 
 def velocity_form(points, faces, shapes):
-    """F/Z (m,m) [m^2, ..]: the integral of (n . phi_i)(n . phi_j) over the surface. shapes: (p,3,m) displacements phi_i of the points"""
+    """F/Z (m,m) [m^2, ..]: the integral of (n . phi_i)(n . phi_j) over the surface. shapes: (p,3,m) displacements phi_i
+    of the points"""
     total = np.zeros((shapes.shape[2],) * 2)
     for _, nodes, N, normals in surface_points(points, faces):
         area = np.linalg.norm(normals, axis=1)
@@ -35,8 +37,8 @@ def body_form(body, path):
     faces = body.surface()
     nodes = np.unique(np.concatenate([block.ravel() for block in faces.values()]))
     if not np.isin(nodes, body.displaced).all():
-        raise InputError(f"'{path}' does not keep the displacements of the whole surface: set 'recovery: {{displacement: surface}}' in its body "
-                         "file and reduce it again")
+        raise InputError(f"'{path}' does not keep the displacements of the whole surface: set 'recovery: "
+                         "{displacement: surface}' in its body file and reduce it again")
     count = body.displacement.shape[1]
     shapes = np.zeros((len(body.points), 3, 6 + count))
     for k in range(3):
@@ -47,8 +49,8 @@ def body_form(body, path):
 
 
 def body_velocities(time, frame, q):
-    """w (nt, 6 + n), by splines through the rows: of the frame's origin and the angular velocity, body axes, and of q (nt,n).
-    frame: (nt,7) position and quaternion; rows that are not numbers have none."""
+    """w (nt, 6 + n), by splines through the rows: of the frame's origin and the angular velocity, body axes, and of q
+    (nt,n). frame: (nt,7) position and quaternion; rows that are not numbers have none."""
     x, p = rates(time, frame[:, :3]), frame[:, 3:]
     dp = rates(time, p)
     size = (p * p).sum(axis=1)
@@ -60,8 +62,8 @@ def body_velocities(time, frame, q):
 
 
 def rates(time, values):
-    """(nt, k) derivatives of cubic splines through the rows of (nt, k); not a number next to gaps that leave no two rows together.
-    @raises InputError if the time does not increase"""
+    """(nt, k) derivatives of cubic splines through the rows of (nt, k); not a number next to gaps that leave no two
+    rows together. @raises InputError if the time does not increase"""
     if np.any(np.diff(time) <= 0):
         row = int(np.flatnonzero(np.diff(time) <= 0)[0])
         raise InputError(f"velocities need times that increase: after {time[row]:g} s comes {time[row + 1]:g} s")

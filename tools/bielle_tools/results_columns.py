@@ -4,14 +4,15 @@ import re
 
 
 def names_in(description, count):
-    """Names of columns: those of a description if it lists as many (`displacement, angle`, also after a colon or "along"), or 1, 2, ..."""
+    """Names of columns: those of a description if it lists as many (`displacement, angle`, also after a colon or
+    "along"), or 1, 2, ..."""
     names = [name.strip() for name in re.split(": | along ", description)[-1].split(",")]
     return names if len(names) == count else [str(k + 1) for k in range(count)]
 
 
 def units_in(units, count):
-    """Units of columns: one for all; `m, rad` one for each; of vectors with forces and moments (`N, N m`) one for the first three
-    columns, one for the others."""
+    """Units of columns: one for all; `m, rad` one for each; of vectors with forces and moments (`N, N m`) one for the
+    first three columns, one for the others."""
     each = [unit.strip() for unit in units.split(",")]
     if len(each) == count:
         return each

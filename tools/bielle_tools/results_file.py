@@ -28,7 +28,7 @@ WITHOUT_ROWS = ("eigen", "campbell", "frequency_response", "state_space")  # ana
 OTHERS = {"bielle superelement": "'bielle-reduce --inspect {0}' describes it",
           "bielle cut body": "'bielle-reduce --inspect {0}' describes it",
           "bielle matrices": "'bielle-exchange {0} OUT' writes them in another format",
-          "bielle study": "its runs are the groups /runs/1, /runs/2, ...; h5py and HDFView show them"}
+          "bielle study": "'bielle-plot {0} --quantity ..' draws its runs, which are the groups /runs/1, /runs/2, ..."}
 WORDS = {"bielle superelement": "a superelement", "bielle cut body": "a body in pieces", "bielle study": "a study",
          "bielle matrices": "matrices of another program",
          "bielle results": "results of bielle-mechanism"}

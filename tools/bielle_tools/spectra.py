@@ -1,12 +1,14 @@
 """Spectra of signals over time: amplitudes, power spectral density, orders of a speed.
 
 Signals at uneven times are resampled by cubic splines at their median step. The mean is taken off.
-    amplitude   |X|: a sine of amplitude A shows A. The flat-top window makes this so between the lines of the spectrum as well, to 0.1 %; peaks
-                are 3.8 lines wide, the resolution is 3.8/T.
-    psd         by Welch's method (Hann windows that overlap by half): the integral over the frequency is the mean square.
-    orders      the signal over the angle of a speed, cut into pieces of `revolutions` that overlap by half; amplitudes as above.
-References: G. Heinzel, A. Ruediger, R. Schilling, Spectrum and spectral density estimation by the DFT, 2002; P. D. Welch, IEEE Trans. Audio
-Electroacoust. AU-15 (1967) 70-73; K. R. Fyfe, E. D. S. Munck, Mech. Syst. Signal Process. 11 (1997) 187-205 (resampling over the angle).
+    amplitude   |X|: a sine of amplitude A shows A. The flat-top window makes this so between the lines of the spectrum
+                as well, to 0.1 %; peaks are 3.8 lines wide, the resolution is 3.8/T.
+    psd         by Welch's method (Hann windows that overlap by half): the integral over the frequency is the mean
+                square.
+    orders      the signal over the angle of a speed, cut into pieces that overlap by half; amplitudes as above.
+References: G. Heinzel, A. Ruediger, R. Schilling, Spectrum and spectral density estimation by the DFT, 2002;
+P. D. Welch, IEEE Trans. Audio Electroacoust. AU-15 (1967) 70-73; K. R. Fyfe, E. D. S. Munck, Mech. Syst. Signal
+Process. 11 (1997) 187-205 (resampling over the angle).
 """
 
 import dataclasses
@@ -38,7 +40,8 @@ def even_signal(time, values, what):
     @raises InputError if too little is left, or if the times do not increase"""
     begin, end = _longest_part(time, values, what)
     remarks = [] if end - begin == len(values) else \
-        [f"of {len(values)} rows the longest part without a gap: {end - begin} from {time[begin]:.6g} to {time[end - 1]:.6g}"]
+        [f"of {len(values)} rows the longest part without a gap: {end - begin} from {time[begin]:.6g} to "
+         f"{time[end - 1]:.6g}"]
     step, even, more = resampled(time[begin:end], values[begin:end], what)
     return step, even, remarks + more
 
@@ -49,14 +52,15 @@ def even_channels(time, values, names):
         raise InputError(f"{names[0]}: there is one time only; a step needs two")
     for name, column in zip(names, values.T):
         if not np.isfinite(column).all():
-            raise InputError(f"'{name}' has no number at {time[int(np.argmin(np.isfinite(column)))]:g} s; channels have no gaps: leave it out, or take "
+            gap = time[int(np.argmin(np.isfinite(column)))]
+            raise InputError(f"'{name}' has no number at {gap:g} s; channels have no gaps: leave it out, or take "
                              "another --span")
     return resampled(time, values, names[0])
 
 
 def resampled(time, values, what):
-    """Signals (nt, ..) at even steps, by cubic splines at the median step unless their steps are even: step, values, remarks.
-    @raises InputError if the times do not increase"""
+    """Signals (nt, ..) at even steps, by cubic splines at the median step unless their steps are even: step, values,
+    remarks. @raises InputError if the times do not increase"""
     steps = np.diff(time)
     if np.any(steps <= 0):
         row = int(np.flatnonzero(steps <= 0)[0])
@@ -71,7 +75,8 @@ def resampled(time, values, what):
 
 
 def _longest_part(time, values, what):
-    """First row, and the one after the last, of the longest part without a gap. @raises InputError if it is too short"""
+    """First row, and the one after the last, of the longest part without a gap. @raises InputError if it is too
+    short"""
     known = np.flatnonzero(np.isfinite(values) & np.isfinite(time))
     longest = max(np.split(known, np.flatnonzero(np.diff(known) > 1) + 1), key=len)
     if len(longest) < LEAST_ROWS:
@@ -97,7 +102,8 @@ def amplitude_spectrum(time, values, what):
 
 
 def power_density(time, values, what):
-    """@returns Spectrum of the power spectral density [unit^2/Hz]: its integral is the variance of the signal. @raises InputError"""
+    """@returns Spectrum of the power spectral density [unit^2/Hz]: its integral is the variance of the signal.
+    @raises InputError"""
     step, even, remarks = even_signal(time, values, what)
     length = min(len(even), max(256, len(even) // 8))
     frequency, density = signal.welch(even - even.mean(), 1 / step, "hann", length, length // 2, detrend=False)
@@ -115,9 +121,9 @@ class Orders:
 
 
 def order_analysis(time, values, speed, what):
-    """Amplitudes over the speed [rad/s] and its orders, in pieces of an eighth of all revolutions, 4 at least and 20 at most.
-    The angle is divided so finely that nothing is lost where the speed is least; orders go up to half the rows per
-    revolution where it is largest. @raises InputError if the speed does not keep its sign, or makes too few revolutions"""
+    """Amplitudes over the speed [rad/s] and its orders, in pieces of an eighth of all revolutions, 4 at least and 20 at
+    most. The angle is divided so finely that nothing is lost where the speed is least; orders go up to half the rows
+    per revolution where it is largest. @raises InputError if the speed changes its sign, or makes too few revolutions"""
     begin, end = _longest_part(time, np.where(np.isfinite(speed), values, np.nan), what)
     time, values, speed = time[begin:end], values[begin:end], _one_way(speed[begin:end], what)
     if np.any(np.diff(time) <= 0):
@@ -130,7 +136,8 @@ def order_analysis(time, values, speed, what):
     if coarse < 4:
         raise InputError(f"{what}: {coarse} rows per revolution are too few for an order analysis")
     if angle[-1] * fine > MOST_POINTS:
-        raise InputError(f"{what}: the speed varies too much for an order analysis of all of it: take a --span in which it is faster")
+        raise InputError(f"{what}: the speed varies too much for an order analysis of all of it: take a --span in "
+                         "which it is faster")
     length = fine * revolutions
     places = np.arange(int(angle[-1] * fine) + 1) / fine
     turned, when = CubicSpline(angle, values)(places), CubicSpline(angle, time)(places)
@@ -145,5 +152,6 @@ def order_analysis(time, values, speed, what):
 def _one_way(speed, what):
     """Magnitudes of a speed. @raises InputError if it is zero anywhere, or changes its sign"""
     if not (np.all(speed > 0) or np.all(speed < 0)):
-        raise InputError(f"{what}: orders need a speed that is never zero and keeps its sign; --span A:B takes the time in which it does")
+        raise InputError(f"{what}: orders need a speed that is never zero and keeps its sign; --span A:B takes the "
+                         "time in which it does")
     return np.abs(speed)

@@ -3,9 +3,9 @@
     [TAKE] DATASET[COLUMN] [at T] [from T] [to T] [in analysis N]
     text "limit point at load factor"[1]
 
-In place of DATASET[COLUMN] stands any quantity (quantities.py), `main.reaction.norm`. Columns count from 1 or have the names in the results;
-`[1:4]` makes four columns of the table; the largest and least values of several columns are those of all. `text` is a number that follows
-these words in the program's output, for values that the results do not contain.
+In place of DATASET[COLUMN] stands any quantity (quantities.py), `main.reaction.norm`. Columns count from 1 or have the
+names in the results; `[1:4]` makes four columns of the table; the largest and least values of several columns are those
+of all. `text` is a number that follows these words in the program's output, for values that the results do not contain.
 """
 
 import re
@@ -23,7 +23,8 @@ WITHOUT_ROWS = ("eigen", "peaks", "validity", "frequency_response", "events")
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 PLACE = re.compile(r"(?P<place>[^\s\[\]\"]+/[^\s\[\]\"]+|time)(?:\[(?P<column>[^\]]*)\])?")
 QUANTITY = re.compile(r"[^\s\"]*[A-Za-z_'][^\s\"]*[.(][^\s\"]*")
-OVER_ALL = {"min": ".min", "max": ".max", "absmax": ".abs", "time_of_min": ".min", "time_of_max": ".max", "time_of_absmax": ".abs"}
+OVER_ALL = {"min": ".min", "max": ".max", "absmax": ".abs",
+            "time_of_min": ".min", "time_of_max": ".max", "time_of_absmax": ".abs"}
 TEXT = re.compile(r'\s*text\s+"(?P<words>[^"]+)"\s*(?:\[(?P<number>\d+)\])?\s*')
 
 

@@ -1,4 +1,5 @@
-"""Files of columns of numbers: CSV with one header line. Numbers are written in their shortest form that reads back to the bit."""
+"""Files of columns of numbers: CSV with one header line. Numbers have the shortest form that reads back to the
+bit."""
 
 import contextlib
 import csv
@@ -36,8 +37,8 @@ def output(path, inputs, mode="w"):
 
 def _check(path, inputs):
     if path.lower().endswith(".parquet"):
-        raise InputError(f"'{path}': Debian has no library that writes Parquet (neither pyarrow nor fastparquet is a package of it); "
-                         "--csv writes CSV, which pandas and the like convert")
+        raise InputError(f"'{path}': Debian has no library that writes Parquet (neither pyarrow nor fastparquet is a "
+                         "package of it); --csv writes CSV, which pandas and the like convert")
     if not os.path.exists(path):
         return
     if any(os.path.samefile(path, given) for given in inputs):
@@ -57,7 +58,8 @@ def write_columns(path, columns, inputs=()):
         csv.writer(file, lineterminator="\n").writerow([header for header, _ in columns])
         longest = max((len(values) for _, values in columns), default=0)
         for begin in range(0, longest, ROWS_AT_ONCE):
-            cells = [_texts(values[begin:begin + ROWS_AT_ONCE], min(ROWS_AT_ONCE, longest - begin)) for _, values in columns]
+            count = min(ROWS_AT_ONCE, longest - begin)
+            cells = [_texts(values[begin:begin + count], count) for _, values in columns]
             file.writelines(",".join(row) + "\n" for row in zip(*cells))
 
 

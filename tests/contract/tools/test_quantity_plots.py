@@ -173,6 +173,10 @@ class Command(InFolder):
         self.succeed("a.h5", "--quantity", "s", "--orders", "speed", "--csv", "orders.csv")
         found = table(self.path("orders.csv"))
         np.testing.assert_allclose(found["amplitude of s [N]"][found["order"] == 2], 3, rtol=2e-3)
+        write_signals(self.path("steady.h5"), self.time, s=(np.sin(60 * self.time), "N"), speed=(self.time * 0 + 30, "rad/s"))
+        self.succeed("steady.h5", "--quantity", "s", "--orders", "speed", "--csv", "orders.csv")
+        found = table(self.path("orders.csv"))
+        np.testing.assert_allclose(found["amplitude of s [N]"][found["order"] == 2], 1, rtol=2e-3)
         self.succeed("a.h5", "b.h5", "--quantity", "s", "--envelope", "--csv", "-")
 
     def test_gaps_stay_gaps(self):
