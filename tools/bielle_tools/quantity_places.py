@@ -113,7 +113,7 @@ def _below(results, section):
         paths = [f"{section}/{name}" for name in results.names(section)]
         if section != "measures":
             paths = [f"{path}/{field}" for path in paths for field in results.datasets(path)]
-        return [path for path in paths if results.shape(path)[:1] and results.shape(path)[0] >= len(results.time)]
+        return [path for path in paths if next(iter(results.shape(path)), 0) >= len(results.time)]
     found = []
 
     def visit(name, item):
