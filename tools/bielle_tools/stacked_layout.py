@@ -47,7 +47,7 @@ class StackedLayout:
         return self._fact(found, "datasets", lambda group, _: [name for name in group if name not in ("name", "attributes")])
 
     def _fact(self, found, subject, read):
-        """What read(group, field) gives for all entries of a kind, read once: files have many entries of few kinds."""
+        """Returns read(group, field), which is read once for all entries of a kind: files have many entries of few kinds."""
         group, _, field = found
         key = id(group), field, subject  # the groups live as long as this object
         if key not in self._facts:
