@@ -277,7 +277,7 @@ class Refusals(ResultsTool):
         self.refuse_to_read("it is empty")
         with h5py.File(self.path("run.h5"), "w") as file:
             file.attrs["format"] = "bielle study"
-        self.refuse_to_read("but a study: its runs are the groups /runs/1, /runs/2")
+        self.refuse_to_read("but a study: 'bielle-plot", "--quantity ..' draws its runs, which are the groups /runs/1, /runs/2")
         os.remove(self.path("run.h5"))
         os.mkdir(self.path("run.h5"))
         self.refuse_to_read("is a folder")
