@@ -25,13 +25,38 @@ class Parser(argparse.ArgumentParser):
         raise InputError(f"{message} (--help shows the options)")
 
 
-def results_parser(name, description):
+def results_parser(name, description, several=False):
+    """A parser of options for a file of results, `results`, or for several, `files`."""
     parser = Parser(prog=name, description=description, formatter_class=Parser.raw)
-    parser.add_argument("results", metavar="RESULTS.h5", help="results of bielle-mechanism")
+    if several:
+        parser.add_argument("files", metavar="RESULTS.h5", nargs="+", help="results of bielle-mechanism, or a study")
+    else:
+        parser.add_argument("results", metavar="RESULTS.h5", help="results of bielle-mechanism")
     parser.add_argument("--analysis", type=int, metavar="N", help="show analysis N only (default: the last state of each group)")
     parser.add_argument("--superelement", action="append", default=[], metavar="ELEMENT=FILE.h5",
                         help="where the superelement file of an element is (default: as the results say)")
     return parser
+
+
+def add_row_options(parser):
+    """Options that pick rows of results; `selected_rows` reads them."""
+    parser.add_argument("--span", metavar="A:B", help="only the times from A to B [s] (load factors in statics); one of "
+                        "them may be missing")
+    parser.add_argument("--every", type=int, metavar="N", help="only every N-th of these times")
+
+
+def selected_rows(options):
+    """The function that gives the rows of results that the options pick. @raises InputError for a wrong option"""
+    begin = end = None
+    if options.span is not None:
+        try:
+            first, last = options.span.split(":")
+            begin, end = (float(word) if word.strip() else None for word in (first, last))
+        except ValueError:
+            raise InputError(f"--span '{options.span}': two times A:B are expected, 0.1:0.2") from None
+    if options.every is not None and options.every < 1:
+        raise InputError(f"--every {options.every}: a whole number from 1 on is expected")
+    return lambda results: results.frames(options.every, span=(begin, end))
 
 
 def add_motion_options(parser):

@@ -160,16 +160,23 @@ def volumes(points, cells):
     return {kind: np.concatenate(parts) for kind, parts in found.items()}
 
 
-def surface_integrals(points, faces, apply):
-    """Sums over the surface of N_i f dA: (p, ...) with f = apply(x) of points (m,3). faces: {type: (n,k)}"""
-    total = None
+def surface_points(points, faces):
+    """The points of integration of a surface, one of each face at a time: (type, nodes (n,k), N (k), vectors (n,3)), the
+    vectors being normal to the faces with the length of the area that the point stands for. faces: {type: (n,k)}"""
     for kind, nodes in faces.items():
         for N, dN, weight in zip(*_rule(kind)):
             tangents = np.einsum("enk,nj->ejk", points[nodes], dN)
-            area = weight * np.linalg.norm(np.cross(tangents[:, 0], tangents[:, 1]), axis=1)
-            f = apply(np.einsum("enk,n->ek", points[nodes], N))
-            if total is None:
-                total = np.zeros((len(points),) + f.shape[1:])
-            for k in range(nodes.shape[1]):
-                np.add.at(total, nodes[:, k], N[k] * (area.reshape((-1,) + (1,) * (f.ndim - 1)) * f))
+            yield kind, nodes, N, weight * np.cross(tangents[:, 0], tangents[:, 1])
+
+
+def surface_integrals(points, faces, apply):
+    """Sums over the surface of N_i f dA: (p, ...) with f = apply(x) of points (m,3). faces: {type: (n,k)}"""
+    total = None
+    for _, nodes, N, normals in surface_points(points, faces):
+        area = np.linalg.norm(normals, axis=1)
+        f = apply(np.einsum("enk,n->ek", points[nodes], N))
+        if total is None:
+            total = np.zeros((len(points),) + f.shape[1:])
+        for k in range(nodes.shape[1]):
+            np.add.at(total, nodes[:, k], N[k] * (area.reshape((-1,) + (1,) * (f.ndim - 1)) * f))
     return total

@@ -1,19 +1,32 @@
 """Columns of datasets over time: their values, names and units."""
 
+import re
 
-def column_names(results, place):
-    """Names of a dataset's columns: its description if it lists as many (`displacement, angle`, also after a colon), or
-    1, 2, ..."""
-    count = len(columns_of(results, place))
-    names = [name.strip() for name in results.text(place, "description").split(": ")[-1].split(",")]
+
+def names_in(description, count):
+    """Names of columns: those of a description if it lists as many (`displacement, angle`, also after a colon or
+    "along"), or 1, 2, ..."""
+    names = [name.strip() for name in re.split(": | along ", description)[-1].split(",")]
     return names if len(names) == count else [str(k + 1) for k in range(count)]
 
 
+def units_in(units, count):
+    """Units of columns: one for all; `m, rad` one for each; of vectors with forces and moments (`N, N m`) one for the
+    first three columns, one for the others."""
+    each = [unit.strip() for unit in units.split(",")]
+    if len(each) == count:
+        return each
+    return [each[0]] * 3 + [each[1]] * (count - 3) if len(each) == 2 and count > 3 else [units] * count
+
+
+def column_names(results, place):
+    """Names of a dataset's columns, by its description."""
+    return names_in(results.text(place, "description"), len(columns_of(results, place)))
+
+
 def column_units(results, place):
-    """Units of a dataset's columns: one for all, or `m, rad` one for each; empty if the dataset is missing."""
-    count = len(columns_of(results, place))
-    units = [unit.strip() for unit in results.units(place).split(",")]
-    return units if len(units) == count else [results.units(place)] * count
+    """Units of a dataset's columns; empty if the dataset is missing."""
+    return units_in(results.units(place), len(columns_of(results, place)))
 
 
 def columns_of(results, place):

@@ -28,7 +28,7 @@ WITHOUT_ROWS = ("eigen", "campbell", "frequency_response", "state_space")  # ana
 OTHERS = {"bielle superelement": "'bielle-reduce --inspect {0}' describes it",
           "bielle cut body": "'bielle-reduce --inspect {0}' describes it",
           "bielle matrices": "'bielle-exchange {0} OUT' writes them in another format",
-          "bielle study": "its runs are the groups /runs/1, /runs/2, ...; h5py and HDFView show them"}
+          "bielle study": "'bielle-plot {0} --quantity ..' draws its runs, which are the groups /runs/1, /runs/2, ..."}
 WORDS = {"bielle superelement": "a superelement", "bielle cut body": "a body in pieces", "bielle study": "a study",
          "bielle matrices": "matrices of another program",
          "bielle results": "results of bielle-mechanism"}
@@ -58,10 +58,13 @@ def _told(method):
 class Results:
     """An open results file, or one analysis of it. It is a context manager."""
 
-    def __init__(self, path, analysis=None):
-        """analysis: number of one analysis (1, 2, ...); None: each group from the last analysis that wrote it."""
-        self.path = os.path.abspath(path)
-        self.file = open_hdf5(path, "bielle results", "results of bielle-mechanism")
+    def __init__(self, path, analysis=None, group=""):
+        """analysis: number of one analysis (1, 2, ...); None: each group from the last analysis that wrote it; group: of the run in
+        the file of a study, `runs/3`."""
+        self.path, self.group = os.path.abspath(path), group
+        self._opened = open_hdf5(path, "bielle study", "a study") if group else open_hdf5(path, "bielle results", "results of bielle-mechanism")
+        with reading(self.path, group or "/"):
+            self.file = self._opened[group] if group else self._opened
         self.root = self.file
         self._warned = set()
         with reading(self.path, "/"):
@@ -101,6 +104,11 @@ class Results:
         return ""
 
     @property
+    def stacked(self):
+        """Tells whether the file has the stacked layout."""
+        return self._stacked is not None
+
+    @property
     def axis(self):
         """Label of the horizontal axis of a figure over the rows."""
         return "load factor" if self.static else "time [s]"
@@ -113,7 +121,7 @@ class Results:
         return self
 
     def __exit__(self, *_):
-        self.file.close()
+        self._opened.close()
 
     @property
     def title(self):
@@ -245,6 +253,8 @@ class Results:
         """Row numbers of every `every`-th time, or of about `count` evenly spaced ones, within span = (from, to) [s]."""
         begin, end = (-np.inf if span[0] is None else span[0], np.inf if span[1] is None else span[1])
         rows = np.flatnonzero((self.time >= begin) & (self.time <= end))
+        if not len(self.time):
+            return rows
         if not len(rows):
             what, unit = ("load factor", "") if self.static else ("time", " s")
             raise InputError(f"'{self.path}' has no {what} from {begin:g} to {end:g}{unit}; it has {self.time[0]:g} to "

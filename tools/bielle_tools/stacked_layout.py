@@ -20,6 +20,7 @@ class StackedLayout:
         self._places = {}  # section -> {name: (group of the kind, number)}
         self._lists = {}  # path of an attribute -> its texts
         self._row = {}  # path of a dataset -> (row, numbers of all entries)
+        self._facts = {}  # (kind, field, subject) -> what entries of a kind have in common
 
     def names(self, section):
         """Names in the order of their kinds; None if the section is not stacked."""
@@ -33,21 +34,32 @@ class StackedLayout:
         entries = self._section(section)
         if section == "measures":
             return (*entries[rest], "value") if rest in entries else ()
-        name, _, field = rest.partition("/")
+        if rest in entries:
+            return (*entries[rest], "")
+        name, _, field = rest.rpartition("/")  # names may contain `/`
         return (*entries[name], field) if name in entries else ()
 
     def has(self, found):
-        return bool(found) and (not found[2] or found[2] in found[0])
+        return bool(found) and (not found[2] or self._fact(found, "has", lambda group, field: field in group))
 
     def datasets(self, found):
         """Names of the datasets of an entry."""
-        return [name for name in found[0] if name not in ("name", "attributes")]
+        return self._fact(found, "datasets", lambda group, _: [name for name in group if name not in ("name", "attributes")])
+
+    def _fact(self, found, subject, read):
+        """Returns read(group, field), which is read once for all entries of a kind: files have many entries of few kinds."""
+        group, _, field = found
+        key = id(group), field, subject  # the groups live as long as this object
+        if key not in self._facts:
+            self._facts[key] = read(group, field)
+        return self._facts[key]
 
     def text(self, found, attribute):
         """An attribute of an entry or of its dataset; empty if there is none."""
         group, number, field = found
         if field:
-            return group[field].attrs.get(attribute, "") if field in group else ""
+            return self._fact(found, f"text {attribute}",
+                              lambda kind, name: kind[name].attrs.get(attribute, "") if name in kind else "")
         if attribute == "type":
             return group.attrs.get(attribute, "")
         path = f"{group.name}/attributes/{attribute}"
@@ -70,7 +82,7 @@ class StackedLayout:
 
     def shape(self, found):
         """Shape of the dataset for the entry alone."""
-        shape = found[0][found[2]].shape
+        shape = self._fact(found, "shape", lambda group, field: group[field].shape)
         return shape[:1] + shape[2:] if len(shape) > 1 else ()  # a number that is no row over time
 
     def value(self, found):

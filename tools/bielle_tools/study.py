@@ -21,7 +21,6 @@ import h5py
 import numpy as np
 
 from .messages import InputError, note
-from .results_columns import column_units
 from .results_file import Results
 from .study_folder import OF_RUNS, discard, forget_runs, work_folder
 from .study_gather import Missing
@@ -216,8 +215,10 @@ def units_of(gathered, results):
         return ""
     if (gathered.take or "").startswith("time_of_"):
         return "-" if results.static else "s"
-    units = column_units(results, gathered.place) if gathered.rows else [results.units(gathered.place)]
-    return units[0] if units and len(set(units)) == 1 else ""
+    if gathered.analysis:
+        with Results(results.path, gathered.analysis) as one:
+            return gathered.units(one)
+    return gathered.units(results)
 
 
 def _write_table(plan, status, numbers):

@@ -3,9 +3,9 @@
     [TAKE] DATASET[COLUMN] [at T] [from T] [to T] [in analysis N]
     text "limit point at load factor"[1]
 
-Columns count from 1 or have the names in the results; `[1:4]` makes four columns of the table. `text` is a number that
-follows these words in the program's output, for values that the results do not contain. `text` is a number that follows
-these words in what the program printed, where the results do not hold it.
+In place of DATASET[COLUMN] stands any quantity (quantities.py), `main.reaction.norm`. Columns count from 1 or have the
+names in the results; `[1:4]` makes four columns of the table; the largest and least values of several columns are those
+of all. `text` is a number that follows these words in the program's output, for values that the results do not contain.
 """
 
 import re
@@ -13,7 +13,8 @@ import re
 import numpy as np
 
 from .messages import InputError, check_names, did_you_mean
-from .results_columns import column_names
+from .quantities import Quantities
+from .results_columns import column_names, units_in
 from .results_file import Results
 from .rotations import made_of
 
@@ -21,6 +22,9 @@ TAKES = ["last", "first", "min", "max", "absmax", "mean", "rms", "peak_to_peak",
 WITHOUT_ROWS = ("eigen", "peaks", "validity", "frequency_response", "events")
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 PLACE = re.compile(r"(?P<place>[^\s\[\]\"]+/[^\s\[\]\"]+|time)(?:\[(?P<column>[^\]]*)\])?")
+QUANTITY = re.compile(r"[^\s\"]*[A-Za-z_'][^\s\"]*[.(][^\s\"]*")
+OVER_ALL = {"min": ".min", "max": ".max", "absmax": ".abs",
+            "time_of_min": ".min", "time_of_max": ".max", "time_of_absmax": ".abs"}
 TEXT = re.compile(r'\s*text\s+"(?P<words>[^"]+)"\s*(?:\[(?P<number>\d+)\])?\s*')
 
 
@@ -33,7 +37,7 @@ class Gathered:
 
     def __init__(self, name, words):
         self.name, self.words, self.base = name, words, name
-        self.take = self.at = self.begin = self.end = self.analysis = self.place = self.printed = None
+        self.take = self.at = self.begin = self.end = self.analysis = self.place = self.quantity = self.printed = None
         self.columns = []
         found = TEXT.fullmatch(words)
         if found:
@@ -52,12 +56,16 @@ class Gathered:
             self.take = rest.pop(0)
         elif len(rest) > 1 and "/" in rest[1] and not rest[1].startswith("["):
             self._refuse(f"'{rest[0]}' is nothing to take{did_you_mean(rest[0], TAKES)}")
-        found = PLACE.fullmatch(rest.pop(0)) if rest else None
-        if not found:
+        word = rest.pop(0) if rest else ""
+        found = PLACE.fullmatch(word)
+        if not found and (QUANTITY.fullmatch(word) or self.take and re.fullmatch(r"[A-Za-z_]\w*", word)):
+            self.place = self.quantity = word
+        elif not found:
             self._refuse(f"'{words}' names no dataset of the results; expected [TAKE] DATASET[COLUMN] [at T] [from T] [to T], "
                          "\"max joints/main/coordinate[1]\"")
-        self.place = found["place"].strip("/")
-        self.columns = [column.strip() for column in (found["column"] or "").split(",") if column.strip()]
+        else:
+            self.place, self.quantity = found["place"].strip("/"), word.strip("/")
+            self.columns = [column.strip() for column in (found["column"] or "").split(",") if column.strip()]
         while rest:
             word = rest.pop(0)
             if word == "in" and len(rest) > 1 and rest[0] == "analysis" and re.fullmatch(r"[1-9]\d*", rest[1]):
@@ -81,7 +89,7 @@ class Gathered:
 
     @property
     def needs(self):
-        """The dataset that a run must keep; none for texts, which are always kept."""
+        """The dataset or quantity that a run must keep; none for texts, which are always kept."""
         if self.place is None:
             return None
         _, place = made_of(self.place)
@@ -105,7 +113,45 @@ class Gathered:
         return float(numbers[self.number - 1])
 
     def _value(self, results):
-        if not results.has(self.place):
+        if not self.rows:
+            self._check_dataset(results)
+            return self._picked(results.array(self.place), results)
+        values = self._column(results) if self._is_one_column(results) else self._of_quantity(results).one
+        time = results.time
+        if self.at is not None:
+            if not time[0] <= self.at <= time[-1]:
+                raise Missing(f"there is no time {self.at:g}: the results have {time[0]:g} to {time[-1]:g}")
+            return float(np.interp(self.at, time, values))
+        time, values = window(time, values, self.begin, self.end)
+        return take(self.take, time, values)
+
+    def _is_one_column(self, results):
+        """Tells whether a dataset, of which the words pick one column, is taken from; else any quantity."""
+        return results.has(self.place) and (bool(self.columns) or self.take not in OVER_ALL)
+
+    def _of_quantity(self, results):
+        """A quantity; of several columns their largest or least values, if these are to be taken. @raises InputError"""
+        quantities = Quantities(results)
+        try:
+            quantities.needs(self.quantity)
+        except InputError:
+            self._check_dataset(results)
+            raise
+        return quantities.read(self.quantity + OVER_ALL.get(self.take, ""))
+
+    def units(self, results):
+        """Units of the values that the words take from; empty if they differ."""
+        if not self.rows:
+            return results.units(self.place)
+        if self._is_one_column(results):
+            units = units_in(results.units(self.place), len(column_names(results, self.place)))
+        else:
+            units = self._of_quantity(results).units
+        return units[0] if units and len(set(units)) == 1 else ""
+
+    def _check_dataset(self, results):
+        """@raises InputError with the nearest name if the results have no dataset of this name"""
+        if "/" in self.place and not results.has(self.place):
             section, _, rest = self.place.partition("/")
             if section == "events":
                 raise Missing("there were no events")
@@ -117,16 +163,6 @@ class Gathered:
             if section in results.root:
                 known += [f"{section}/{name}" for name in results.datasets(section)]
             check_names("dataset", [self.place], known or list(results.root))
-        if not self.rows:
-            return self._picked(results.array(self.place), results)
-        values = self._column(results)
-        time = results.time
-        if self.at is not None:
-            if not time[0] <= self.at <= time[-1]:
-                raise Missing(f"there is no time {self.at:g}: the results have {time[0]:g} to {time[-1]:g}")
-            return float(np.interp(self.at, time, values))
-        time, values = window(time, values, self.begin, self.end)
-        return take(self.take, time, values)
 
     def _column(self, results):
         values = results.rows(self.place)

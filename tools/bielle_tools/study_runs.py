@@ -15,6 +15,9 @@ import threading
 import h5py
 
 from .messages import InputError
+from .quantities import Quantities
+from .results_file import Results
+from .study_plan import GROUPS
 
 PROGRESS = re.compile(r"\s*(?:\w+ \.\.\.|\w+: [\d.]+ m?s)\s*")  # lines of a program that is not asked to be quiet
 
@@ -79,7 +82,7 @@ def _write_run(plan, path, results, status, message, said):
             if os.path.exists(results):
                 try:
                     with h5py.File(results, "r") as source:
-                        copy_results(source, file, kept)
+                        copy_results(source, file, _datasets(source, results, kept))
                 except (OSError, RuntimeError, KeyError) as error:
                     if status == 0:
                         status, message = 2, f"left no readable results: {error}"
@@ -91,6 +94,22 @@ def _write_run(plan, path, results, status, message, said):
         if os.path.exists(partial):
             os.remove(partial)
         raise
+
+
+def _datasets(source, path, kept):
+    """The kept names as they are in the file: quantities (`main.reaction.norm`) become the datasets of which they are made."""
+    named = [name for name in kept if name not in source and name not in GROUPS]
+    if not named:
+        return kept
+    found = []
+    with Results(path) as results:
+        quantities = Quantities(results)
+        for name in kept:
+            try:
+                found += quantities.needs(name) if name in named and not results.has(name) else [name]
+            except InputError:  # the study reports it with the first run
+                found.append(name)
+    return list(dict.fromkeys(found))
 
 
 def copy_results(source, group, kept):

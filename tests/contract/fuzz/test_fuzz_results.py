@@ -20,7 +20,7 @@ from bielle_tools import messages, plot_style  # noqa: E402
 
 ARGUMENTS = {"bielle-plot": ["-o", "plots"], "bielle-animate": ["-o", "run.png", "--frames", "2"],
              "bielle-paraview": ["-o", "run.pvd", "--frames", "2"],
-             "bielle-rainflow": ["joints/main/reaction", "--component", "5"]}
+             "bielle-rainflow": ["joints/main/reaction", "--component", "5"], "bielle-table": ["--peaks"]}
 
 
 def module_of(name):
@@ -115,7 +115,7 @@ class Results(FuzzTest):
         shutil.copy(self.path("sound.h5"), self.path("run.h5"))
         for case, rng in self.cases(8):
             self.judge_tools(case, self.damaged(rng, "sound_box.h5", "box.h5"),
-                             ["bielle-plot", "bielle-animate", "bielle-paraview"])
+                             ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-table"])
 
 
 if __name__ == "__main__":

@@ -212,7 +212,8 @@ class Plots(ResultsTool):
             self.refuse(tool, [self.path("run.h5"), "--superelement", "rdo=" + path], "'rdo'", "did you mean 'rod'?")
             self.refuse(tool, [self.path("run.h5"), "--superelement", "rod=" + path + "x"], "box.h5x", "does not exist")
             self.refuse(tool, [self.path("run.h5"), "--superelment", "rod=" + path], "did you mean '--superelement'?")
-            self.refuse(tool, [self.path("run.h5"), "more.h5"], "'more.h5' is one argument too many")
+            self.refuse(tool, [self.path("run.h5"), "more.h5"],
+                        "drawn over each other by --quantity" if tool == "bielle-plot" else "'more.h5' is one argument too many")
 
     def test_a_python_without_the_packages_says_what_to_do(self):
         for tool, module in (("bielle-plot", "matplotlib"), ("bielle-animate", "h5py"), ("bielle-paraview", "meshio"),
@@ -253,7 +254,7 @@ class Refusals(ResultsTool):
             self.refuse(tool, [self.path("run.h5"), "--colour", "red"], "--colour")
 
     TOOLS = {"bielle-paraview": [], "bielle-plot": [], "bielle-animate": [],
-             "bielle-rainflow": ["joints/main/reaction", "--component", "5"]}
+             "bielle-rainflow": ["joints/main/reaction", "--component", "5"], "bielle-table": ["--quantity", "main.reaction.rz"]}
 
     def refuse_everywhere(self, *parts):
         for tool, arguments in self.TOOLS.items():
@@ -276,7 +277,7 @@ class Refusals(ResultsTool):
         self.refuse_to_read("it is empty")
         with h5py.File(self.path("run.h5"), "w") as file:
             file.attrs["format"] = "bielle study"
-        self.refuse_to_read("but a study: its runs are the groups /runs/1, /runs/2")
+        self.refuse_to_read("but a study: 'bielle-plot", "--quantity ..' draws its runs, which are the groups /runs/1, /runs/2")
         os.remove(self.path("run.h5"))
         os.mkdir(self.path("run.h5"))
         self.refuse_to_read("is a folder")
