@@ -19,7 +19,7 @@ from .sequences import sequences
 
 LIBRARIES = ("/usr/share/javascript/three/three.min.js", "/usr/share/javascript/chart.js/chart.min.js")
 SOURCES = ("data.js", "vectors.js", "shaders.js", "tracks.js", "batch.js", "flexible.js", "arrows.js", "runs.js", "camera.js", "surroundings.js",
-           "entries.js", "player.js", "picking.js", "overlay.js", "traces.js", "tree.js", "details.js", "plot.js", "controls.js", "live.js", "main.js")
+           "entries.js", "player.js", "picking.js", "overlay.js", "traces.js", "tree.js", "details.js", "plot.js", "controls.js", "quality.js", "live.js", "main.js")
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page")
 
 
