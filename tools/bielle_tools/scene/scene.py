@@ -3,13 +3,14 @@
 import numpy as np
 
 from ..messages import InputError
+from .attachments import attachments
 from .builders import BUILDERS, Builder
-from .drawing import Drawing, place_of, places_of
+from .drawing import Drawing, places_of
 from .flexible import FlexibleBodies, surface_points
 from .motion import Motion
 from .parts import Anchor, FlexiblePart
 from .style import Palette, Style
-from .transforms import placed
+from .transforms import conjugate, placed, product
 
 SAMPLES = 24  # rows from which bounds are taken
 
@@ -69,8 +70,6 @@ class Scene:
             try:
                 for place in places_of(item):
                     x = self.motion_of_nodes.first(place)
-                    if place.node != "ground" and item["shape"] != "plane":
-                        builder.attached.setdefault(place.node, []).append(place.position) if item["shape"] not in ("body", "node", "ellipsoid") else None
                     if item["shape"] != "plane" and np.isfinite(x).all():
                         first.append(x)
                         paths.append(self.motion_of_nodes.position(place, self._samples()))
@@ -79,6 +78,7 @@ class Scene:
                     first += self._element_points(item)
             except (InputError, KeyError, TypeError, ValueError, AttributeError):
                 continue  # it is told when the item is built
+        builder.attached = attachments(self.items, self.motion_of_nodes)
         points = np.array(first + [row for path in paths for row in path]).reshape(-1, 3)
         points = points[np.isfinite(points).all(axis=1)]
         extent = self._own_extent()
@@ -147,7 +147,6 @@ class Scene:
                 continue
             known = np.isfinite(x).all(axis=1) & np.isfinite(q).all(axis=1)
             if known.any():
-                from .transforms import conjugate, product
                 moving = np.maximum(moving, np.ptp(x[known], axis=0))
                 turning = np.maximum(turning, np.abs(product(q[known], conjugate(q[known][:1]))[:, 1:]).max(axis=0))
         if not moving.any() and not turning.any():
@@ -178,5 +177,3 @@ def _reason(error):
     text = str(error)
     return text[:1].lower() + text[1:] if text else "it is damaged"
 
-
-__all__ = ["Scene", "make_scene", "place_of"]

@@ -33,11 +33,9 @@ class App {
   /// Points of all that moves, over the sequence: some of each part at some rows.
   extent() {
     const {shown} = this, rows = shown.sequence.rows, picked = [...new Set([0, 1, 2, 3, 4, 5, 6, 7].map(k => Math.round(k / 7 * (rows - 1))))], points = [], before = shown.place;
-    const b = shown.batch, corners = [];
-    for (let k = 0, last = -1, count = 0; k < b.owners.length; k++) {
-      if (b.owners[k] !== last) [last, count] = [b.owners[k], 0];
-      if (!b.parts[last].endless && count++ % 17 === 0) corners.push(k);
-    }
+    const b = shown.batch, corners = [], counts = new Uint32Array(b.parts.length);
+    for (const owner of b.owners) counts[owner]++;
+    b.owners.forEach((owner, k) => { if (!b.parts[owner].endless && k % Math.ceil(counts[owner] / 40) === 0) corners.push(k); });
     const every = Math.ceil(corners.length / 4000), all = p => { if (Number.isFinite(p[0])) points.push(p); };
     for (const row of picked) {
       shown.move(row, this.amplitude());
