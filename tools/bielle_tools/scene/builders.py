@@ -19,6 +19,7 @@ class Builder:
     def __init__(self, motion, drawing, palette, flexible):
         self.motion, self.drawing, self.palette, self.flexible = motion, drawing, palette, flexible
         self.symbol, self.extent, self.centre = 1.0, 1.0, np.zeros(3)
+        self.planes = 1  # their number
         self.attached = {}  # node -> positions in its axes of what is attached to it
 
     def parts(self, item):
@@ -111,9 +112,10 @@ def _cam(b, item):
 
 def _plane(b, item):
     place = place_of(item)
-    size = float(np.max(item["size"])) if "size" in item else 1.15 * b.extent
+    alone = b.planes < 2
+    size = float(np.max(item["size"])) if "size" in item else (1.15 if alone else 0.15) * b.extent
     shift = np.zeros(3)
-    if "size" not in item and place.node == "ground":  # the part of the plane under the machine
+    if "size" not in item and alone and place.node == "ground":  # the part of the plane under the machine
         shift = rotated(conjugate(np.array(place.rotation)), b.centre - np.array(place.position)) * [1, 1, 0]
     h, n = size / 2, 14
     quad = t.mesh([[-h, -h, 0], [h, -h, 0], [h, h, 0], [-h, h, 0]], [[0, 1, 2], [0, 2, 3]])

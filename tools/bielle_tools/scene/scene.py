@@ -91,7 +91,8 @@ class Scene:
         else:
             extent_first = extent
         builder.extent = extent or 1.0
-        self.symbol = builder.symbol = style.symbols * _symbol_size(extent_first or extent or 1.0, np.array(joints).reshape(-1, 3))
+        builder.planes = sum(item["shape"] == "plane" for item in self.items)
+        self.symbol = builder.symbol = style.symbols * _symbol_size(extent_first or extent or 1.0, np.array(joints).reshape(-1, 3), self._radii())
 
     def _own_extent(self):
         """Largest dimension of the shapes themselves."""
@@ -105,6 +106,11 @@ class Scene:
             if item["shape"] == "ellipsoid":
                 sizes.append(float(np.ptp(item["points"], axis=0).max()))
         return max(size for size in sizes if np.isfinite(size))
+
+    def _radii(self):
+        """Radii of wheels [m], which symbols of their bearings should not cover."""
+        radii = [item.get("radius") for item in self.items if item["shape"] in ("gear", "pulley", "tyre")]
+        return [radius for radius in radii if isinstance(radius, (int, float)) and np.isfinite(radius) and radius > 0]
 
     def _element_points(self, item):
         place, results = item["element"], self.results
@@ -159,9 +165,9 @@ class Scene:
         return None
 
 
-def _symbol_size(extent, joints):
-    """Two hundredths of the machine, less where neighbours are close."""
-    size = 0.02 * extent
+def _symbol_size(extent, joints, radii):
+    """Two hundredths of the machine, less where neighbours are close or wheels are small."""
+    size = min([0.02 * extent, *([0.35 * float(np.median(radii))] if radii else [])])
     if len(joints) > 1:
         from scipy.spatial import cKDTree
         joints = np.unique(np.round(joints / extent, 6), axis=0) * extent

@@ -17,13 +17,13 @@ class SceneData:
         self.bodies, self._numbers = [], {}
         self.errors = {"position": 0.0, "rotation": 0.0, "shape": 0.0, "stress": 0.0}
 
-    def described(self, scene, rows):
+    def described(self, scene, rows, arrows=True):
         """The scene at these rows, for the page."""
         tracks = Tracks(len(rows))
         parts = [(part, tracks.add(in_units(scene.poses(part, rows), self.centre, self.size))) for part in scene.parts]
         found = {"batch": self._batch(parts), "parts": [self._part(part, numbers) for part, numbers in parts],
                  "flexible": [self._flexible(part, rows, tracks) for part in scene.flexible],
-                 "anchors": self._anchors(scene, parts), "arrows": self._arrows(scene, rows, tracks)}
+                 "anchors": self._anchors(scene, parts), "arrows": self._arrows(scene, rows) if arrows else []}
         found["tracks"], position, rotation = tracks.stored(self.pack)
         self._largest(position=position, rotation=rotation)
         return found
@@ -122,7 +122,7 @@ class SceneData:
                 found.append({"entry": anchor.entry, "flexible": flexible[id(anchor.part)], "point": point})
         return found
 
-    def _arrows(self, scene, rows, tracks):
+    def _arrows(self, scene, rows):
         found = []
         for arrow in arrows_of(scene, rows):
             x = (arrow.origin - self.centre) / self.size
