@@ -5,22 +5,41 @@ import numpy as np
 from ..messages import InputError
 from . import templates as t
 from .parts import Mesh
-from .transforms import pose
+from .transforms import conjugate, pose, product
 
 
-def beam_motion(results, element):
-    """rows -> (rows, stations, 8)"""
-    place = f"{element}"
+def beam_motion(results, place):
+    """(rows -> (rows, stations, 8), number of stations) of the element at `place`, in axes of its sections."""
     if not (results.has(f"{place}/position") and results.has(f"{place}/rotation")):
         raise InputError("the results do not record its position and rotation")
     kept = []
 
     def poses(rows):
         if not kept:
-            kept.append((results.rows(f"{place}/position"), results.rows(f"{place}/rotation")))
+            kept.append((results.rows(f"{place}/position"), _section_rotations(results, place)))
         x, q = kept[0]
         return pose(x[rows], q[rows])
     return poses, results.shape(f"{place}/position")[1]
+
+
+def _section_rotations(results, place):
+    """(nt, stations, 4) of the sections. Both ends are recorded as the nodes there, whose axes are any: the section that each of them carries
+    is taken from its neighbours in the first known row, as if the curvature was constant."""
+    q = results.rows(f"{place}/rotation")
+    if q.shape[1] < 3:
+        return q
+    if hasattr(results, "scenery"):  # a mode: the state about which it is
+        reference = results.modes.orientation[[results.scenery.index[node] for node in results.scenery.beams[place.split("/", 1)[1]]]]
+    else:
+        known = np.flatnonzero(np.isfinite(q).all(axis=(1, 2)))
+        if not len(known):
+            return q
+        reference = q[known[0]]
+    q = q.copy()
+    for end, first, second in ((0, 1, 2), (-1, -2, -3)):
+        bend = product(conjugate(reference[second]), reference[first]) if q.shape[1] > 4 else np.array([1.0, 0, 0, 0])
+        q[:, end] = product(q[:, end], product(conjugate(reference[end]), product(reference[first], bend)))
+    return q
 
 
 def beam_mesh(stations, sections, thin):
@@ -29,11 +48,8 @@ def beam_mesh(stations, sections, thin):
     sections = sorted(sections, key=lambda section: section["at"]) or [{"at": 0.0, "outer": thin * t.circle(10)}]
     at = np.linspace(0, 1, stations)
     outlines = [np.stack([_outline(sections, s, key) for s in at]) for key in ("outer", "inner") if all(section.get(key) is not None for section in sections)]
-    pieces, n = [], 0
+    points, triangles, bones, n = [], [], [], 0
     for outline, outward in zip(outlines, (True, False)):
-        pieces.append((outline, outward))
-    points, triangles, lines, bones = [], [], [], []
-    for outline, outward in pieces:
         corners = outline.shape[1]
         smooth = corners > 8
         columns = [np.arange(corners)] if smooth else [np.array([k, (k + 1) % corners]) for k in range(corners)]
@@ -50,8 +66,7 @@ def beam_mesh(stations, sections, thin):
         triangles.append(lid.triangles + n)
         bones.append(np.full(len(lid.points), station))
         n += len(lid.points)
-    lines.append(t.NO_LINES)
-    return Mesh(np.concatenate(points), np.concatenate(triangles), np.concatenate(lines), np.concatenate(bones))
+    return Mesh(np.concatenate(points), np.concatenate(triangles), t.NO_LINES, np.concatenate(bones))
 
 
 def _lid(outlines, station, sign):
