@@ -13,7 +13,7 @@ import time
 from ..messages import InputError, note
 
 PAGE, STATE = "/", "/state"
-TRIES, PAUSE = 10, 0.5  # of the first page; [s] between them
+TRIES, PAUSE = 10, 0.5  # attempts to build the first page; time between them [s]
 
 
 def serve(paths, port, page):
