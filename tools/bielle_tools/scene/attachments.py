@@ -7,7 +7,7 @@ from .drawing import places_of
 from .transforms import conjugate, rotated
 
 NOT_ATTACHED = ("body", "node", "ellipsoid", "plane", "support", "mesh", "box", "cylinder", "tube", "cone", "sphere", "gear", "pulley", "tyre", "cam")
-CARRIED = ("body", "ellipsoid", "mesh", "box", "cylinder", "tube", "cone", "sphere", "gear", "pulley", "tyre", "cam")  # if on a carried node
+CARRIED = ("node", "body", "ellipsoid", "mesh", "box", "cylinder", "tube", "cone", "sphere", "gear", "pulley", "tyre", "cam")  # if on a carried node
 
 
 def attachments(items, motion):

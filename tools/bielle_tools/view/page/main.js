@@ -87,8 +87,8 @@ class App {
   moved() {
     const {player} = this;
     for (const each of this.allShown) {
-      const same = !each.number || player.byTime !== (each.sequence.kind === "time");
-      const place = same ? player.place / (player.last || 1) * (each.number ? each.sequence.rows - 1 : player.last) : placeAt(each.times, player.time());
+      let place = player.place;
+      if (each.number) place = player.byTime && each.sequence.kind === "time" ? placeAt(each.times, player.time()) : place / (player.last || 1) * (each.sequence.rows - 1);
       each.move(this.placeIn(each, place), this.amplitude());
     }
     this.range();
