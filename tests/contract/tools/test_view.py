@@ -245,6 +245,8 @@ class Viewed(Pages, InFolder):
             exact = body.von_mises(q)[nodes]
             known = np.isfinite(exact)
             np.testing.assert_allclose(values[known], exact[known], atol=0.02 * np.nanmax(exact))
+        units = self.run_script("const q = bielle.quantities.list().find(q => q.title === 'joints/pin/reaction'); return q.columns.map((_, k) => q.unitsOf(k))")
+        self.assertEqual(units, 3 * ["N"] + 3 * ["N m"])
         self.run_script("bielle.settings.magnify = 0; bielle.player.go(20)")
         flat = np.array(self.run_script("return bielle.real(bielle.shown.flexible[0].corner(0))"))
         np.testing.assert_allclose(flat, body.at(frame, 0 * q)[0][nodes[0]], atol=1e-4)
