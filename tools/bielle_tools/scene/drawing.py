@@ -12,6 +12,7 @@ from ..rigid_bodies import rigid_bodies
 from .motion import Place
 
 FORMAT, VERSION = "bielle drawing", 1
+LARGEST_NUMBER = 1e30
 
 
 class Drawing:
@@ -37,13 +38,17 @@ class Drawing:
             self.items, self.name, self.from_file = found["items"], str(found.get("name", "")), True
             gravity = np.asarray(found.get("gravity", [0, 0, 0]), float)
             self.gravity = gravity if gravity.shape == (3,) and np.isfinite(gravity).all() and gravity.any() else None
-        except (ValueError, TypeError, AttributeError) as error:
+        except (ValueError, TypeError, AttributeError, RecursionError) as error:
             self.notes.append(("/drawing", f"it cannot be read: {error}"))
 
     def _usable(self, item):
         if isinstance(item, dict) and all(isinstance(item.get(key), str) for key in ("entry", "shape")):
-            item.setdefault("type", item["shape"])
-            return True
+            if not isinstance(item.setdefault("type", item["shape"]), str):
+                item["type"] = item["shape"]
+            if _bounded(item):
+                return True
+            self.notes.append((item["entry"], "it holds numbers that are infinite or beyond all bounds"))
+            return False
         self.notes.append(("/drawing", "an item has no entry or no shape"))
         return False
 
@@ -57,6 +62,13 @@ class Drawing:
                 or triangles.size and not 0 <= triangles.min() <= triangles.max() < len(points):
             raise InputError(f"the mesh '{name}' is damaged")
         return points, triangles
+
+
+def _bounded(value):
+    """Tells whether all numbers in a tree of lists and dicts are of a size that a machine can have."""
+    if isinstance(value, (dict, list)):
+        return all(_bounded(each) for each in (value.values() if isinstance(value, dict) else value))
+    return not isinstance(value, (int, float)) or abs(value) < LARGEST_NUMBER
 
 
 def place_of(item):
