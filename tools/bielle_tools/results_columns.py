@@ -19,9 +19,9 @@ def units_in(units, count):
     return [each[0]] * 3 + [each[1]] * (count - 3) if len(each) == 2 and count > 3 else [units] * count
 
 
-def column_names(results, place):
-    """Names of a dataset's columns, by its description."""
-    return names_in(results.text(place, "description"), len(columns_of(results, place)))
+def column_names(results, place, count=None):
+    """Names of a dataset's columns, by its description. count: their number, if it is known"""
+    return names_in(results.text(place, "description"), len(columns_of(results, place)) if count is None else count)
 
 
 def column_units(results, place):
