@@ -295,7 +295,7 @@ class Surface(CommandTest):
 class Geometry(CommandTest):
     program = "bielle-mechanism"
     MODEL = """\
-nodes: {a: {shape: {step: part.step, colour: steelblue}}}
+nodes: {a: {fixed: [rx, ry, rz], shape: {step: part.step, colour: steelblue}}}
 elements: {a: {type: point_mass, node: a, mass: 1}}
 analysis: [{type: dynamic, duration: 0.01, step: 0.01}]
 """
