@@ -67,6 +67,14 @@ def numbers_of(path, group="analysis_1"):
     return found
 
 
+def matrix(q):
+    """The rotation matrix of a unit quaternion w x y z."""
+    w, x, y, z = q
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
 class Drawing(CommandTest):
     program = "bielle-mechanism"
 
@@ -240,6 +248,29 @@ joints:
                          "  second: {type: hinge, nodes: [ground, a], position: [0, 1, 0], axis: [0, 1, 0]}\n")
         with f:
             self.assertEqual(list(f["/redundant"].asstr()), ["joints/second"])
+
+    def test_shapes_of_mirrored_parts_are_mirrored(self):
+        _, f = self.file("""\
+definitions:
+  side:
+    nodes:
+      hub: {position: [0, 1, 0], rotation_vector: [0.3, 0.2, 0.5], shape: {cylinder: [0.1, 1], position: [0.1, 0.2, 0.3], rotation_vector: [0.4, 0.5, 0.6]}}
+    elements:
+      b: {type: rigid_body, node: hub, mass: 1, inertia: [1, 1, 1], shape: {cone: [0.1, 0.2, 1], position: [0, 0.5, 0.1], axes: {z: [1, 2, 3], x: [1, 0, 0]}}}
+parts:
+  left: {part: side}
+  right: {part: side, mirror: y}
+""")
+        with f:
+            places = {}
+            for item in json.loads(f["/drawing"].asstr()[()])["items"]:
+                if item["shape"] in ("cylinder", "cone"):
+                    node, at = f["/nodes"][item["node"]], matrix(item["rotation"])
+                    axes = matrix(node["rotation"][0])
+                    side, shape = item["node"].split(".")[0], item["shape"]
+                    places[side, shape] = np.concatenate([node["position"][0] + axes @ item["position"], (axes @ at)[:, 2]])
+        for shape in ("cylinder", "cone"):
+            np.testing.assert_allclose(places["right", shape], places["left", shape] * [1, -1, 1, 1, -1, 1], atol=1e-14)
 
     def test_other_files_are_not_replaced(self):
         self.write("model.yaml", self.BAR)
