@@ -12,7 +12,8 @@ Key shape_key();
 /// Reads a shape, or a list of shapes, in the axes of a node:
 // clang-format off
 ///   {box: [a, b, c] | sphere: r | cylinder: [r, length] | tube: [outer, inner, length] | cone: [below, above, length] |
-///    ring: [radius, section] | stl: FILE, scale: | step: FILE, position: [..], orientation key, colour:, opacity:}
+///    ring: [radius, section] | stl: FILE, scale: | step: FILE, position: [..], orientation key, colour:,
+///    opacity:}
 // clang-format on
 /// z is the axis of rotational symmetry, if there is one; `position` is the middle of the axis, or the origin of the
 /// file. @throws InputError

@@ -101,7 +101,10 @@ ElementSections SectionLaw::over(double s_A, double s_B) const {
 
 std::vector<DrawnSection> SectionLaw::drawn() const {
   if (start_.kind == "EA" || start_.kind == "stiffness") return {};
-  const int stations = uniform_ ? 1 : 16;  // the centroid of a tapered t or l does not move linearly
+  // Outlines of a taper are linear, except that the centroid of i, t and l, which is on the line, does not move
+  // linearly.
+  const bool linear = !is_made_of_walls(start_.kind) || start_.kind == "box";
+  const int stations = uniform_ || linear ? 1 : 16;
   std::vector<DrawnSection> sections;
   for (int k = 0; k <= stations; ++k) {
     const double at = static_cast<double>(k) / stations;

@@ -1,5 +1,5 @@
-"""The drawing in results files: its format in both layouts, after a failure, in continued runs, and of models that are only
-checked."""
+"""The drawing in results files: its format in both layouts, after a failure, in continued runs, and of models that are
+only checked."""
 
 import json
 import os
@@ -38,8 +38,10 @@ analysis: [{type: dynamic, duration: DURATION, step: 0.01}]
 output: {every: 1, layout: LAYOUT, checkpoint: 5}
 """
 
-PLACED = {"box", "cylinder", "tube", "cone", "sphere", "mesh", "gear", "pulley", "tyre", "cam", "plane", "curve", "body", "node", "support", "force"}
-LISTS = {"bar": "ends", "coil": "ends", "damper": "ends", "coil_damper": "ends", "jack": "ends", "joint": "frames", "course": "points", "stiffness": "places"}
+PLACED = {"box", "cylinder", "tube", "cone", "sphere", "mesh", "gear", "pulley", "tyre", "cam", "plane", "curve", "body",
+          "node", "support", "force"}
+LISTS = {"bar": "ends", "coil": "ends", "damper": "ends", "coil_damper": "ends", "jack": "ends", "joint": "frames",
+         "course": "points", "stiffness": "places"}
 
 
 def model(shapes=True, layout="named", duration="0.1"):
@@ -62,9 +64,22 @@ def stl(triangles):
 def numbers_of(path, group="analysis_1"):
     """All numbers below a group of a results file by their paths."""
     found = {}
+
+    def keep(name, item):
+        if isinstance(item, h5py.Dataset) and item.dtype.kind == "f":
+            found[name] = item[()]
+
     with h5py.File(path) as f:
-        f[group].visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" else None)
+        f[group].visititems(keep)
     return found
+
+
+def matrix(q):
+    """The rotation matrix of a unit quaternion w x y z."""
+    w, x, y, z = q
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
 
 class Drawing(CommandTest):
@@ -89,7 +104,8 @@ class Drawing(CommandTest):
 
     def check_place(self, place, nodes, inner):
         node = place["node"]
-        self.assertTrue(node == "ground" or node in nodes or inner.get(node) == (place.get("element"), place.get("station")), place)
+        if node not in nodes | {"ground"}:
+            self.assertEqual(inner.get(node), (place.get("element"), place.get("station")), place)
         self.assertEqual(len(place.get("position", [0, 0, 0])), 3)
         self.assertAlmostEqual(np.linalg.norm(place.get("rotation", [1, 0, 0, 0])), 1, 12)
 
@@ -113,7 +129,8 @@ class Drawing(CommandTest):
                     self.assertIn(shape, ("beam", "superelement"))
                 if shape == "mesh":
                     mesh = f["/drawing_meshes"][item["mesh"]]
-                    self.assertEqual((mesh["points"].dtype, mesh["triangles"].dtype), (np.dtype("<f4"), np.dtype("<i4")))
+                    self.assertEqual(mesh["points"].dtype, np.dtype("<f4"))
+                    self.assertEqual(mesh["triangles"].dtype, np.dtype("<i4"))
                     self.assertLess(mesh["triangles"][()].max(), len(mesh["points"]))
                     self.assertEqual(mesh["points"].attrs["units"], "m")
         return found
@@ -124,18 +141,22 @@ class Drawing(CommandTest):
             self.done("model.yaml", "-o", "run.h5")
             found = self.check_format("run.h5", {"a", "b", "tip"}, {"beam.1": ("elements/beam", 1)})
             self.assertEqual(set(found), {
-                ("nodes/a", "sphere"), ("nodes/a", "node"), ("nodes/b", "node"), ("nodes/tip", "node"), ("elements/a", "box"),
-                ("elements/a", "mesh"), ("elements/b", "cylinder"), ("elements/beam", "beam"), ("elements/spring", "coil_damper"),
-                ("joints/pin", "joint"), ("joints/weld", "joint"), ("loads/push", "force")})
+                ("nodes/a", "sphere"), ("nodes/a", "node"), ("nodes/b", "node"), ("nodes/tip", "node"),
+                ("elements/a", "box"), ("elements/a", "mesh"), ("elements/b", "cylinder"), ("elements/beam", "beam"),
+                ("elements/spring", "coil_damper"), ("joints/pin", "joint"), ("joints/weld", "joint"),
+                ("loads/push", "force")})
             box = found["elements/a", "box"][0]
-            self.assertEqual((box["colour"], box["opacity"], box["type"], box["node"]), ("#4682b4", 0.5, "rigid_body", "a"))
+            self.assertEqual((box["colour"], box["opacity"]), ("#4682b4", 0.5))
+            self.assertEqual((box["type"], box["node"]), ("rigid_body", "a"))
             np.testing.assert_allclose(box["rotation"], [np.sqrt(0.5), 0, 0, np.sqrt(0.5)], atol=1e-15)
             # One file in one unit is one mesh, whatever its colour.
-            self.assertEqual([item["mesh"] for item in found["elements/a", "mesh"]], ["ring", "part", "part", "part_2"])
+            meshes = [item["mesh"] for item in found["elements/a", "mesh"]]
+            self.assertEqual(meshes, ["ring", "part", "part", "part_2"])
             with h5py.File(self.path("run.h5")) as f:
                 self.assertEqual(set(f["/drawing_meshes"]), {"ring", "part", "part_2"})
                 self.assertEqual(len(f["/drawing_meshes/part/points"]), 6)
-                np.testing.assert_allclose(f["/drawing_meshes/part/points"][()] * 1000, f["/drawing_meshes/part_2/points"][()], rtol=1e-6)
+                small, large = (f[f"/drawing_meshes/{name}/points"][()] for name in ("part", "part_2"))
+                np.testing.assert_allclose(small * 1000, large, rtol=1e-6)
             beam = found["elements/beam", "beam"][0]
             self.assertEqual(beam["element"], "elements/beam")
             self.assertEqual([section["at"] for section in beam["sections"]], [0, 1])
@@ -158,7 +179,8 @@ class Drawing(CommandTest):
         self.write("model.yaml", model(duration="0.2"))
         for output in ("run.h5", "other.h5"):
             self.done("model.yaml", "--restart", "run.h5", "-o", output)
-            self.assertIn(("elements/a", "box"), self.check_format(output, {"a", "b", "tip"}, {"beam.1": ("elements/beam", 1)}))
+            found = self.check_format(output, {"a", "b", "tip"}, {"beam.1": ("elements/beam", 1)})
+            self.assertIn(("elements/a", "box"), found)
         # A file without a drawing, of an earlier version, gets one.
         with h5py.File(self.path("run.h5"), "a") as f:
             del f["/drawing"], f["/drawing_meshes"]
@@ -167,7 +189,7 @@ class Drawing(CommandTest):
         self.assertTrue(self.drawing("run.h5")["items"])
 
     def test_a_run_that_fails_has_a_drawing(self):
-        text = model().replace("weld: {", "weld_2: {type: spherical, nodes: [a, b], position: [5, 0, 0]}\n  wrong: {type: distance, nodes: [a, b], length: 3}\n  weld: {")
+        text = model().replace("  weld: {", "  wrong: {type: distance, nodes: [a, b], length: 3}\n  weld: {")
         self.write("model.yaml", text)
         self.done("model.yaml", "-o", "run.h5", status=2)
         self.assertTrue(self.drawing("run.h5")["items"])
@@ -210,16 +232,15 @@ joints:
             plain = self.run_program("model.yaml", "--check")
             self.assertEqual(done.stdout, plain.stdout + "results: check.h5\n")
             with f:
-                self.assertEqual((f.attrs["complete"], f["/analysis_1"].attrs["type"], f["/analysis_1"].attrs["assembled"]), (1, "check", 1))
+                self.assertEqual(f.attrs["complete"], 1)
+                self.assertEqual((f["/analysis_1"].attrs["type"], f["/analysis_1"].attrs["assembled"]), ("check", 1))
                 self.assertEqual(f["/time"].shape, (1,))
                 self.assertNotIn("redundant", f)
                 self.assertIn("drawing", f)
-                position = f["/nodes/a/position"][0] if layout == "named" else f["/nodes/node/position"][0, 0]
-                rotation = f["/nodes/a/rotation"][0] if layout == "named" else f["/nodes/node/rotation"][0, 0]
+                place = "/nodes/a" if layout == "named" else "/nodes/node"
+                position, rotation = (f[f"{place}/{name}"][0].reshape(-1) for name in ("position", "rotation"))
             # The bar of 1 m hangs on its pin at (0, 0, 0.1).
-            w, x, y, z = rotation
-            axis = np.array([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)])
-            np.testing.assert_allclose(position - axis, [0, 0, 0.1], atol=1e-9)
+            np.testing.assert_allclose(position - matrix(rotation)[:, 0], [0, 0, 0.1], atol=1e-9)
 
     def test_without_a_name_nothing_is_written(self):
         self.write("model.yaml", self.BAR)
@@ -227,7 +248,8 @@ joints:
         self.assertEqual(os.listdir(self.folder), ["model.yaml"])
 
     def test_a_model_that_cannot_be_assembled_is_drawn(self):
-        done, f = self.file(self.BAR + "  far: {type: distance, nodes: [ground, a], at: [[50, 0, 0], [0, 0, 0]], length: 1}\n", status=2)
+        far = "  far: {type: distance, nodes: [ground, a], at: [[50, 0, 0], [0, 0, 0]], length: 1}\n"
+        done, f = self.file(self.BAR + far, status=2)
         self.assertIn(": error: ", done.stderr)
         with f:
             group = f["/analysis_1"]
@@ -241,10 +263,36 @@ joints:
         with f:
             self.assertEqual(list(f["/redundant"].asstr()), ["joints/second"])
 
+    def test_shapes_of_mirrored_parts_are_mirrored(self):
+        _, f = self.file("""\
+definitions:
+  side:
+    nodes:
+      hub: {position: [0, 1, 0], rotation_vector: [0.3, 0.2, 0.5], shape: {cylinder: [0.1, 1], position: [0.1, 0.2, 0.3], rotation_vector: [0.4, 0.5, 0.6]}}
+    elements:
+      b: {type: rigid_body, node: hub, mass: 1, inertia: [1, 1, 1], shape: {cone: [0.1, 0.2, 1], position: [0, 0.5, 0.1], axes: {z: [1, 2, 3], x: [1, 0, 0]}}}
+parts:
+  left: {part: side}
+  right: {part: side, mirror: y}
+""")
+        with f:
+            places = {}
+            for item in json.loads(f["/drawing"].asstr()[()])["items"]:
+                if item["shape"] in ("cylinder", "cone"):
+                    node, at = f["/nodes"][item["node"]], matrix(item["rotation"])
+                    axes = matrix(node["rotation"][0])
+                    side, shape = item["node"].split(".")[0], item["shape"]
+                    position = node["position"][0] + axes @ item["position"]
+                    places[side, shape] = np.concatenate([position, (axes @ at)[:, 2]])
+        for shape in ("cylinder", "cone"):
+            mirrored = places["left", shape] * [1, -1, 1, 1, -1, 1]
+            np.testing.assert_allclose(places["right", shape], mirrored, atol=1e-14)
+
     def test_other_files_are_not_replaced(self):
         self.write("model.yaml", self.BAR)
         self.write("notes.txt", "mine")
-        self.expect_refusal(1, "model.yaml", "--check", "-o", "notes.txt", says=("notes.txt: exists and is no results file",))
+        says = ("notes.txt: exists and is no results file",)
+        self.expect_refusal(1, "model.yaml", "--check", "-o", "notes.txt", says=says)
         self.expect_refusal(1, "model.yaml", "--check", "-o", "nowhere/x.h5", says=("nowhere",))
 
 
@@ -295,7 +343,7 @@ class Surface(CommandTest):
 class Geometry(CommandTest):
     program = "bielle-mechanism"
     MODEL = """\
-nodes: {a: {shape: {step: part.step, colour: steelblue}}}
+nodes: {a: {fixed: [rx, ry, rz], shape: {step: part.step, colour: steelblue}}}
 elements: {a: {type: point_mass, node: a, mass: 1}}
 analysis: [{type: dynamic, duration: 0.01, step: 0.01}]
 """
@@ -308,7 +356,8 @@ analysis: [{type: dynamic, duration: 0.01, step: 0.01}]
         with h5py.File(self.path("run.h5")) as f:
             mesh = f["/drawing_meshes/part"]
             corners = mesh["points"][()].astype(float)[mesh["triangles"][()]]
-        listed = subprocess.run([os.path.join(PROGRAMS, "bielle-reduce"), "--list", "part.step"], cwd=self.folder, text=True, capture_output=True)
+        command = [os.path.join(PROGRAMS, "bielle-reduce"), "--list", "part.step"]
+        listed = subprocess.run(command, cwd=self.folder, text=True, capture_output=True)
         volume = float(re.search(r"volume 1: .*, ([\d.e+-]+) m\^3", listed.stdout)[1])
         self.assertAlmostEqual(volume_inside(corners) / volume, 1, delta=0.02, msg=listed.stdout)
 

@@ -147,27 +147,38 @@ TEST_CASE("outlines of sections have the area of the section, and its centroid a
 }
 
 TEST_CASE("beams have the sections of their taper along them, and none if constants define them") {
-  const std::string material = ", young: 2e11, poisson: 0.3, density: 7800";
-  const DrawnModel drawn(
-      "nodes: {a: {fixed: true}, b: {position: [2, 0, 0]}}\n"
-      "elements:\n"
-      "  uniform: {type: beam, nodes: [a, b], section: {tube: [0.1, 0.09]" +
-      material +
-      "}}\n"
-      "  taper: {type: beam, nodes: [a, b], elements: 3, section: [{rectangle: [0.4, 0.2]" +
-      material + "}, {rectangle: [0.2, 0.1]" + material +
-      "}]}\n"
-      "  plain: {type: beam, nodes: [a, b], section: {EA: 1e6, GAy: 1e6, GAz: 1e6, GJ: 1e3, EIy: 1e3, EIz: 1e3}}\n");
+  const std::string material = ", young: 2e11, poisson: 0.3, density: 7800}";
+  const auto beam = [&](const std::string& name, const std::string& section) {
+    return "  " + name + ": {type: beam, nodes: [a, b], elements: 3, section: " + section + "}\n";
+  };
+  const auto taper = [&](const std::string& start, const std::string& end) {
+    return "[{" + start + material + ", {" + end + material + "]";
+  };
+  const DrawnModel drawn("nodes: {a: {fixed: true}, b: {position: [2, 0, 0]}}\nelements:\n" +
+                         beam("uniform", "{tube: [0.1, 0.09]" + material) +
+                         beam("taper", taper("rectangle: [0.4, 0.2]", "rectangle: [0.2, 0.1]")) +
+                         beam("tee", taper("t: {width: 0.2, height: 0.3, web: 0.02, flange: 0.03}",
+                                           "t: {width: 0.1, height: 0.1, web: 0.02, flange: 0.01}")) +
+                         beam("plain", "{EA: 1e6, GAy: 1e6, GAz: 1e6, GJ: 1e3, EIy: 1e3, EIz: 1e3}"));
   const DrawnItem& uniform = drawn.one("elements/uniform", "beam");
   CHECK(value_of<std::string>(uniform, "element") == "elements/uniform");
   CHECK(uniform.type == "beam");
   REQUIRE(uniform.sections.size() == 2);
   CHECK(uniform.sections.back().at == 1);
   CHECK_FALSE(uniform.sections.front().inner.empty());
-  const DrawnItem& taper = drawn.one("elements/taper", "beam");
-  REQUIRE(taper.sections.size() == 17);
-  for (const DrawnSection& section : taper.sections)
-    CHECK(area_of(section.outer)[0] == Approx(0.08 * std::pow(1 - section.at / 2, 2)));
+  const DrawnItem& linear = drawn.one("elements/taper", "beam");
+  REQUIRE(linear.sections.size() == 2);  // straight lines between them are the taper
+  CHECK(area_of(linear.sections[0].outer)[0] == Approx(0.08));
+  CHECK(area_of(linear.sections[1].outer)[0] == Approx(0.02));
+  const DrawnItem& tee = drawn.one("elements/tee", "beam");
+  REQUIRE(tee.sections.size() == 17);
+  for (const DrawnSection& section : tee.sections) {
+    const double s = section.at, flange = 0.03 - 0.02 * s;
+    const auto [area, y, z] = area_of(section.outer);
+    CHECK(area == Approx((0.2 - 0.1 * s) * flange + 0.02 * (0.3 - 0.2 * s - flange)));
+    CHECK(y == Approx(0).margin(1e-14));
+    CHECK(z == Approx(0).margin(1e-14));
+  }
   CHECK(drawn.one("elements/plain", "beam").sections.empty());
 }
 

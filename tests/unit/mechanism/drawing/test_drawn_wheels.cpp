@@ -140,9 +140,9 @@ double length_of_course(const DrawnModel& drawn, const DrawnItem& course) {
     const double change = signed_radius(next) - signed_radius(k);
     const double span = std::sqrt(d.squaredNorm() - change * change);
     length += span;
-    // u makes an angle with d such that the ends differ by the two offsets: d = span u + change (u x z).
+    // With the points p + r (u x z) of the two pulleys, d = span u - change (u x z).
     const Vector3 x = d.normalized(), y = z.cross(x);
-    const double sine = change / d.norm();
+    const double sine = -change / d.norm();
     along[k] = span / d.norm() * x + sine * y;
   }
   for (std::size_t k = closed ? 0 : 1; k < spans; ++k) {  // arcs, of less than one turn
