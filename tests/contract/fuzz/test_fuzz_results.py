@@ -8,8 +8,11 @@ import shutil
 import sys
 import unittest
 
+import h5py
+import numpy as np
+
 from fuzzing import KEEP, NEVER, FuzzTest, damaged_bytes
-from test_fuzz_hdf5 import changed, near_structures
+from test_fuzz_hdf5 import changed, near_structures, rewritten
 import synthetic_modes
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY
@@ -116,6 +119,21 @@ class Results(FuzzTest):
         for case, rng in self.cases(8):
             self.judge_tools(case, self.damaged(rng, "sound_box.h5", "box.h5"),
                              ["bielle-plot", "bielle-animate", "bielle-paraview"])
+
+    def test_cells_without_a_surface(self):
+        """All cells of the superelement have the same nodes, so that none of their faces belongs to one cell only."""
+        shutil.copy(self.path("sound.h5"), self.path("run.h5"))
+        shutil.copy(self.path("sound_box.h5"), self.path("box.h5"))
+        with h5py.File(self.path("box.h5"), "r+") as file:
+            cells = file["mesh/cells/11"][()]
+            for number, damaged in enumerate((np.zeros_like(cells), np.tile(cells[:1], (2, 1)))):
+                rewritten(file, "mesh/cells/11", damaged)
+                file.flush()
+                for name in ("bielle-animate", "bielle-paraview"):
+                    status, said = self.run_tool(name)
+                    with self.subTest(case=number, name=name):
+                        self.assertEqual(status, 1, said)
+                        self.assertRegex(said, f"^{name}: 'box.h5' is damaged: the cells of its mesh have no surface[^\\n]*\n$")
 
 
 if __name__ == "__main__":
