@@ -1,0 +1,123 @@
+"""The scene that is drawn of results: meshes, motion, paths of ropes, damaged drawings."""
+
+import os
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+REPOSITORY = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
+
+from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.scene import make_scene  # noqa: E402
+from bielle_tools.scene.templates import box, cylinder, extruded, lathe, sphere, torus, tube  # noqa: E402
+from bielle_tools.scene.transforms import from_axes, from_z, placed, rotated  # noqa: E402
+from drawn_results import every_shape, resting, turning, write_results  # noqa: E402
+
+
+def volume(mesh):
+    """By the divergence theorem: positive if triangles point outward."""
+    a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+    return np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+
+
+class Scenes(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def scene(self, nodes, items, **options):
+        path = tempfile.mkstemp(".h5", dir=self.folder.name)[1]
+        results = Results(write_results(path, nodes, items, **options))
+        self.addCleanup(results.file.close)
+        return make_scene(results)
+
+    def test_volumes_of_templates_are_those_of_the_solids(self):
+        polygon = 24 / 2 * np.sin(2 * np.pi / 24)  # area of a regular polygon in the unit circle
+        self.assertAlmostEqual(volume(box([1, 2, 3])), 6, 12)
+        self.assertAlmostEqual(volume(cylinder(2, 3)), polygon * 4 * 3, 12)
+        self.assertAlmostEqual(volume(tube(2, 1, 3)), polygon * 3 * 3, 12)
+        self.assertAlmostEqual(volume(extruded([[0, 0], [0, 1], [1, 1], [1, 0]], 2)), 2, 12)
+        self.assertAlmostEqual(volume(sphere(1, 100, 200)), 4 / 3 * np.pi, 2)
+        self.assertAlmostEqual(volume(torus(1, 0.4, around=400)), 2 * np.pi**2 * 0.8 * 0.04, 1)
+        self.assertAlmostEqual(volume(lathe([(0, 0), (1, 0), (0, 1)])), polygon / 3, 12)
+
+    def test_rotations_from_directions_and_axes(self):
+        directions = np.random.default_rng(1).normal(size=(50, 3))
+        directions[0] = [0, 0, -2]
+        unit = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+        np.testing.assert_allclose(rotated(from_z(directions), np.array([0, 0, 1.0])), unit, atol=1e-12)
+        q = np.random.default_rng(2).normal(size=(50, 4))
+        q /= np.linalg.norm(q, axis=1, keepdims=True)
+        again = from_axes(*(rotated(q, axis) for axis in np.eye(3)))
+        np.testing.assert_allclose(np.abs((q * again).sum(axis=1)), 1, atol=1e-12)
+
+    def test_every_shape_is_drawn(self):
+        nodes, items, meshes = every_shape()
+        scene = self.scene(nodes, items, meshes=meshes)
+        drawn = {part.entry for part in scene.parts}
+        self.assertEqual({item["entry"] for item in items} - drawn, {"elements/odd"})
+        self.assertEqual([entry for entry, _ in scene.notes], ["/drawing"])
+        for part in scene.parts:
+            poses = scene.poses(part, scene.rows)
+            self.assertEqual(poses.shape, (31, part.mesh.bone_count, 8), part.entry)
+            self.assertTrue(np.isfinite(poses).all() and np.isfinite(part.mesh.points).all(), part.entry)
+            self.assertLess(part.mesh.triangles.max(initial=-1), len(part.mesh.points))
+        self.assertEqual({anchor.entry for anchor in scene.anchors}, drawn)
+
+    def test_a_corner_of_a_box_moves_with_its_node(self):
+        q, x = turning(20, (0, 0, 1)), np.column_stack([np.arange(20.0), np.zeros(20), np.zeros(20)])
+        item = {"entry": "elements/box", "type": "rigid_body", "shape": "box", "node": "n", "position": [1, 0, 0], "size": [0.2, 0.2, 0.2]}
+        scene = self.scene({"n": (x, q)}, [item])
+        corner = placed(scene.poses(scene.parts[0], scene.rows)[:, 0], np.array([0.1, 0.1, 0.1]))
+        angle = 0.1 * np.arange(20)
+        expected = x + np.column_stack([1.1 * np.cos(angle) - 0.1 * np.sin(angle), 1.1 * np.sin(angle) + 0.1 * np.cos(angle), np.full(20, 0.1)])
+        np.testing.assert_allclose(corner, expected, atol=1e-12)
+
+    def test_the_length_of_a_belt_is_that_of_the_closed_form(self):
+        R, r, d = 0.3, 0.1, 1.0
+        lean = np.arcsin((R - r) / d)
+        open_belt = 2 * d * np.cos(lean) + np.pi * (R + r) + 2 * lean * (R - r)
+        cross = np.arcsin((R + r) / d)
+        crossed = 2 * d * np.cos(cross) + (np.pi + 2 * cross) * (R + r)
+        for sides, expected in (((1, 1), open_belt), ((-1, -1), open_belt), ((1, -1), crossed)):
+            points = [{"node": "ground", "radius": R, "side": sides[0]}, {"node": "ground", "position": [d, 0, 0], "radius": r, "side": sides[1]}]
+            scene = self.scene({"n": resting(3)}, [{"entry": "joints/belt", "type": "belt", "shape": "course", "closed": True, "points": points}])
+            length = scene.poses(scene.parts[0], [0])[0, :, 7].sum()
+            self.assertAlmostEqual(length / expected, 1, delta=0.003)  # arcs of 14 chords: 1 - (angle/14)^2/24
+            self.assertLess(length, expected)
+
+    def test_a_course_over_a_moving_pulley_is_continuous_in_space(self):
+        x = np.column_stack([0.5 + 0.02 * np.arange(20), np.zeros(20), np.zeros(20)])
+        points = [{"node": "ground", "position": [0, 0.5, 0]}, {"node": "n", "radius": 0.1, "side": -1}, {"node": "ground", "position": [1.5, 0.5, 0]}]
+        scene = self.scene({"n": (x, turning(20, (0, 0, 1)))}, [{"entry": "joints/c", "type": "cable", "shape": "course", "closed": False, "points": points}])
+        poses = scene.poses(scene.parts[0], scene.rows)
+        ends = placed(poses, np.array([0, 0, 1.0]))
+        np.testing.assert_allclose(ends[:, :-1], poses[:, 1:, :3], atol=1e-12)
+        distance = np.linalg.norm(poses[:, 1:15, :3] - x[:, None], axis=-1)
+        np.testing.assert_allclose(distance, 0.1, atol=1e-12)
+
+    def test_items_that_cannot_be_drawn_are_told(self):
+        items = [{"entry": "a/lost", "shape": "box", "size": [1, 1, 1], "node": "absent"}, {"entry": "a/flat", "shape": "sphere", "radius": -1},
+                 {"entry": "a/bare", "shape": "cylinder"}, {"shape": "box"}, 7, {"entry": "a/mesh", "shape": "mesh", "mesh": "gone"}]
+        scene = self.scene({"n": resting(2)}, items)
+        self.assertEqual(scene.parts, [])
+        told = dict(scene.notes)
+        self.assertIn("'absent'", told["a/lost"])
+        self.assertIn("not positive", told["a/flat"])
+        self.assertIn("'radius' is missing", told["a/bare"])
+        self.assertIn("gone", told["a/mesh"])
+
+    def test_planar_machines_and_scales(self):
+        for unit in (1e-6, 1.0, 1e5):
+            x = unit * np.column_stack([np.cos(np.arange(9)), np.full(9, 3.0), np.sin(np.arange(9))])
+            item = {"entry": "nodes/n", "type": "node", "shape": "node", "node": "n"}
+            scene = self.scene({"n": (x, turning(9, (0, 1, 0)))}, [item])
+            self.assertEqual(scene.planar, 1)
+            self.assertTrue(1 < scene.size / unit < 4 and 0.005 < scene.symbol / scene.size < 0.05, (unit, scene.size, scene.symbol))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,251 @@
+"""Items of a drawing -> parts of the scene: one function per shape, in the table BUILDERS."""
+
+import numpy as np
+
+from ..messages import InputError
+from . import symbols
+from . import templates as t
+from .beams import beam_mesh, beam_motion
+from .course import Course
+from .drawing import place_of
+from .links import Ends, bar_mesh, coil_mesh, rope_mesh, telescope
+from .parts import Mesh, Part, joined, on_bones
+from .style import COLOURS, lighter
+
+
+class Builder:
+    """Makes the parts of items. symbol: size of symbols [m]; extent: of the scene [m]; centre (3) of it."""
+
+    def __init__(self, motion, drawing, palette, flexible):
+        self.motion, self.drawing, self.palette, self.flexible = motion, drawing, palette, flexible
+        self.symbol, self.extent, self.centre = 1.0, 1.0, np.zeros(3)
+        self.attached = {}  # node -> positions in its axes of what is attached to it
+
+    def parts(self, item):
+        """@raises InputError, ValueError, KeyError, TypeError"""
+        return BUILDERS[item["shape"]](self, item)
+
+    def rigid(self, item, mesh, group="body", colour=None, place=None, opacity=1.0):
+        """A part on one place."""
+        place = place or place_of(item)
+        self.motion.node(place.node)
+        if item.get("role") == "contact":
+            group, opacity = "contact", min(opacity, 0.55)
+        elif item.get("role") == "support":
+            group = "ground"
+        colour = self.colour(item, colour or (COLOURS["ground"] if place.node == "ground" else self.palette.of(place.node)))
+        return Part(item["entry"], item["type"], mesh, colour, float(item.get("opacity", opacity)), group,
+                    lambda rows: self.motion.poses(place, rows)[:, None])
+
+    @staticmethod
+    def colour(item, default):
+        given = item.get("colour", "")
+        try:
+            return given if len(given) == 7 and given[0] == "#" and int(given[1:], 16) >= 0 else default
+        except (TypeError, ValueError):
+            return default
+
+    def link(self, item, mesh, colour, group="spring"):
+        ends = self.ends(item)
+        return Part(item["entry"], item["type"], mesh, self.colour(item, colour), float(item.get("opacity", 1)), group, ends.straight)
+
+    def ends(self, item):
+        places = [place_of(end) for end in item["ends"]]
+        if len(places) != 2:
+            raise ValueError("it has not two ends")
+        for place in places:
+            self.motion.node(place.node)
+        return Ends(self.motion, places)
+
+
+def _positive(*numbers):
+    values = [float(number) for number in numbers]
+    if not all(np.isfinite(value) and value > 0 for value in values):
+        raise ValueError("a size is not positive")
+    return values
+
+
+def _body(b, item):
+    centre = np.asarray(item.get("centre", [0, 0, 0]), float)
+    ends = np.array(b.attached.get(item["node"], [])).reshape(-1, 3)
+    ends = ends[np.linalg.norm(ends - centre, axis=1) > 0.6 * b.symbol]
+    thin = max(0.42 * b.symbol, 0.02 * max(np.linalg.norm(ends - centre, axis=1), default=0))
+    pieces = [t.rod(centre, end, (thin, 0.62 * thin)) for end in np.unique(np.round(ends, 12), axis=0)]
+    return [b.rigid(item, t.merged([t.moved(t.sphere(1.25 * thin if len(pieces) else 0.6 * b.symbol), centre), *pieces]))]
+
+
+def _gear(b, item):
+    radius, = _positive(item["radius"])
+    width, = _positive(item.get("width", 0.22 * radius))
+    inner = bool(item.get("inner"))
+    body = t.tube(1.18 * radius, radius, width, 48) if inner else \
+        t.merged([t.tube(radius, 0.82 * radius, width, 48), t.cylinder(0.82 * radius, 0.55 * width), t.cylinder(0.25 * radius, 1.15 * width)])
+    mark = t.moved(t.box([0.12 * radius, 0.07 * radius, 1.04 * width]), (1.09 * radius if inner else 0.91 * radius, 0, 0))
+    return [b.rigid(item, body), b.rigid(item, mark, colour=COLOURS["mark"])]
+
+
+def _pulley(b, item):
+    radius, = _positive(item["radius"])
+    width = float(item.get("width", min(0.4 * radius, 1.2 * b.symbol)))
+    h, groove = width / 2, min(0.12 * radius, 0.4 * width)
+    rim = t.lathe([(0, -h), (radius + groove, -h), (radius + groove, -0.8 * h), (radius, -0.35 * h), (radius, 0.35 * h),
+                   (radius + groove, 0.8 * h), (radius + groove, h), (0, h)], around=40)
+    mark = t.moved(t.box([0.5 * radius, 0.1 * radius, 1.06 * width]), (0.6 * radius, 0, 0))
+    return [b.rigid(item, rim), b.rigid(item, mark, colour=COLOURS["mark"])]
+
+
+def _tyre(b, item):
+    radius, = _positive(item["radius"])
+    width, = _positive(item.get("width", 0.45 * radius))
+    rim = t.merged([t.tube(0.68 * radius, 0.6 * radius, 0.7 * width, 36), t.cylinder(0.62 * radius, 0.12 * width, 36), t.cylinder(0.16 * radius, 0.5 * width)]
+                   + [t.moved(t.box([0.46 * radius, 0.12 * radius, 0.3 * width]), (0.38 * radius * x, 0.38 * radius * y, 0), [[x, -y, 0], [y, x, 0], [0, 0, 1]])
+                      for x, y in t.circle(5)])
+    return [b.rigid(item, t.torus(radius, 0.36 * radius, width), colour="#2f3237"), b.rigid(item, rim, colour="#b9bec5")]
+
+
+def _cam(b, item):
+    contour = np.asarray(item["contour"], float).reshape(-1, 2)
+    reach = np.linalg.norm(contour, axis=1).max()
+    return [b.rigid(item, t.extruded(contour, float(item.get("width", 0.3 * reach))))]
+
+
+def _plane(b, item):
+    place = place_of(item)
+    size = float(np.max(item["size"])) if "size" in item else 1.15 * b.extent
+    shift = np.zeros(3)
+    if "size" not in item and place.node == "ground":  # the part of the plane under the machine
+        from .transforms import conjugate, rotated
+        shift = rotated(conjugate(np.array(place.rotation)), b.centre - np.array(place.position)) * [1, 1, 0]
+    h, n = size / 2, 14
+    quad = t.mesh([[-h, -h, 0], [h, -h, 0], [h, h, 0], [-h, h, 0]], [[0, 1, 2], [0, 2, 3]])
+    s = np.linspace(-2 * h, 2 * h, 2 * n + 1)[1:-1]
+    a = np.column_stack([np.maximum(s - h, -h), np.minimum(s + h, h), np.zeros_like(s)])
+    c = np.column_stack([np.minimum(s + h, h), np.maximum(s - h, -h), np.zeros_like(s)])
+    border = np.array([[-h, -h, 0], [h, -h, 0], [h, h, 0], [-h, h, 0]])
+    hatch = t.mesh(np.concatenate([a, c, border]), lines=[[k, k + len(s)] for k in range(len(s))]
+                   + [[2 * len(s) + k, 2 * len(s) + (k + 1) % 4] for k in range(4)])
+    return [b.rigid(item, t.moved(t.merged([quad, hatch]), shift), "ground", COLOURS["ground"], opacity=0.35)]
+
+
+def _curve(b, item):
+    points = np.asarray(item["points"], float).reshape(-1, 3)
+    if item.get("closed"):
+        points = np.vstack([points, points[:1]])
+    return [b.rigid(item, t.polyline(points, 0.14 * b.symbol), colour=COLOURS["bar"])]
+
+
+def _coil(b, item, radius=0.75):
+    ends = b.ends(item)
+    length = np.nan_to_num(ends.lengths()[1]) or b.symbol
+    radius = min(radius * b.symbol, 0.25 * length) if radius < 1 else radius * b.symbol
+    return b.link(item, coil_mesh(radius, min(0.13 * b.symbol, 0.35 * length / 8), length), COLOURS["spring"])
+
+
+def _telescope(b, item, radius=None):
+    ends = b.ends(item)
+    shortest, longest = ends.lengths()
+    shortest = float(item["stroke"][0]) if item.get("stroke") else shortest
+    shortest, _ = _positive(shortest, longest) if np.isfinite([shortest, longest]).all() and shortest > 0 else (b.symbol, b.symbol)
+    radius = float(item.get("radius", radius or 0.5 * b.symbol))
+    barrel = 0.82 * shortest
+    mesh = telescope(min(radius, 0.3 * shortest), barrel)
+    dark = mesh.bones == 0
+    poses = ends.telescopic(barrel)
+    group = "spring"
+
+    def part(selected, colour):
+        numbers = np.flatnonzero(selected)
+        index = np.full(len(mesh.points), -1)
+        index[numbers] = np.arange(len(numbers))
+        triangles = index[mesh.triangles[selected[mesh.triangles[:, 0]]]]
+        first = mesh.bones[numbers].min()
+        last = mesh.bones[numbers].max() + 1
+        return Part(item["entry"], item["type"], Mesh(mesh.points[numbers], triangles, t.NO_LINES, mesh.bones[numbers] - first),
+                    colour, float(item.get("opacity", 1)), group, lambda rows: poses(rows)[:, first:last])
+    return [part(dark, b.colour(item, COLOURS["damper"])), part(~dark, COLOURS["rod"])]
+
+
+def _course(b, item):
+    points = [(place_of(point), float(point.get("radius", 0)), 1 if point.get("side", 1) >= 0 else -1) for point in item["points"]]
+    for place, _, _ in points:
+        b.motion.node(place.node)
+    course = Course(b.motion, points, bool(item.get("closed")))
+    return [Part(item["entry"], item["type"], on_bones(rope_mesh(0.16 * b.symbol), course.bone_count), b.colour(item, COLOURS["rope"]),
+                 1.0, "rope", course.poses)]
+
+
+def _beam(b, item):
+    poses, stations = beam_motion(b.motion.results, item["element"])
+    mesh = beam_mesh(stations, list(item.get("sections") or []), 0.3 * b.symbol)
+    return [Part(item["entry"], item["type"], mesh, b.colour(item, b.palette.of(item["element"])), float(item.get("opacity", 1)), "beam", poses)]
+
+
+def _superelement(b, item):
+    name = item["element"].split("/", 1)[1]
+    return [b.flexible.part(name, item["type"], b.colour(item, b.palette.of(item["entry"])), float(item.get("opacity", 1)))]
+
+
+def _joint(b, item):
+    places = [place_of(frame) for frame in item["frames"]]
+    if len(places) != 2:
+        raise ValueError("it has not two frames")
+    meshes = symbols.joint_symbol(item["type"], b.symbol)
+    parts = [b.rigid(item, mesh, "joint", colour, place) for mesh, place, colour in zip(meshes, places, (COLOURS["outer"], COLOURS["inner"])) if mesh]
+    if item.get("colour"):
+        parts[-1].colour = lighter(b.colour(item, COLOURS["inner"]))
+    return parts
+
+
+def _support(b, item):
+    fixed = item.get("fixed", [])
+    down = b.drawing.gravity
+    from .transforms import from_z
+    part = b.rigid(item, symbols.support_symbol(b.symbol, len(fixed) == 6), "ground", COLOURS["support"])
+    place = place_of(item)
+    turn = from_z(-down) if down is not None else np.array([1.0, 0, 0, 0])
+
+    def poses(rows):
+        found = b.motion.poses(place, rows)[:, None]
+        found[..., 3:7] = turn
+        return found
+    part.motion = poses
+    return [part]
+
+
+def _stiffness(b, item):
+    places = [place_of(place) for place in item["places"]]
+    for place in places:
+        b.motion.node(place.node)
+    if len(places) < 2:
+        raise ValueError("it joins fewer than two places")
+    from .transforms import between
+    return [Part(item["entry"], item["type"], on_bones(rope_mesh(0.08 * b.symbol), len(places) - 1), b.colour(item, COLOURS["stiffness"]), 1.0, "spring",
+                 lambda rows: np.stack([between(b.motion.position(places[0], rows), b.motion.position(place, rows)) for place in places[1:]], axis=1))]
+
+
+def _mesh(b, item):
+    points, triangles = b.drawing.mesh(item["mesh"])
+    return [b.rigid(item, t.creased(points, triangles))]
+
+
+def _ellipsoid(b, item):
+    return [b.rigid(item, t.mesh(item["points"], item["triangles"]))]
+
+
+BUILDERS = {
+    "box": lambda b, item: [b.rigid(item, t.box(_positive(*item["size"])))],
+    "cylinder": lambda b, item: [b.rigid(item, t.cylinder(*_positive(item["radius"], item["length"]), 36))],
+    "tube": lambda b, item: [b.rigid(item, t.tube(*_positive(item["radius"], item["inner_radius"], item["length"]), 36))],
+    "cone": lambda b, item: [b.rigid(item, t.cone([float(r) for r in item["radii"]], *_positive(item["length"]), 36))],
+    "sphere": lambda b, item: [b.rigid(item, t.sphere(*_positive(item["radius"]), 16, 32))],
+    "mesh": _mesh, "ellipsoid": _ellipsoid, "gear": _gear, "pulley": _pulley, "tyre": _tyre, "cam": _cam, "plane": _plane, "curve": _curve,
+    "body": _body, "support": _support, "joint": _joint, "stiffness": _stiffness, "beam": _beam, "superelement": _superelement, "course": _course,
+    "node": lambda b, item: [b.rigid(item, t.sphere(0.28 * b.symbol, 8, 12), "node", COLOURS["node"])],
+    "bar": lambda b, item: [b.link(item, bar_mesh(float(item.get("radius", 0.3 * b.symbol))), COLOURS["bar"], "body")],
+    "rope": lambda b, item: [b.link(item, rope_mesh(0.16 * b.symbol), COLOURS["rope"], "rope")],
+    "coil": lambda b, item: [_coil(b, item)],
+    "damper": _telescope, "jack": _telescope,
+    "coil_damper": lambda b, item: [_coil(b, item, 1.05), *_telescope(b, item, 0.42 * b.symbol)],
+    "force": lambda b, item: [b.rigid(item, t.octahedron(0.4 * b.symbol), "force", COLOURS["force"])],
+}
+__all__ = ["BUILDERS", "Builder", "InputError", "joined"]

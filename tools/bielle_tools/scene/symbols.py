@@ -1,0 +1,97 @@
+"""Symbols of joints by type: the part on the first node and the part on the second, with axis z, for a symbol size of 1."""
+
+import numpy as np
+
+from . import templates as t
+from .parts import Mesh
+
+
+def _hinge():
+    return t.tube(1, 0.6, 1.2), t.cylinder(0.58, 2.2)
+
+
+def _spherical():
+    return t.tube(1.12, 0.8, 0.7), t.sphere(0.95)
+
+
+def _prismatic():
+    sleeve = t.merged([t.moved(t.box([1.8, 0.35, 2.0]), (0, side * 0.725, 0)) for side in (1, -1)]
+                      + [t.moved(t.box([0.35, 1.1, 2.0]), (side * 0.725, 0, 0)) for side in (1, -1)])
+    return sleeve, t.box([1.0, 1.0, 4.4])
+
+
+def _cylindrical():
+    return t.tube(1, 0.6, 1.8), t.cylinder(0.56, 4.4)
+
+
+def _universal():
+    pins = t.moved(t.cylinder(0.35, 2.6), axes=t.ALONG_X), t.moved(t.cylinder(0.35, 2.6), axes=t.ALONG_Y)
+    return t.merged([pins[0], t.moved(t.box([0.3, 0.9, 0.9]), (1.3, 0, 0)), t.moved(t.box([0.3, 0.9, 0.9]), (-1.3, 0, 0))]), \
+        t.merged([pins[1], t.moved(t.box([0.9, 0.3, 0.9]), (0, 1.3, 0)), t.moved(t.box([0.9, 0.3, 0.9]), (0, -1.3, 0)), t.sphere(0.55)])
+
+
+def _constant_velocity():
+    return t.merged([t.tube(1.2, 0.85, 1.1), t.tube(1.2, 0.3, 0.1)]), t.merged([t.sphere(0.8), t.cylinder(0.35, 2.4)])
+
+
+def _planar():
+    return t.moved(t.cylinder(2.4, 0.15, around=36), (0, 0, -0.1)), t.moved(t.cylinder(1.0, 0.3), (0, 0, 0.15))
+
+
+def _line():
+    return t.cylinder(0.2, 5.0), t.sphere(0.7)
+
+
+def _rigid():
+    return t.box([1.3, 1.3, 0.5]), t.box([0.8, 0.8, 1.3])
+
+
+def _screw():
+    profile = [(0, -2.2)] + [(0.62 if k % 2 else 0.42, -2.2 + 0.2 * k) for k in range(23)] + [(0, 2.2)]
+    return t.lathe(profile, around=18), t.lathe([(0.6, -0.5), (1.1, -0.5), (1.1, 0.5), (0.6, 0.5)], around=6)
+
+
+def _bearing():
+    return t.tube(1.25, 0.95, 0.8), t.merged([t.cylinder(0.6, 1.6)] + [
+        t.moved(t.sphere(0.17, 6, 10), (0.78 * x, 0.78 * y, 0)) for x, y in t.circle(8)])
+
+
+def _bushing():
+    return t.tube(1.2, 1.0, 1.4), t.merged([t.tube(1.0, 0.5, 1.2), t.cylinder(0.5, 2.0)])
+
+
+def _other():
+    return None, t.octahedron(0.8)
+
+
+SYMBOLS = {"hinge": _hinge, "clearance_hinge": _hinge, "spherical": _spherical, "clearance_spherical": _spherical, "prismatic": _prismatic,
+           "cylindrical": _cylindrical, "slider": _cylindrical, "universal": _universal, "constant_velocity": _constant_velocity,
+           "planar": _planar, "point_on_plane": _planar, "point_on_line": _line, "rigid": _rigid, "screw": _screw, "bearing": _bearing,
+           "bushing": _bushing}
+
+
+def joint_symbol(kind, size):
+    """Meshes on the first and on the second frame of a joint; None for a side without one."""
+    return [None if shape is None else Mesh(size * shape.points, shape.triangles, shape.lines, shape.bones)
+            for shape in SYMBOLS.get(kind, _other)()]
+
+
+def support_symbol(size, complete):
+    """A support below the origin: a pyramid on a hatched foot; without the foot if directions are free."""
+    foot = t.moved(t.box([2.6, 2.6, 0.25]), (0, 0, -1.7))
+    return scaled(t.merged([t.moved(t.cone((1.0, 0.08), 1.6, around=4), (0, 0, -0.8)), *([foot] if complete else [])]), size)
+
+
+def arrow_template(width):
+    """An arrow of length 1 along z whose shaft has this radius; it is stretched along z."""
+    return t.merged([t.moved(t.cylinder(width, 0.8, around=10), (0, 0, 0.4)), t.moved(t.cone((2.6 * width, 0), 0.2, around=14), (0, 0, 0.9))])
+
+
+def axes_symbol(size):
+    """Three thin arrows: meshes along x, y, z."""
+    arrow = t.merged([t.moved(t.cylinder(0.025, 0.8, around=8), (0, 0, 0.4)), t.moved(t.cone((0.07, 0), 0.22, around=12), (0, 0, 0.9))])
+    return [scaled(t.moved(arrow, axes=axes), size) for axes in (t.ALONG_X, t.ALONG_Y, np.eye(3))]
+
+
+def scaled(shape, size):
+    return Mesh(size * shape.points, shape.triangles, shape.lines, shape.bones)
