@@ -10,6 +10,7 @@ The results name nodes and beams. The shapes of superelements and rigid bodies a
 `assembly` before `eigen` is sufficient.
 """
 
+import copy
 import re
 
 import numpy as np
@@ -213,6 +214,12 @@ class ModeMotion:
         turn = _largest(self.modes.rotation[self.k])
         limits += [MOST_TURN * share / turn] if turn > 1e-12 else []
         return min(limits, default=1.0)
+
+    def at_rest(self):
+        """The state about which the mode swings, as a motion of one row."""
+        still = copy.copy(self)
+        still.time, still.factor = np.zeros(1), np.zeros(1)
+        return still
 
     def farthest(self):
         """The row in which the nodes are farthest from the state."""
