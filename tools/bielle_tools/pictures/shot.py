@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field
 
 import numpy as np
-from PIL import Image
 
 from ..messages import InputError, check_names, note
 from ..results_file import modes_to_show
@@ -98,9 +97,8 @@ class Shot:
         """Moments of the k-th row for all surfaces."""
         return [surfaces.at(min(k, len(surfaces.poses) - 1), self.highest if coloured else None) for surfaces in self.surfaces]
 
-    def page(self, k, image):
-        """The finished picture of the k-th row: (height,width,3) of a Window with its texts."""
-        picture = Image.fromarray(image)
+    def page(self, k, picture):
+        """The finished picture of the k-th row: that of a Window with its texts."""
         if self.anchors:
             names, places = self.anchors
             self.paper.write_labels(picture, names, self.camera.pixels(places[k], self.moved[k]))

@@ -1,6 +1,7 @@
 """Draws surfaces by VTK into an image in memory."""
 
 import numpy as np
+from PIL import Image
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -43,7 +44,7 @@ class Window:
         self.window.Finalize()
 
     def image(self, moments, moved=0.0):
-        """(height, width, 3) uint8. moments: one for each of the surfaces; moved: as in Camera.seen"""
+        """A PIL image. moments: one for each of the surfaces; moved: as in Camera.seen"""
         for (_, meshes), moment in zip(self.sheets, moments):
             points = np.nan_to_num(self.camera.seen(moment.points, moved), nan=0.0, posinf=0.0, neginf=0.0)
             normals = np.nan_to_num(moment.normals @ self.camera.axes.T)
@@ -53,9 +54,8 @@ class Window:
         pixels = vtkUnsignedCharArray()
         width, height = self.window.GetSize()
         self.window.GetPixelData(0, 0, width - 1, height - 1, 1, pixels, 0)
-        fine = vtk_to_numpy(pixels).reshape(height, width, -1)[::-1, :, :3]
-        blocks = fine.reshape(height // FINER, FINER, width // FINER, FINER, 3)
-        return ((blocks.sum(axis=(1, 3), dtype=np.uint16) + FINER**2 // 2) // FINER**2).astype(np.uint8)
+        fine = Image.fromarray(np.ascontiguousarray(vtk_to_numpy(pixels).reshape(height, width, -1)[::-1, :, :3]))
+        return fine.reduce(FINER)
 
 
 def _parts(surfaces):
