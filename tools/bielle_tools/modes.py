@@ -217,9 +217,15 @@ class ModeMotion:
 
     def at_rest(self):
         """The state about which the mode swings, as a motion of one row."""
-        still = copy.copy(self)
-        still.time, still.factor = np.zeros(1), np.zeros(1)
+        still = self.only(0)
+        still.factor = np.zeros(1)
         return still
+
+    def only(self, row):
+        """One row of it, as a motion."""
+        one = copy.copy(self)
+        one.time, one.factor = self.time[row:row + 1], self.factor[row:row + 1]
+        return one
 
     def farthest(self):
         """The row in which the nodes are farthest from the state."""
@@ -302,13 +308,6 @@ class ModeMotion:
             u = np.concatenate([modes.displacement[k, numbers], np.zeros((len(numbers), 3))], axis=1)
             return np.real(rate * factors[:, None, None] * u)
         raise KeyError(quantity)
-
-    def reach(self):
-        """(3) the extent of the model and its motion along the inertial axes, which determines the view."""
-        motion = 2 * np.abs(self.modes.displacement[self.k]).max(axis=0, initial=0)
-        largest = motion.max()
-        scaled = motion / largest * self.scenery.extent() if largest > 0 else motion
-        return np.maximum(np.ptp(self.modes.position, axis=0), scaled)
 
 
 def turned(vectors, quaternions):

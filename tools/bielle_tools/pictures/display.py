@@ -15,12 +15,17 @@ from ..messages import InputError
 LONGEST_START = 30  # [s]
 
 
+def missing():
+    """A sentence on the program that is missing to draw; empty if there is one."""
+    return "" if shutil.which("Xvfb") else "drawing needs the program Xvfb (Debian package xvfb): run tools/install"
+
+
 @contextlib.contextmanager
 def virtual_display():
     """Runs an X server and sets DISPLAY to it. The server ends with this process, whatever ends it.
     @raises InputError if there is none"""
-    if not shutil.which("Xvfb"):
-        raise InputError("drawing needs the program Xvfb (Debian package xvfb): run tools/install")
+    if missing():
+        raise InputError(missing())
     reading, writing = os.pipe()
     command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", "64x64x24", "-nolisten", "tcp", "-noreset"]
     if shutil.which("setpriv"):

@@ -11,6 +11,7 @@ import numpy as np
 from PIL import Image
 
 from ..messages import InputError
+from ..results_file import modes_to_show
 from .frames import drawn
 from .page import side_by_side, stacked
 from .shot import Shot
@@ -23,7 +24,7 @@ SAMPLES = 4    # pictures from which the colours of a GIF are chosen
 
 def sheet(results, path, look, pictures=6):
     """Writes about `pictures` moments of the motion side by side. look: a Look"""
-    shot = Shot(results, look, pictures, sheet=True)
+    shot = _prepared(results, look, pictures, sheet=True)
     with _opened(path) as file:
         panels = list(drawn(shot))
         grid = side_by_side(panels, min(COLUMNS, len(panels)))
@@ -40,9 +41,15 @@ def film(results, path, look, pictures=60, seconds=6.0):
     moving = os.path.splitext(path)[1].lower() == ".mp4"
     if moving and not shutil.which("ffmpeg"):
         raise InputError(f"'{path}': films in MP4 need the program ffmpeg (Debian package ffmpeg); a GIF does not")
-    shot = Shot(results, look, pictures)
+    shot = _prepared(results, look, pictures, sheet=False)
     with _opened(path) as file:
         (_write_mp4 if moving else _write_gif)(shot, file, seconds)
+
+
+def _prepared(results, look, pictures, sheet):
+    if len(results.time) < 2:
+        raise InputError(f"'{results.path}' holds no motion to show" + modes_to_show(results))
+    return Shot(results, look, pictures, sheet)
 
 
 def _opened(path):

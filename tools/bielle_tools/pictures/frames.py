@@ -1,5 +1,6 @@
 """Draws the rows of a Shot, by several processes where the machine has several processors."""
 
+import contextlib
 import multiprocessing
 import os
 from concurrent.futures import ProcessPoolExecutor
@@ -24,12 +25,9 @@ def drawn(shot, finish=None, processes=None):
     finish = finish or _unchanged
     with virtual_display():
         if processes <= 1:
-            window = Window(shot.surfaces, shot.camera)
-            try:
+            with _open_window(shot) as window:
                 for k in range(count):
                     yield finish(_picture(shot, window, k))
-            finally:
-                window.close()
             return
         os.environ.setdefault("LP_NUM_THREADS", "0")  # each process draws by itself
         _at_work[:] = [shot, None, finish]
@@ -40,6 +38,26 @@ def drawn(shot, finish=None, processes=None):
             raise MemoryError from None  # the system ended one
         finally:
             _at_work.clear()
+
+
+def drawings(shots):
+    """The first row of each shot without texts: PIL images."""
+    images = []
+    with virtual_display():
+        for shot in shots:
+            with _open_window(shot) as window:
+                images.append(window.image(shot.at(0)))
+    return images
+
+
+@contextlib.contextmanager
+def _open_window(shot):
+    """A Window that is closed at the end, before its display."""
+    window = Window(shot.surfaces, shot.camera)
+    try:
+        yield window
+    finally:
+        window.close()
 
 
 def _draw(k):

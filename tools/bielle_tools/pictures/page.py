@@ -40,12 +40,12 @@ class Paper:
         draw.rectangle((left - 1, top - 1, right, bottom), outline=QUIET)
         middle = self.line / 2
         draw.text((left - self.size // 2, middle), f"{label}  0", INK, self.plain, anchor="rm")
-        draw.text((right + self.size // 2, middle), f"{highest:.4g}", INK, self.plain, anchor="lm")
+        draw.text((right + self.size // 2, middle), f"{highest:.0f}" if 1e3 <= highest < 1e6 else f"{highest:.3g}", INK, self.plain, anchor="lm")
         return strip
 
     def bar_ends(self, width):
         """First pixel of the colours, and the first one after them."""
-        return int(0.45 * width), int(width - 5.5 * self.size) if width > 20 * self.size else int(0.8 * width)
+        return int(0.45 * width), int(width - 7 * self.size) if width > 20 * self.size else int(0.8 * width)
 
     def write_labels(self, picture, texts, pixels):
         """Writes texts beside points (n,2) of a picture, those further up first; one that would cover another is left out."""

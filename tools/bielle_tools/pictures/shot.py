@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..messages import InputError, check_names, note
-from ..results_file import modes_to_show
 from ..scene import make_scene
 from ..scene.transforms import placed
 from .camera import VIEWS, Camera, Extent, view_axes
@@ -39,9 +38,8 @@ class Shot:
     follows; camera; highest: stress at the end of the colours [Pa], or None."""
 
     def __init__(self, results, look, pictures, sheet=False):
-        """pictures: about so many rows; sheet: the pictures have no title and no colour bar of their own"""
-        if len(results.time) < 2:
-            raise InputError(f"'{results.path}' holds no motion to show" + modes_to_show(results))
+        """pictures: about so many rows; sheet: the pictures have no title and no colour bar of their own.
+        @raises InputError if there is nothing to draw"""
         self.rows = np.asarray(results.frames(count=pictures, span=look.span))
         scene = make_scene(results, look.superelements)
         _tell(scene, results)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..rotations import rotation_matrices
+from ..scene.transforms import conjugate, placed, rotated
 from .colours import muted, rgb, stress_colours
 from .normals import corner_normals, split_at_edges
 
@@ -35,8 +36,8 @@ class Surfaces:
         self.count, poses, bones = 0, [], 0
         for part in scene.parts:
             if not hidden(part) and len(part.mesh.points):
-                self._add_rigid(part, bones)
                 poses.append(np.asarray(scene.poses(part, rows), float))
+                self._add_rigid(part, poses[-1], bones)
                 bones += poses[-1].shape[1]
         self.poses = np.concatenate(poses, axis=1) if poses else np.zeros((len(rows), 0, 8))
         shapes = {}
@@ -48,9 +49,9 @@ class Surfaces:
         self._join()
         self.highest = max((each.highest for each in self.flexible if each.highest is not None), default=None)
 
-    def _add_rigid(self, part, first_bone):
+    def _add_rigid(self, part, poses, first_bone):
         mesh = part.mesh
-        self._add(mesh.points, corner_normals(mesh.points, mesh.triangles), mesh.triangles, mesh.lines, part)
+        self._add(mesh.points, _bone_normals(mesh, poses), mesh.triangles, mesh.lines, part)
         self._bones.append(first_bone + np.asarray(mesh.bones, np.int64))
 
     def _add_flexible(self, part, shape, rows):
@@ -87,11 +88,9 @@ class Surfaces:
         """The Moment of the k-th row. highest: the stress at the end of the colours [Pa]"""
         points, normals, colours = np.empty_like(self.points), np.empty_like(self.normals), self.colours
         if len(self.rigid):
-            poses, bones = self.poses[k], self.bones[self.rigid]
-            R, stretch = rotation_matrices(poses[:, 3:7]), np.column_stack([np.ones((len(poses), 2)), poses[:, 7]])
-            local, turn = self.points[self.rigid] * stretch[bones], R[bones]
-            points[self.rigid] = poses[bones, :3] + np.einsum("nij,nj->ni", turn, local)
-            normals[self.rigid] = np.einsum("nij,nj->ni", turn, self.normals[self.rigid])
+            poses = self.poses[k][self.bones[self.rigid]]
+            points[self.rigid] = placed(poses, self.points[self.rigid])
+            normals[self.rigid] = rotated(poses[:, 3:7], self.normals[self.rigid])
         for each in self.flexible:
             points[each.place], normals[each.place] = each.at(k, self.scale)
             stress = each.stress(k) if highest else None
@@ -99,6 +98,17 @@ class Surfaces:
                 colours = colours.copy() if colours is self.colours else colours
                 colours[each.place, :3] = stress_colours(stress / highest)
         return Moment(points, normals, colours)
+
+
+def _bone_normals(mesh, poses):
+    """(n,3) normals in the axes of the bones, as they are in the first row that is known: a triangle may join several bones,
+    and a bone may be stretched."""
+    known = np.flatnonzero(np.isfinite(poses).all(axis=(1, 2)))
+    if not len(known):
+        return np.zeros((len(mesh.points), 3))
+    pose = poses[known[0]][mesh.bones]
+    normals = corner_normals(placed(pose, mesh.points), mesh.triangles)
+    return rotated(conjugate(pose[:, 3:7]), normals)
 
 
 class FlexibleShape:
