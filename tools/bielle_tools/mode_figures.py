@@ -81,7 +81,7 @@ def shapes(scenery, at):
     motions = [ModeMotion(scenery, number + 1, pictures=24) for number in range(count)]
     if not (scenery.nodes or scenery.beams or scenery.bodies):
         return []
-    images = frames.drawings(shot.Shot(motion.only(motion.farthest()), look, 1, sheet=True) for motion in motions)
+    images = frames.drawings(shot.Shot(motion.only(motion.farthest()), look, 1) for motion in motions)
     columns = min(4, count)
     lines = -(-count // columns)
     fig, axes = style.plt.subplots(lines, columns, figsize=(3.4 * columns, 3.0 * lines + 0.5), squeeze=False)

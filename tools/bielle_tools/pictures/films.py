@@ -1,6 +1,7 @@
 """Files of pictures: sheets of stills (PNG, PDF, SVG) and films (GIF, MP4)."""
 
 import base64
+import contextlib
 import io
 import os
 import shutil
@@ -26,9 +27,9 @@ def sheet(results, path, look, pictures=6):
     """Writes about `pictures` moments of the motion side by side. look: a Look"""
     shot = _prepared(results, look, pictures, sheet=True)
     with _opened(path) as file:
-        panels = list(drawn(shot))
-        grid = side_by_side(panels, min(COLUMNS, len(panels)))
-        whole = stacked([shot.paper.heading(grid.width, shot.title, ""), grid, *shot.bar(grid.width)])
+        whole = side_by_side(list(drawn(shot)), COLUMNS)
+        if shot.sheet:
+            whole = stacked([shot.paper.heading(whole.width, shot.title, ""), whole, *shot.bar(whole.width)])
         kind = os.path.splitext(path)[1].lower()
         if kind == ".svg":
             file.write(_svg(whole))
@@ -52,9 +53,16 @@ def _prepared(results, look, pictures, sheet):
     return Shot(results, look, pictures, sheet)
 
 
+@contextlib.contextmanager
 def _opened(path):
-    """The file to write, before anything is drawn in vain."""
-    return open(path, "wb")
+    """The file to write, before anything is drawn in vain. It is removed if that fails."""
+    with open(path, "wb") as file:
+        try:
+            yield file
+        except BaseException:
+            if os.path.isfile(path):
+                os.unlink(path)
+            raise
 
 
 def _write_gif(shot, file, seconds):
@@ -73,13 +81,15 @@ def _write_mp4(shot, file, seconds):
     with tempfile.TemporaryDirectory() as folder:
         target, encoder = os.path.join(folder, "film.mp4"), None
         try:
-            for picture in drawn(shot, _pixels):
-                pixels, size = picture
-                if encoder is None:
-                    encoder = _encoder(size, rate, target)
+            for pixels, size in drawn(shot, _pixels):
+                encoder = encoder or _encoder(size, rate, target)
                 encoder.stdin.write(pixels)
         except BrokenPipeError:
             pass  # its message tells why
+        except BaseException:
+            if encoder:
+                encoder.kill()
+            raise
         _, said = encoder.communicate()
         if encoder.returncode:
             raise InputError(f"'{file.name}': ffmpeg failed: {said.decode(errors='replace').strip()[-300:]}")

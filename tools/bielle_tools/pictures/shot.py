@@ -38,7 +38,7 @@ class Shot:
     follows; camera; highest: stress at the end of the colours [Pa], or None."""
 
     def __init__(self, results, look, pictures, sheet=False):
-        """pictures: about so many rows; sheet: the pictures have no title and no colour bar of their own.
+        """pictures: about so many rows; sheet: several pictures have no title and no colour bar of their own.
         @raises InputError if there is nothing to draw"""
         self.rows = np.asarray(results.frames(count=pictures, span=look.span))
         scene = make_scene(results, look.superelements)
@@ -85,8 +85,8 @@ class Shot:
         """Determines the sizes of letters, strips and drawing."""
         width, height = size or (WIDTH, None)
         letters = int(np.clip(min(width, 1.5 * (height or width)) / 52, 8, 28))
-        self.paper, self.sheet = Paper(letters), sheet
-        strips = self.paper.line * (2 if self.highest and not sheet else 1)
+        self.paper, self.sheet = Paper(letters), sheet and len(self.rows) > 1
+        strips = self.paper.line * (2 if self.highest and not self.sheet else 1)
         if height is None:
             height = 2 * round(width * float(np.clip(extent.aspect, *HEIGHTS)) / 2) + strips
         self.camera = Camera(extent, (width, max(height - strips, 8)), flat)
@@ -130,6 +130,6 @@ def _tell(scene, results):
         if entry in bodies:
             raise InputError(reason)
     for entry, reason in scene.notes[:MOST_NOTES]:
-        note(f"'{entry}' is not drawn: {reason}")
+        note(reason if entry.startswith("/") else f"'{entry}' is not drawn: {reason}")
     if len(scene.notes) > MOST_NOTES:
         note(f"{len(scene.notes) - MOST_NOTES} more entries are not drawn")

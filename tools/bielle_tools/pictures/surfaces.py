@@ -47,7 +47,7 @@ class Surfaces:
                     shapes[id(part.body)] = FlexibleShape(part.body)
                 self._add_flexible(part, shapes[id(part.body)], rows)
         self._join()
-        self.highest = max((each.highest for each in self.flexible if each.highest is not None), default=None)
+        self.highest = max((each.highest for each in self.flexible if np.isfinite(each.highest)), default=None)
 
     def _add_rigid(self, part, poses, first_bone):
         mesh = part.mesh
@@ -136,16 +136,14 @@ class FlexibleShape:
 
 
 class FlexibleMotion:
-    """An instance of a flexible body over the rows. highest: its largest stress over them [Pa], None without stresses."""
+    """An instance of a flexible body over the rows. highest: its largest stress over them [Pa], not a number without stresses."""
 
     def __init__(self, place, shape, frame, coordinates, plain):
         """place: its points among all; frame (rows,7); coordinates (rows,n); plain: without stresses"""
         self.place, self.shape, self.frame, self.coordinates = place, shape, np.asarray(frame, float), np.asarray(coordinates, float)
         self.stressed = shape.stresses is not None and len(shape.stresses) > 0 and not plain
-        self.highest = None
-        if self.stressed:
-            largest = [np.fmax.reduce(shape.von_mises(q)) for q in self.coordinates]
-            self.highest = float(np.fmax.reduce(largest)) if len(largest) else 0.0
+        largest = [np.fmax.reduce(shape.von_mises(q)) for q in self.coordinates] if self.stressed else []
+        self.highest = float(np.fmax.reduce(largest)) if len(largest) else np.nan
 
     def at(self, k, scale):
         """Points and normals, inertial. Normals turn with the frame: elastic rotations are small."""

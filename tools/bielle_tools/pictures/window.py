@@ -10,6 +10,7 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  pylint: disable=unused-impo
 
 FINER = 2  # pixels of VTK along each side of a pixel of the image: smooth edges, in less time than by multisampling
 BEHIND = 0.01  # of half the picture's height: how far a painted state is moved away where it coincides with another
+BEFORE = 0.002  # of it: how far lines are moved towards the viewer, so that surfaces on which they lie do not hide them
 LIGHTS = (((-0.4, 0.7, 1.0), 0.75), ((0.8, -0.1, 0.6), 0.25))  # directions towards them in view axes, and intensities
 
 
@@ -101,7 +102,10 @@ class _Mesh:
     def update(self, points, normals, colours):
         if not len(self.used):
             return
-        self.data.GetPoints().SetData(_array(points[self.used], np.float32))
+        place = points[self.used]
+        if self.lines:
+            place[:, 2] += BEFORE
+        self.data.GetPoints().SetData(_array(place, np.float32))
         if not self.lines:
             self.data.GetPointData().SetNormals(_array(normals[self.used], np.float32))
         self.data.GetPointData().SetScalars(_array(colours[self.used], np.uint8))
