@@ -79,7 +79,7 @@ class Camera:
         """extent: an Extent with points in it"""
         self.axes, self.size, self.flat = extent.axes, size, flat
         ratio = size[0] / size[1]
-        smallest = 1e-6 * max(float(np.abs([extent.low, extent.high]).max()), 1e-6)
+        smallest = 1e-10 * max(float(np.abs([extent.low, extent.high]).max()), 1e-9)
         middle = 0.5 * (extent.low + extent.high)
         self.depth = max(float(extent.high[2] - extent.low[2]), smallest)
         if flat:

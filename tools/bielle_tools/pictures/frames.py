@@ -3,8 +3,10 @@
 import contextlib
 import multiprocessing
 import os
+import threading
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import connection
 
 from .display import virtual_display
 from .window import Window
@@ -32,7 +34,7 @@ def drawn(shot, finish=None, processes=None):
         os.environ.setdefault("LP_NUM_THREADS", "0")  # each process draws by itself
         _at_work[:] = [shot, None, finish]
         try:
-            with ProcessPoolExecutor(processes, mp_context=multiprocessing.get_context("fork")) as pool:
+            with ProcessPoolExecutor(processes, multiprocessing.get_context("fork"), initializer=_end_with_parent) as pool:
                 yield from pool.map(_draw, range(count), chunksize=max(1, count // (4 * processes)))
         except BrokenProcessPool:
             raise MemoryError from None  # the system ended one
@@ -58,6 +60,15 @@ def _open_window(shot):
         yield window
     finally:
         window.close()
+
+
+def _end_with_parent():
+    """Ends this process when its parent ends, whatever ends it."""
+    def watch():
+        connection.wait([multiprocessing.parent_process().sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _draw(k):
