@@ -13,7 +13,7 @@ import warnings
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 # The last one: reading does not end.
 CRASHES = (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL, signal.SIGPROF)
-PACKAGES = {"vtkmodules": "vtk9"}  # of Debian, where they have other names than the modules
+PACKAGES = {"vtkmodules": "vtk9"}  # Debian's packages with other names than their modules
 longest_reading = 0  # [s] of processor time in one call; 0: without limit. A process that crashes alone has one
 
 

@@ -28,7 +28,7 @@ from bielle_tools.results_file import Results  # noqa: E402
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-animate")
 RED, BLUE = "#ff0000", "#0000ff"
-SIDE, TRAVEL = 0.2, 1.0  # of the red box, and how far it goes along x [m]
+SIDE, TRAVEL = 0.2, 1.0  # the side of the red box, and its way along x [m]
 
 
 class Pictures(InFolder):

@@ -12,7 +12,7 @@ from .display import virtual_display
 from .window import Window
 
 FEWEST = 4   # pictures per process: fewer are drawn sooner than a process starts
-_at_work = []  # of a process that draws: the Shot, its Window and the function that finishes pictures
+_at_work = []  # a process that draws keeps the Shot, its Window and the function that finishes pictures here
 
 
 def drawn(shot, finish=None, processes=None):

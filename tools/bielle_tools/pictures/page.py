@@ -3,9 +3,9 @@
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from ..messages import InputError
 from .colours import stress_colours
 
-FONTS = ("DejaVuSans{}.ttf", "LiberationSans-{}.ttf")
 INK, QUIET = (30, 33, 38), (95, 102, 112)
 
 
@@ -95,10 +95,7 @@ def _shortened(draw, text, font, room):
 
 
 def _font(size, bold):
-    for name in FONTS:
-        try:
-            plain = "" if "DejaVu" in name else "Regular"
-            return ImageFont.truetype(name.format("-Bold" if bold and not plain else "Bold" if bold else plain), size)
-        except OSError:
-            continue
-    return ImageFont.load_default()
+    try:
+        return ImageFont.truetype(f"DejaVuSans{'-Bold' if bold else ''}.ttf", size)
+    except OSError:
+        raise InputError("drawing needs the letters DejaVu Sans (Debian package fonts-dejavu-core): run tools/install") from None

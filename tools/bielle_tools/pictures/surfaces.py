@@ -16,7 +16,7 @@ from .normals import corner_normals, split_at_edges
 
 @dataclass
 class Moment:
-    """What is drawn at a row: points (n,3) inertial [m], normals (n,3), colours (n,4) uint8 with opacity."""
+    """A row as it is drawn: points (n,3) inertial [m], normals (n,3), colours (n,4) uint8 with opacity."""
 
     points: np.ndarray
     normals: np.ndarray

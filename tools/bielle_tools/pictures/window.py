@@ -9,8 +9,8 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  pylint: disable=unused-import
 
 FINER = 2  # pixels of VTK along each side of a pixel of the image: smooth edges, in less time than by multisampling
-BEHIND = 0.01  # of half the picture's height: how far a painted state is moved away where it coincides with another
-BEFORE = 0.002  # of it: how far lines are moved towards the viewer, so that surfaces on which they lie do not hide them
+BEHIND = 0.01  # a painted state is moved away so far, in halves of the picture's height, lest it meets another
+BEFORE = 0.002  # lines are moved towards the viewer so far, lest surfaces on which they lie hide them
 LIGHTS = (((-0.4, 0.7, 1.0), 0.75), ((0.8, -0.1, 0.6), 0.25))  # directions towards them in view axes, and intensities
 
 
