@@ -1,0 +1,77 @@
+"""Arrows of what the results record: reactions, contact forces, loads, velocities; with their points of application."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..messages import InputError
+from .drawing import place_of
+
+KINDS = ("reactions", "contact forces", "loads", "velocities")
+MOST = 4000  # arrows of a scene
+
+
+@dataclass
+class Arrow:
+    """origin (rows,3) [m]; vector (rows,3) in `units`, inertial; largest: its largest length in the rows."""
+    entry: str
+    kind: str
+    units: str
+    origin: np.ndarray
+    vector: np.ndarray
+    largest: float
+
+
+def arrows_of(scene, rows):
+    """All arrows of a scene that are not zero throughout."""
+    found = []
+    for entry, kind, units, origin, vector in _candidates(scene, rows):
+        known = np.isfinite(origin).all(axis=1) & np.isfinite(vector).all(axis=1)
+        vector = np.where(known[:, None], vector, 0)
+        largest = float(np.linalg.norm(vector, axis=1).max(initial=0))
+        if largest > 0:
+            found.append(Arrow(entry, kind, units, np.where(known[:, None], origin, 0), vector, largest))
+        if len(found) >= MOST:
+            break
+    return found
+
+
+def _candidates(scene, rows):
+    results, motion = scene.results, scene.motion_of_nodes
+    for item in scene.items:
+        try:
+            if item["shape"] == "joint" and results.has(f"{item['entry']}/reaction_inertial"):
+                yield (item["entry"], "reactions", "N", motion.position(place_of(item["frames"][1]), rows),
+                       results.rows(f"{item['entry']}/reaction_inertial")[rows, :3])
+            elif item["shape"] == "force" and results.has(f"{item['entry']}/force"):
+                force = results.rows(f"{item['entry']}/force")
+                if force.ndim == 2 and force.shape[1] == 3:
+                    yield item["entry"], "loads", "N", motion.position(place_of(item), rows), force[rows]
+        except (InputError, KeyError, TypeError, ValueError, IndexError):
+            continue
+    for section, function in (("supports", _support), ("contacts", _contact), ("nodes", _velocity)):
+        for name in results.names(section):
+            try:
+                yield from function(scene, name, rows)
+            except (InputError, KeyError, ValueError):
+                continue
+
+
+def _support(scene, name, rows):
+    if scene.results.has(f"supports/{name}/reaction"):
+        yield (f"nodes/{name}", "reactions", "N", scene.motion_of_nodes.node(name)[0][rows],
+               scene.results.rows(f"supports/{name}/reaction")[rows, :3])
+
+
+def _contact(scene, name, rows):
+    place = f"contacts/{name}"
+    if scene.results.has(f"{place}/point") and scene.results.has(f"{place}/force"):
+        force = scene.results.rows(f"{place}/force")[rows]
+        force = force.sum(axis=1) if force.ndim == 3 else force
+        yield f"joints/{name}", "contact forces", "N", scene.results.rows(f"{place}/point")[rows], force
+
+
+def _velocity(scene, name, rows):
+    if scene.results.has(f"nodes/{name}/velocity"):
+        yield (f"nodes/{name}", "velocities", "m/s", scene.motion_of_nodes.node(name)[0][rows],
+               scene.results.rows(f"nodes/{name}/velocity")[rows, :3])

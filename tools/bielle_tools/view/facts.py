@@ -1,0 +1,65 @@
+"""Facts about entries: their keys in the input file, gaps and redundancy of joints, events."""
+
+import numpy as np
+import yaml
+
+from ..messages import InputError
+from ..scene.drawing import place_of
+
+COINCIDENT = ("hinge", "spherical", "universal", "constant_velocity", "rigid")  # joints whose two frames have one origin
+LONGEST = 160  # characters of a value
+
+
+def keys_of(results):
+    """{entry: [[key, value as written]]} of the input file; entries that parts and repetitions make have none."""
+    try:
+        tree = yaml.load(results.text_of("input"), Loader=yaml.BaseLoader)
+    except (yaml.YAMLError, RecursionError):
+        return {}
+    found = {}
+    for section, entries in (tree.items() if isinstance(tree, dict) else ()):
+        for name, entry in (entries.items() if isinstance(entries, dict) else ()):
+            if isinstance(entry, dict):
+                found[f"{section}/{name}"] = [[str(key), _written(value)] for key, value in entry.items()]
+    return found
+
+
+def _written(value):
+    text = "{" + ", ".join(f"{key}: {_written(each)}" for key, each in value.items()) + "}" if isinstance(value, dict) else \
+        "[" + ", ".join(map(_written, value)) + "]" if isinstance(value, list) else str(value)
+    return text if len(text) <= LONGEST else text[:LONGEST] + ".."
+
+
+def joint_facts(scene, rows):
+    """{entry: {gap: largest distance of frames that should coincide [m], redundant: true}}"""
+    found = {}
+    for item in scene.items:
+        if item["shape"] != "joint":
+            continue
+        facts = {}
+        try:
+            if item["type"] in COINCIDENT:
+                a, b = (scene.motion_of_nodes.position(place_of(frame), rows) for frame in item["frames"])
+                gap = float(np.nanmax(np.linalg.norm(b - a, axis=1), initial=0))
+                if gap > 1e-7 * scene.size:
+                    facts["gap"] = gap
+            if scene.results.has(f"{item['entry']}/reaction_unique") and not np.all(scene.results.array(f"{item['entry']}/reaction_unique")):
+                facts["redundant"] = True
+        except (InputError, KeyError, TypeError, ValueError, AttributeError):
+            continue
+        if facts:
+            found[item["entry"]] = facts
+    return found
+
+
+def events_of(results):
+    """[[time, name]] of the crossings of a dynamic analysis."""
+    try:
+        if "events" not in results.root:
+            return []
+        names = results.text_of("crossings").splitlines()
+        group = results.root["events"]
+        return [[float(time), names[int(which)] if 0 <= int(which) < len(names) else "event"]
+                for time, which in zip(group["time"][:2000], group["crossing"][:2000])]
+    except (KeyError, OSError, TypeError, ValueError, AttributeError, RuntimeError):
+        return []

@@ -1,0 +1,105 @@
+// Shaders: rigid parts on bones of a texture, flexible bodies with their own points, one light for both.
+
+const LIGHT = `
+  vec3 lit(vec3 base, vec3 normal) {
+    vec3 n = normalize(normal);
+    if (n.z < 0.0) n = -n;
+    float key = max(dot(n, normalize(vec3(0.35, 0.65, 0.75))), 0.0), fill = max(dot(n, normalize(vec3(-0.7, 0.1, 0.5))), 0.0);
+    float shine = pow(max(dot(n, normalize(vec3(0.2, 0.4, 1.0))), 0.0), 40.0);
+    return base * (0.46 + 0.5 * key + 0.16 * fill) + vec3(0.10 * shine);
+  }`;
+
+const TEXEL = `
+  vec4 texel(sampler2D table, vec2 size, float index) {
+    float row = floor((index + 0.5) / size.x);
+    return texture2D(table, (vec2(index - row * size.x, row) + 0.5) / size);
+  }`;
+
+const PLACED = `
+  uniform sampler2D bones, looks;
+  uniform vec2 boneSize, lookSize;
+  attribute float bone, owner;
+  ${TEXEL}
+  vec3 turned(vec4 q, vec3 p) { vec3 t = 2.0 * cross(q.yzw, p); return p + q.x * t + cross(q.yzw, t); }
+  vec4 stretched() { return texel(bones, boneSize, 2.0 * bone); }
+  vec4 rotation() { return texel(bones, boneSize, 2.0 * bone + 1.0); }`;
+
+const RIGID_VERTEX = `
+  ${PLACED}
+  uniform float clear;
+  varying vec3 vNormal;
+  varying vec4 vLook;
+  void main() {
+    vec4 a = stretched(), q = rotation();
+    vLook = texel(looks, lookSize, owner);
+    vec3 p = a.xyz + turned(q, vec3(position.xy, position.z * a.w));
+    vNormal = normalMatrix * turned(q, vec3(normal.xy * a.w, normal.z));
+    bool mine = vLook.a > 0.002 && (vLook.a < 0.995) == (clear > 0.5);
+    gl_Position = mine ? projectionMatrix * modelViewMatrix * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+  }`;
+
+const RIGID_FRAGMENT = `
+  varying vec3 vNormal;
+  varying vec4 vLook;
+  ${LIGHT}
+  void main() { gl_FragColor = vec4(lit(vLook.rgb, vNormal), vLook.a); }`;
+
+const LINE_FRAGMENT = `
+  varying vec4 vLook;
+  void main() { gl_FragColor = vec4(vLook.rgb * 0.75, min(1.0, 1.6 * vLook.a)); }`;
+
+const PICK_VERTEX = `
+  ${PLACED}
+  uniform float first;
+  varying vec3 vCode;
+  void main() {
+    vec4 a = stretched(), q = rotation(), look = texel(looks, lookSize, owner);
+    float number = owner + first;
+    vCode = vec3(mod(number, 256.0), mod(floor(number / 256.0), 256.0), floor(number / 65536.0)) / 255.0;
+    vec3 p = a.xyz + turned(q, vec3(position.xy, position.z * a.w));
+    gl_Position = look.a > 0.002 ? projectionMatrix * modelViewMatrix * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+  }`;
+
+const PICK_FRAGMENT = `
+  varying vec3 vCode;
+  void main() { gl_FragColor = vec4(vCode, 1.0); }`;
+
+const FLEXIBLE_VERTEX = `
+  attribute float value;
+  varying float vValue;
+  varying vec3 vView;
+  void main() {
+    vValue = value;
+    vec4 view = modelViewMatrix * vec4(position, 1.0);
+    vView = view.xyz;
+    gl_Position = projectionMatrix * view;
+  }`;
+
+const FLEXIBLE_FRAGMENT = `
+  uniform vec4 look;
+  uniform sampler2D scale;
+  uniform vec2 range;
+  varying float vValue;
+  varying vec3 vView;
+  ${LIGHT}
+  void main() {
+    vec3 n = cross(dFdx(vView), dFdy(vView));
+    float share = (vValue - range.x) / max(range.y - range.x, 1e-30);
+    vec3 base = vValue < -1e29 || range.y <= range.x ? look.rgb : texture2D(scale, vec2(clamp(share, 0.002, 0.998), 0.5)).rgb;
+    gl_FragColor = vec4(lit(base, length(n) > 0.0 ? n : vec3(0.0, 0.0, 1.0)), look.a);
+  }`;
+
+// Colours of stresses: blue, green, yellow, red, readable in grey from dark to light and back only at the end.
+const SCALE = ["#30123b", "#4662d7", "#36aaf9", "#1ae4b6", "#72fe5e", "#c7ef34", "#faba39", "#f66b19", "#ca2a04", "#7a0403"];
+
+function scaleTexture() {
+  const data = new Uint8Array(4 * 256), stops = SCALE.map(text => new THREE.Color(text));
+  for (let k = 0; k < 256; k++) {
+    const x = k / 255 * (stops.length - 1), i = Math.min(Math.floor(x), stops.length - 2), c = stops[i].clone().lerp(stops[i + 1], x - i);
+    data.set([255 * c.r, 255 * c.g, 255 * c.b, 255], 4 * k);
+  }
+  const texture = new THREE.DataTexture(data, 256, 1, THREE.RGBAFormat);
+  texture.minFilter = texture.magFilter = THREE.LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,145 @@
+"""A scene for the page: meshes of rigid parts in one batch, flexible bodies with quantised shapes, tracks, labels."""
+
+import numpy as np
+
+from ..scene.arrows import arrows_of
+from .pack import quantised
+from .tracks import Tracks, in_units
+
+UNIT_TRACK = 127  # normals are bytes
+
+
+class SceneData:
+    """Describes scenes in units of one size about one centre; bodies of several scenes are stored once."""
+
+    def __init__(self, pack, centre, size):
+        self.pack, self.centre, self.size = pack, centre, size
+        self.bodies, self._numbers = [], {}
+        self.errors = {"position": 0.0, "rotation": 0.0, "shape": 0.0, "stress": 0.0}
+
+    def described(self, scene, rows):
+        """The scene at these rows, for the page."""
+        tracks = Tracks(len(rows))
+        parts = [(part, tracks.add(in_units(scene.poses(part, rows), self.centre, self.size))) for part in scene.parts]
+        found = {"batch": self._batch(parts), "parts": [self._part(part, numbers) for part, numbers in parts],
+                 "flexible": [self._flexible(part, rows, tracks) for part in scene.flexible],
+                 "anchors": self._anchors(scene, parts), "arrows": self._arrows(scene, rows, tracks)}
+        found["tracks"], position, rotation = tracks.stored(self.pack)
+        self._largest(position=position, rotation=rotation)
+        return found
+
+    def _largest(self, **errors):
+        for name, value in errors.items():
+            self.errors[name] = max(self.errors[name], float(value))
+
+    @staticmethod
+    def _part(part, numbers):
+        return {"entry": part.entry, "type": part.type, "colour": part.colour, "opacity": part.opacity, "group": part.group, "track": numbers[0] if numbers else 0}
+
+    def _batch(self, parts):
+        """All rigid meshes as one: points, normals, number of track and of part of each point."""
+        points, normals, bones, owners, triangles, lines, start = [], [], [], [], [], [], 0
+        for number, (part, tracks) in enumerate(parts):
+            mesh = part.mesh
+            points.append(mesh.points / np.array([self.size, self.size, self._unit(mesh, part)]))
+            normals.append(_normals(mesh))
+            bones.append(np.asarray(tracks, int)[mesh.bones] if len(mesh.points) else np.zeros(0, int))
+            owners.append(np.full(len(mesh.points), number))
+            triangles.append(mesh.triangles + start)
+            lines.append(mesh.lines + start)
+            start += len(mesh.points)
+        add, join = self.pack.add, lambda pieces, width: np.concatenate(pieces) if pieces else np.zeros((0, width))
+        return {"points": add(join(points, 3), "f4"), "normals": add(np.round(127 * join(normals, 3)), "i1"), "bones": add(join(bones, 1), "i4"),
+                "owners": add(join(owners, 1), "i4"), "triangles": add(join(triangles, 3), "i4"), "lines": add(join(lines, 2), "i4")}
+
+    def _unit(self, mesh, part):  # pylint: disable=unused-argument
+        return self.size
+
+    def _flexible(self, part, rows, tracks):
+        frame, q = part.frame(rows), part.coordinates(rows)
+        pose = np.concatenate([frame, np.ones((len(frame), 1))], axis=1)[:, None]
+        number = self._body(part.body, q)
+        return {"entry": part.entry, "type": part.type, "colour": part.colour, "opacity": part.opacity, "group": "body", "body": number,
+                "track": tracks.add(in_units(pose, self.centre, self.size))[0], "coordinates": self.pack.add(np.nan_to_num(q), "f4"),
+                "missing": [int(row) for row in np.flatnonzero(~np.isfinite(q).all(axis=1))], **self._peaks(part.body, q)}
+
+    def _body(self, body, q):
+        key = (body.path, body.piece)
+        if key not in self._numbers:
+            self._numbers[key] = len(self.bodies)
+            add = self.pack.add
+            shapes, scale = self._quantised(body.shapes / self.size)
+            found = {"points": add(body.points / self.size, "f4"), "triangles": add(body.triangles, "i4"), "shapes": add(shapes, "i2"),
+                     "scale": add(scale, "f4"), "count": len(body.shapes), "nodes": add(body.nodes, "i4")}
+            if body.stress is not None:
+                stress, stress_scale = self._quantised(body.stress)
+                found.update(stress=add(stress, "i2"), stress_scale=add(stress_scale, "f4"), stressed=add(body.stressed, "u1"))
+            self.bodies.append(found)
+        self._judge(body, q)
+        return self._numbers[key]
+
+    @staticmethod
+    def _quantised(shapes):
+        """(integers, factors): shape k is factor k times its integers."""
+        scale = np.abs(shapes).reshape(len(shapes), -1).max(axis=1, initial=0).astype(np.float32) / np.float32(32767)
+        whole = np.round(shapes / np.where(scale > 0, scale, 1)[:, None, None])
+        return np.clip(whole, -32767, 32767).astype(np.int16), scale
+
+    def _judge(self, body, q):
+        """Measures the error of deformation and stress by quantised shapes at up to eight rows."""
+        known = q[np.isfinite(q).all(axis=1)]
+        known = known[np.unique(np.linspace(0, len(known) - 1, 8).astype(int))] if len(known) else known
+        for name, shapes in (("shape", body.shapes / self.size), ("stress", body.stress)):
+            if shapes is None or not len(known) or not shapes.size:
+                continue
+            whole, scale = self._quantised(shapes)
+            exact = np.tensordot(known, shapes, axes=1)
+            error = np.abs(np.tensordot(known, whole * scale.astype(float)[:, None, None], axes=1) - exact).max()
+            largest = 1.0 if name == "shape" else np.abs(exact).max(initial=0)
+            self._largest(**{name: error / largest if largest > 0 else 0.0})
+
+    def _peaks(self, body, q):
+        """Largest von Mises stress of each point over the rows [Pa], and of all."""
+        if body.stress is None:
+            return {}
+        peak = np.zeros(len(body.points))
+        for block in np.array_split(q[np.isfinite(q).all(axis=1)], max(1, len(q) // 16)):
+            s = np.tensordot(block, body.stress, axes=1)
+            xx, yy, zz, yz, xz, xy = np.moveaxis(s, -1, 0)
+            squares = 0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (yz ** 2 + xz ** 2 + xy ** 2)
+            peak = np.maximum(peak, squares.max(axis=0, initial=0))
+        peak = np.sqrt(peak)
+        whole, low, step = quantised(peak, (0,))
+        return {"peak": {"data": self.pack.add(whole, "i2"), "low": float(low[0]), "step": float(step[0])}, "largest": float(peak.max(initial=0))}
+
+    def _anchors(self, scene, parts):
+        numbers = {id(part): tracks for part, tracks in parts}
+        flexible = {id(part): k for k, part in enumerate(scene.flexible)}
+        found = []
+        for anchor in scene.anchors:
+            point = [float(x) for x in anchor.point / self.size]
+            if id(anchor.part) in numbers:
+                found.append({"entry": anchor.entry, "track": numbers[id(anchor.part)][anchor.bone], "point": point})
+            else:
+                found.append({"entry": anchor.entry, "flexible": flexible[id(anchor.part)], "point": point})
+        return found
+
+    def _arrows(self, scene, rows, tracks):
+        found = []
+        for arrow in arrows_of(scene, rows):
+            x = (arrow.origin - self.centre) / self.size
+            found.append({"entry": arrow.entry, "kind": arrow.kind, "units": arrow.units, "origin": self.pack.add(np.nan_to_num(x), "f4"),
+                          "vector": self.pack.add(np.nan_to_num(arrow.vector), "f4"), "largest": arrow.largest})
+        return found
+
+
+def _normals(mesh):
+    """(n,3) unit normals: sums of those of the triangles at each point, weighted by area."""
+    normals = np.zeros((len(mesh.points), 3))
+    if len(mesh.triangles):
+        a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+        each = np.cross(b - a, c - a)
+        for k in range(3):
+            normals[:, k] = np.bincount(mesh.triangles.ravel(), weights=np.repeat(each[:, k], 3), minlength=len(normals))
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.where(length > 0, normals / np.where(length > 0, length, 1), [0, 0, 1.0])
