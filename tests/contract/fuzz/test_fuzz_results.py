@@ -1,5 +1,6 @@
 """The tools on results and superelement files with damaged bytes, structures and numbers."""
 
+import copy
 import importlib.machinery
 import importlib.util
 import os
@@ -13,6 +14,7 @@ import numpy as np
 
 from fuzzing import KEEP, NEVER, FuzzTest, damaged_bytes
 from test_fuzz_hdf5 import changed, near_structures, rewritten
+import drawn_results
 import synthetic_modes
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY
@@ -32,6 +34,21 @@ def module_of(name):
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module
+
+
+def changed_item(rng, item):
+    """An item of a drawing, one in three with a value that does not fit or without it."""
+    if rng.random() < 0.67:
+        return item
+    holder, key = item, rng.choice(sorted(set(item) - {"entry"}))
+    while isinstance(holder[key], (dict, list)) and holder[key] and rng.random() < 0.7:
+        holder, inside = holder[key], holder[key]
+        key = rng.choice(sorted(inside)) if isinstance(inside, dict) else rng.randrange(len(inside))
+    if rng.random() < 0.2 and isinstance(holder, dict):
+        del holder[key]
+    else:
+        holder[key] = rng.choice([None, -1, 0, 1e300, 1e-300, float("nan"), "text", [], {}, [1, 2], [[0, 0, 0]], True, 2**70])
+    return item
 
 
 class Results(FuzzTest):
@@ -113,6 +130,13 @@ class Results(FuzzTest):
         for case, rng in self.cases(10):
             self.judge_tools(case, self.damaged(rng, "sound_modes.h5", "run.h5"), ["bielle-plot", "bielle-animate", "bielle-paraview"],
                              ["--mode", "1"])
+
+    def test_drawings(self):
+        nodes, items, meshes = drawn_results.every_shape(7)
+        for case, rng in self.cases(12):
+            drawn_results.write_results(self.path("run.h5"), nodes, [changed_item(rng, item) for item in copy.deepcopy(items)], meshes=meshes)
+            note = changed(rng, self.path("run.h5")) if rng.random() < 0.5 else "items"
+            self.judge_tools(case, note, ["bielle-animate"], ["--size", "100x100", "--labels"])
 
     def test_superelements(self):
         shutil.copy(self.path("sound.h5"), self.path("run.h5"))

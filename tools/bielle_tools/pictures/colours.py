@@ -19,8 +19,8 @@ def stress_colours(share):
 
 def rgb(colour):
     """`#rrggbb` -> three shares of 1"""
-    text = colour.lstrip("#")
-    return tuple(int(text[k:k + 2], 16) / 255 for k in (0, 2, 4))
+    number = int(colour[1:], 16)
+    return tuple((number >> shift & 255) / 255 for shift in (16, 8, 0))
 
 
 def muted(colour):

@@ -12,6 +12,9 @@ from ..rigid_bodies import rigid_bodies
 from .motion import Place
 
 FORMAT, VERSION = "bielle drawing", 1
+# How the keys of all shapes are judged.
+LOOKS = {"type": lambda value: isinstance(value, str),
+         "opacity": lambda value: isinstance(value, (int, float)) and 0 <= value <= 1}
 
 
 class Drawing:
@@ -41,11 +44,15 @@ class Drawing:
             self.notes.append(("/drawing", f"it cannot be read: {error}"))
 
     def _usable(self, item):
-        if isinstance(item, dict) and all(isinstance(item.get(key), str) for key in ("entry", "shape")):
-            item.setdefault("type", item["shape"])
-            return True
-        self.notes.append(("/drawing", "an item has no entry or no shape"))
-        return False
+        if not isinstance(item, dict) or not all(isinstance(item.get(key), str) for key in ("entry", "shape")):
+            self.notes.append(("/drawing", "an item has no entry or no shape"))
+            return False
+        item.setdefault("type", item["shape"])
+        for key, fits in LOOKS.items():
+            if key in item and not fits(item[key]):
+                self.notes.append((item["entry"], f"its key '{key}' is {json.dumps(item[key])[:40]}"))
+                return False
+        return True
 
     def mesh(self, name):
         """Points (n,3) and triangles (m,3) of a mesh in the file. @raises InputError"""
