@@ -101,7 +101,8 @@ class ModeScenery:
         self.base, self.row = self._state()
         self.bodies = {}
         if self.base is None:
-            if re.search(r"\btype\s*:\s*[\"']?(superelement|rigid_body)\b", modes.results.text_of("input")):
+            kinds = "superelement" if modes.results.text_of("drawing") else "superelement|rigid_body"  # a drawing has the shapes of rigid ones
+            if re.search(rf"\btype\s*:\s*[\"']?({kinds})\b", modes.results.text_of("input")):
                 note("bodies are left out: no analysis of the file has rows of this state; list {type: assembly} before 'eigen'")
             return
         for name in self.base.elements_with("frame", "coordinates"):

@@ -5,6 +5,7 @@ import numpy as np
 # ColorBrewer's YlOrRd of nine classes (Brewer and Harrower, 2002), interpolated between them.
 ANCHORS = np.array([[255, 255, 204], [255, 237, 160], [254, 217, 118], [254, 178, 76], [253, 141, 60], [252, 78, 42], [227, 26, 28],
                     [189, 0, 38], [128, 0, 38]], float)
+DARKEST = 0.13
 UNKNOWN = (150, 160, 170)  # nodes without stress
 
 
@@ -18,9 +19,9 @@ def stress_colours(share):
 
 
 def rgb(colour):
-    """`#rrggbb` -> three shares of 1"""
+    """`#rrggbb` -> three shares of 1, not so dark that shading does not show."""
     number = int(colour[1:], 16)
-    return tuple((number >> shift & 255) / 255 for shift in (16, 8, 0))
+    return tuple(max((number >> shift & 255) / 255, DARKEST) for shift in (16, 8, 0))
 
 
 def muted(colour):

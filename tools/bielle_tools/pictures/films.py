@@ -12,7 +12,7 @@ import numpy as np
 from PIL import Image
 
 from ..messages import InputError
-from ..results_file import modes_to_show
+from ..results_file import Results, modes_to_show
 from .frames import drawn
 from .page import side_by_side, stacked
 from .shot import Shot
@@ -48,7 +48,7 @@ def film(results, path, look, pictures=60, seconds=6.0):
 
 
 def _prepared(results, look, pictures, sheet):
-    if len(results.time) < 2:
+    if len(results.time) < 2 and isinstance(results, Results):
         raise InputError(f"'{results.path}' holds no motion to show" + modes_to_show(results))
     return Shot(results, look, pictures, sheet)
 

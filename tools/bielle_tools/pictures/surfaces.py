@@ -14,6 +14,9 @@ from .colours import muted, rgb, stress_colours
 from .normals import corner_normals, split_at_edges
 
 
+LEAST_STRESS = 1.0  # [Pa]; rounding leaves less in a body at rest, which gets no colours
+
+
 @dataclass
 class Moment:
     """A row as it is drawn: points (n,3) inertial [m], normals (n,3), colours (n,4) uint8 with opacity."""
@@ -47,7 +50,7 @@ class Surfaces:
                     shapes[id(part.body)] = FlexibleShape(part.body)
                 self._add_flexible(part, shapes[id(part.body)], rows)
         self._join()
-        self.highest = max((each.highest for each in self.flexible if np.isfinite(each.highest)), default=None)
+        self.highest = max((each.highest for each in self.flexible if each.highest > LEAST_STRESS), default=None)
 
     def _add_rigid(self, part, poses, first_bone):
         mesh = part.mesh

@@ -11,7 +11,7 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  pylint: disable=unused-impo
 FINER = 2  # pixels of VTK along each side of a pixel of the image: smooth edges, in less time than by multisampling
 BEHIND = 0.01  # a painted state is moved away so far, in halves of the picture's height, lest it meets another
 BEFORE = 0.002  # lines are moved towards the viewer so far, lest surfaces on which they lie hide them
-LIGHTS = (((-0.4, 0.7, 1.0), 0.75), ((0.8, -0.1, 0.6), 0.25))  # directions towards them in view axes, and intensities
+LIGHTS = (((-0.4, 0.7, 1.0), 0.72), ((0.8, -0.6, 0.7), 0.28))  # directions towards them in view axes, and intensities
 
 
 class Window:
@@ -90,8 +90,8 @@ class _Mesh:
         actor.SetForceTranslucent(translucent)
         actor.SetForceOpaque(not translucent)
         look = actor.GetProperty()
-        look.SetAmbient(1.0 if lines else 0.36)
-        look.SetDiffuse(0.0 if lines else 0.84)
+        look.SetAmbient(1.0 if lines else 0.42)
+        look.SetDiffuse(0.0 if lines else 0.78)
         look.SetSpecular(0.0 if lines else 0.12)
         look.SetSpecularPower(20)
         look.SetLineWidth(1.5 * FINER)

@@ -5,7 +5,7 @@ import numpy as np
 from ..messages import InputError
 from . import templates as t
 from .parts import Mesh
-from .transforms import pose
+from .transforms import IDENTITY, conjugate, from_z, pose, product, rotated
 
 
 def beam_motion(results, element):
@@ -17,10 +17,41 @@ def beam_motion(results, element):
 
     def poses(rows):
         if not kept:
-            kept.append((results.rows(f"{place}/position"), results.rows(f"{place}/rotation")))
+            kept.append(with_section_axes(results.rows(f"{place}/position"), results.rows(f"{place}/rotation")))
         x, q = kept[0]
         return pose(x[rows], q[rows])
     return poses, results.shape(f"{place}/position")[1]
+
+
+def with_section_axes(x, q):
+    """Positions (nt,n,3), and rotations (nt,n,4) of the section: those of inner nodes are recorded so, but those of the ends are of
+    nodes with axes of their own. The section is fixed to an end node; its axes there continue those of the inner nodes in the first
+    row, with their curvature and twist, or are along the beam if it has no inner nodes."""
+    known = np.flatnonzero(np.isfinite(x).all(axis=(1, 2)) & np.isfinite(q).all(axis=(1, 2)))
+    if not len(known) or x.shape[1] < 2:
+        return x, q
+    q, first = q.copy(), known[0]
+    for end, next_one, third, sign in ((0, 1, 2, 1), (-1, -2, -3, -1)):
+        node, inner = q[first, end], q[first, 1:-1]
+        if len(inner) > 1:
+            section = product(q[first, next_one], product(conjugate(q[first, third]), q[first, next_one]))
+        elif len(inner):
+            section = inner[0]
+        else:
+            tangent = sign * (x[first, next_one] - x[first, end])
+            section = product(_turn(rotated(node, [1.0, 0, 0]), tangent), node)
+        q[:, end] = product(q[:, end], product(conjugate(node), section))
+    return x, q
+
+
+def _turn(start, to):
+    """(4) a rotation from one direction to another: the smallest, unless they are opposite."""
+    axis, cosine = np.cross(start, to), float(np.dot(start, to))
+    sine = float(np.linalg.norm(axis))
+    if sine < 1e-9 * abs(cosine):
+        return IDENTITY if cosine > 0 else product(from_z(to), conjugate(from_z(start)))
+    half = 0.5 * np.arctan2(sine, cosine)
+    return np.concatenate([[np.cos(half)], np.sin(half) * axis / max(sine, 1e-300)])
 
 
 def beam_mesh(stations, sections, thin):
