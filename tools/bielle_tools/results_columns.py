@@ -1,10 +1,10 @@
 """Columns of datasets over time: their values, names and units."""
 
 
-def column_names(results, place):
+def column_names(results, place, count=None):
     """Names of a dataset's columns: its description if it lists as many (`displacement, angle`, also after a colon), or
-    1, 2, ..."""
-    count = len(columns_of(results, place))
+    1, 2, ... count: their number, if it is known"""
+    count = len(columns_of(results, place)) if count is None else count
     names = [name.strip() for name in results.text(place, "description").split(": ")[-1].split(",")]
     return names if len(names) == count else [str(k + 1) for k in range(count)]
 

@@ -17,8 +17,9 @@ endforeach()
 # The tools are installed beside their Python package; those for users are linked from the folder of programs.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/convert_mesh.py DESTINATION ${BIELLE_INSTALL_TOOLS})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bielle_tools DESTINATION ${BIELLE_INSTALL_TOOLS} FILES_MATCHING PATTERN "*.py"
+        PATTERN "*.js" PATTERN "*.css" PATTERN "*.html"
         PATTERN __pycache__ EXCLUDE)
-foreach(tool bielle-animate bielle-exchange bielle-loads bielle-paraview bielle-plot bielle-rainflow study)
+foreach(tool bielle-animate bielle-exchange bielle-loads bielle-paraview bielle-plot bielle-rainflow bielle-view study)
   install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/${tool} DESTINATION ${BIELLE_INSTALL_TOOLS})
   string(REPLACE study bielle-study command ${tool})
   set(link "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/${command}")

@@ -34,9 +34,10 @@ from .results import Dataset, Event, Results
 from .runs import Run, run
 from .sessions import Inputs, Recording, Session
 from .superelements import superelement
+from .views import View, view
 
 __all__ = ["ComputationError", "Dataset", "Error", "Event", "InputError", "Inputs", "Model", "Motion", "Node", "Recording",
-           "Results", "Run", "Session", "State", "load", "read", "rotations", "run", "superelement",
+           "Results", "Run", "Session", "State", "View", "load", "read", "rotations", "run", "superelement", "view",
            "__version__"]
 
 for _each in (Node, State):

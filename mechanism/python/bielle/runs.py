@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 from .models import Model, Parameters, load, read
 from .results import Event, NothingKept, Results
+from .views import View, view
 
 
 def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.PathLike | None = None, *,
@@ -40,7 +41,7 @@ def run(model: Model | str | os.PathLike | Mapping[str, Any], output: str | os.P
         model = load(model, parameters)
     recorder, found, notes = _core.run(model._core, "" if output is None else os.fspath(output),
                                        "" if restart is None else os.fspath(restart), threads, progress, memory)
-    return Run(model, recorder, found, notes)
+    return Run(model, recorder, found, notes, None if output is None else os.path.abspath(os.fspath(output)))
 
 
 class Run(Sequence):
@@ -49,8 +50,11 @@ class Run(Sequence):
     `run["nodes/pin/position"]`, `run.time` and `run.events` are those of the last analysis.
     """
 
-    def __init__(self, model: Model, recorder: _core.Recorder, found: list[tuple], notes: list[str]):
+    def __init__(self, model: Model, recorder: _core.Recorder, found: list[tuple], notes: list[str],
+                 output: str | None = None):
         self.model: Model = model
+        self.output: str | None = output
+        """The results file that the run wrote, if any."""
         first = len(model.analyses) - len(found)  # a run that goes on begins later
         self.analyses: list[Results] = [
             Results(recorder, k, each) if len(recorder) else Results(NothingKept(model.analyses[first + k]), 0, each)
@@ -83,6 +87,16 @@ class Run(Sequence):
     def summary(self) -> str:
         """The text that the program prints for all analyses."""
         return "".join(each.summary for each in self.analyses)
+
+    def show(self, height: int = 640, frames: int = 500) -> View:
+        """The machine in motion, as `bielle-view` shows it: the value of a cell of a notebook, or `show().save("machine.html")`.
+
+        height: of the picture in a notebook [pixels]; frames: largest number of times. The run must have written a results file:
+        run(model, output="run.h5"). It needs Debian's libjs-three and libjs-chart.js.
+        """
+        if self.output is None:
+            raise _core.Error("show: the run wrote no results file; run(model, output='run.h5') does")
+        return view(self.output, height=height, frames=frames)
 
     def __repr__(self) -> str:
         return f"<bielle.Run of {self.model!r}: {', '.join(each.type for each in self.analyses)}>"

@@ -39,7 +39,7 @@ class Install(unittest.TestCase):
             self.assertIn(program, run(self.installed("bin", program), "--version"))
 
     def test_tools_run_from_the_folder_of_programs(self):
-        for tool in "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-loads", "bielle-exchange", "bielle-rainflow", "bielle-study":
+        for tool in "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-loads", "bielle-exchange", "bielle-rainflow", "bielle-view", "bielle-study":
             self.assertIn("usage", run(self.installed("bin", tool), "--help").lower())
         self.assertTrue(os.access(self.installed("share", "bielle", "tools", "convert_mesh.py"), os.X_OK))
 

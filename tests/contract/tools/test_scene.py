@@ -13,7 +13,8 @@ sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 from bielle_tools.results_file import Results  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
 from bielle_tools.scene.templates import box, cylinder, extruded, lathe, sphere, torus, tube  # noqa: E402
-from bielle_tools.scene.transforms import from_axes, from_z, placed, rotated  # noqa: E402
+from bielle_tools.rotations import rotation_matrices  # noqa: E402
+from bielle_tools.scene.transforms import from_axes, from_z, placed, product, rotated  # noqa: E402
 from drawn_results import every_shape, resting, turning, write_results  # noqa: E402
 
 
@@ -109,6 +110,25 @@ class Scenes(unittest.TestCase):
         self.assertIn("not positive", told["a/flat"])
         self.assertIn("'radius' is missing", told["a/bare"])
         self.assertIn("gone", told["a/mesh"])
+
+    def test_the_ends_of_a_beam_have_the_axes_of_its_sections(self):
+        # The node at the start has other axes than the sections: it is turned by 90 degrees about y.
+        q = np.tile([1.0, 0, 0, 0], (4, 5, 1))
+        q[:, 0] = [np.sqrt(0.5), 0, np.sqrt(0.5), 0]
+        whole = turning(4, (0, 0, 1), 0.3)
+
+        def beam(file):
+            group = file.create_group("elements/b")
+            x = np.zeros((4, 5, 3))
+            x[..., 0] = np.arange(5)
+            group["position"] = np.einsum("tij,tkj->tki", rotation_matrices(whole), x)
+            group["rotation"] = product(whole[:, None], q)
+        item = {"entry": "elements/b", "type": "beam", "shape": "beam", "element": "elements/b", "sections": [{"at": 0, "outer": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}]}
+        scene = self.scene({"n": resting(4)}, [item], extra=beam)
+        np.testing.assert_allclose(scene.poses(scene.parts[0], scene.rows)[:, :, 3:7], np.tile(whole[:, None], (1, 5, 1)), atol=1e-12)
+        self.assertAlmostEqual(volume(scene.parts[0].mesh), 0, 12)  # all stations at the origin of their bones
+        points = placed(scene.poses(scene.parts[0], [2])[0, scene.parts[0].mesh.bones], scene.parts[0].mesh.points)
+        self.assertAlmostEqual(volume(type(scene.parts[0].mesh)(points, scene.parts[0].mesh.triangles, None, None)), 16, 9)
 
     def test_planar_machines_and_scales(self):
         for unit in (1e-6, 1.0, 1e5):

@@ -5,53 +5,50 @@ import numpy as np
 from ..messages import InputError
 from . import templates as t
 from .parts import Mesh
-from .transforms import IDENTITY, conjugate, from_z, pose, product, rotated
+from .transforms import conjugate, from_z, pose, product
 
 
-def beam_motion(results, element):
-    """rows -> (rows, stations, 8)"""
-    place = f"{element}"
+def beam_motion(results, place):
+    """(rows -> (rows, stations, 8), number of stations) of the element at `place`, in axes of its sections."""
     if not (results.has(f"{place}/position") and results.has(f"{place}/rotation")):
         raise InputError("the results do not record its position and rotation")
     kept = []
 
     def poses(rows):
         if not kept:
-            kept.append(with_section_axes(results.rows(f"{place}/position"), results.rows(f"{place}/rotation")))
+            kept.append((results.rows(f"{place}/position"), _section_rotations(results, place)))
         x, q = kept[0]
         return pose(x[rows], q[rows])
     return poses, results.shape(f"{place}/position")[1]
 
 
-def with_section_axes(x, q):
-    """Positions (nt,n,3), and rotations (nt,n,4) of the section: those of inner nodes are recorded so, but those of the ends are of
-    nodes with axes of their own. The section is fixed to an end node; its axes there continue those of the inner nodes in the first
-    row, with their curvature and twist, or are along the beam if it has no inner nodes."""
+def _section_rotations(results, place):
+    """(nt, stations, 4) of the sections. Both ends are recorded as the nodes there, whose axes are any: the section that each of them carries
+    is taken from its neighbours in the first known row, as if the curvature was constant."""
+    q = results.rows(f"{place}/rotation")
+    if q.shape[1] < 3:
+        return _along(results.rows(f"{place}/position"), q)
+    if hasattr(results, "scenery"):  # a mode: the state about which it is
+        reference = results.modes.orientation[[results.scenery.index[node] for node in results.scenery.beams[place.split("/", 1)[1]]]]
+    else:
+        known = np.flatnonzero(np.isfinite(q).all(axis=(1, 2)))
+        if not len(known):
+            return q
+        reference = q[known[0]]
+    q = q.copy()
+    for end, first, second in ((0, 1, 2), (-1, -2, -3)):
+        bend = product(conjugate(reference[second]), reference[first]) if q.shape[1] > 4 else np.array([1.0, 0, 0, 0])
+        q[:, end] = product(q[:, end], product(conjugate(reference[end]), product(reference[first], bend)))
+    return q
+
+
+def _along(x, q):
+    """Rotations of a beam without inner nodes: its sections, round their axis anyhow, are across the line between its ends."""
     known = np.flatnonzero(np.isfinite(x).all(axis=(1, 2)) & np.isfinite(q).all(axis=(1, 2)))
-    if not len(known) or x.shape[1] < 2:
-        return x, q
-    q, first = q.copy(), known[0]
-    for end, next_one, third, sign in ((0, 1, 2, 1), (-1, -2, -3, -1)):
-        node, inner = q[first, end], q[first, 1:-1]
-        if len(inner) > 1:
-            section = product(q[first, next_one], product(conjugate(q[first, third]), q[first, next_one]))
-        elif len(inner):
-            section = inner[0]
-        else:
-            tangent = sign * (x[first, next_one] - x[first, end])
-            section = product(_turn(rotated(node, [1.0, 0, 0]), tangent), node)
-        q[:, end] = product(q[:, end], product(conjugate(node), section))
-    return x, q
-
-
-def _turn(start, to):
-    """(4) a rotation from one direction to another: the smallest, unless they are opposite."""
-    axis, cosine = np.cross(start, to), float(np.dot(start, to))
-    sine = float(np.linalg.norm(axis))
-    if sine < 1e-9 * abs(cosine):
-        return IDENTITY if cosine > 0 else product(from_z(to), conjugate(from_z(start)))
-    half = 0.5 * np.arctan2(sine, cosine)
-    return np.concatenate([[np.cos(half)], np.sin(half) * axis / max(sine, 1e-300)])
+    if not len(known) or q.shape[1] < 2:
+        return q
+    across = product(from_z(x[known[0], 1] - x[known[0], 0]), [np.sqrt(0.5), 0, -np.sqrt(0.5), 0])  # z of from_z is their x
+    return product(q, product(conjugate(q[known[0]]), across))
 
 
 def beam_mesh(stations, sections, thin):
@@ -60,11 +57,8 @@ def beam_mesh(stations, sections, thin):
     sections = sorted(sections, key=lambda section: section["at"]) or [{"at": 0.0, "outer": thin * t.circle(10)}]
     at = np.linspace(0, 1, stations)
     outlines = [np.stack([_outline(sections, s, key) for s in at]) for key in ("outer", "inner") if all(section.get(key) is not None for section in sections)]
-    pieces, n = [], 0
+    points, triangles, bones, n = [], [], [], 0
     for outline, outward in zip(outlines, (True, False)):
-        pieces.append((outline, outward))
-    points, triangles, lines, bones = [], [], [], []
-    for outline, outward in pieces:
         corners = outline.shape[1]
         smooth = corners > 8
         columns = [np.arange(corners)] if smooth else [np.array([k, (k + 1) % corners]) for k in range(corners)]
@@ -81,8 +75,7 @@ def beam_mesh(stations, sections, thin):
         triangles.append(lid.triangles + n)
         bones.append(np.full(len(lid.points), station))
         n += len(lid.points)
-    lines.append(t.NO_LINES)
-    return Mesh(np.concatenate(points), np.concatenate(triangles), np.concatenate(lines), np.concatenate(bones))
+    return Mesh(np.concatenate(points), np.concatenate(triangles), t.NO_LINES, np.concatenate(bones))
 
 
 def _lid(outlines, station, sign):

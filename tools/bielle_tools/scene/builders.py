@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from ..messages import InputError
 from . import symbols
 from . import templates as t
 from .beams import beam_mesh, beam_motion
 from .course import Course
 from .drawing import place_of
 from .links import Ends, bar_mesh, coil_mesh, rope_mesh, telescope
-from .parts import Mesh, Part, joined, on_bones
+from .parts import Mesh, Part, on_bones
 from .style import COLOURS, lighter
+from .transforms import between, conjugate, from_z, rotated
 
 
 class Builder:
@@ -19,6 +19,7 @@ class Builder:
     def __init__(self, motion, drawing, palette, flexible):
         self.motion, self.drawing, self.palette, self.flexible = motion, drawing, palette, flexible
         self.symbol, self.extent, self.centre = 1.0, 1.0, np.zeros(3)
+        self.planes = 1  # their number
         self.attached = {}  # node -> positions in its axes of what is attached to it
 
     def parts(self, item):
@@ -30,7 +31,7 @@ class Builder:
         place = place or place_of(item)
         self.motion.node(place.node)
         if item.get("role") == "contact":
-            group, opacity = "contact", min(opacity, 0.55)
+            group, opacity = "contact", min(opacity, 0.5)
         elif item.get("role") == "support":
             group = "ground"
         colour = self.colour(item, colour or (COLOURS["ground"] if place.node == "ground" else self.palette.of(place.node)))
@@ -69,7 +70,7 @@ def _body(b, item):
     centre = np.asarray(item.get("centre", [0, 0, 0]), float)
     ends = np.array(b.attached.get(item["node"], [])).reshape(-1, 3)
     ends = ends[np.linalg.norm(ends - centre, axis=1) > 0.6 * b.symbol]
-    thin = max(0.42 * b.symbol, 0.02 * max(np.linalg.norm(ends - centre, axis=1), default=0))
+    thin = max(0.42 * b.symbol, 0.012 * max(np.linalg.norm(ends - centre, axis=1), default=0))
     pieces = [t.rod(centre, end, (thin, 0.62 * thin)) for end in np.unique(np.round(ends, 12), axis=0)]
     return [b.rigid(item, t.merged([t.moved(t.sphere(1.25 * thin if len(pieces) else 0.6 * b.symbol), centre), *pieces]))]
 
@@ -111,10 +112,10 @@ def _cam(b, item):
 
 def _plane(b, item):
     place = place_of(item)
-    size = float(np.max(item["size"])) if "size" in item else 1.15 * b.extent
+    alone = b.planes < 2
+    size = float(np.max(item["size"])) if "size" in item else (1.15 if alone else 0.15) * b.extent
     shift = np.zeros(3)
-    if "size" not in item and place.node == "ground":  # the part of the plane under the machine
-        from .transforms import conjugate, rotated
+    if "size" not in item and alone and place.node == "ground":  # the part of the plane under the machine
         shift = rotated(conjugate(np.array(place.rotation)), b.centre - np.array(place.position)) * [1, 1, 0]
     h, n = size / 2, 14
     quad = t.mesh([[-h, -h, 0], [h, -h, 0], [h, h, 0], [-h, h, 0]], [[0, 1, 2], [0, 2, 3]])
@@ -124,7 +125,7 @@ def _plane(b, item):
     border = np.array([[-h, -h, 0], [h, -h, 0], [h, h, 0], [-h, h, 0]])
     hatch = t.mesh(np.concatenate([a, c, border]), lines=[[k, k + len(s)] for k in range(len(s))]
                    + [[2 * len(s) + k, 2 * len(s) + (k + 1) % 4] for k in range(4)])
-    return [b.rigid(item, t.moved(t.merged([quad, hatch]), shift), "ground", COLOURS["ground"], opacity=0.35)]
+    return [b.rigid(item, t.moved(t.merged([quad, hatch]), shift), "ground", COLOURS["ground"], opacity=0.16)]
 
 
 def _curve(b, item):
@@ -198,8 +199,9 @@ def _joint(b, item):
 
 def _support(b, item):
     fixed = item.get("fixed", [])
+    if not any(direction in fixed for direction in "xyz"):
+        return []  # a node that may move everywhere and only keeps its direction has no support
     down = b.drawing.gravity
-    from .transforms import from_z
     part = b.rigid(item, symbols.support_symbol(b.symbol, len(fixed) == 6), "ground", COLOURS["support"])
     place = place_of(item)
     turn = from_z(-down) if down is not None else np.array([1.0, 0, 0, 0])
@@ -218,7 +220,6 @@ def _stiffness(b, item):
         b.motion.node(place.node)
     if len(places) < 2:
         raise ValueError("it joins fewer than two places")
-    from .transforms import between
     return [Part(item["entry"], item["type"], on_bones(rope_mesh(0.08 * b.symbol), len(places) - 1), b.colour(item, COLOURS["stiffness"]), 1.0, "spring",
                  lambda rows: np.stack([between(b.motion.position(places[0], rows), b.motion.position(place, rows)) for place in places[1:]], axis=1))]
 
@@ -248,4 +249,3 @@ BUILDERS = {
     "coil_damper": lambda b, item: [_coil(b, item, 1.05), *_telescope(b, item, 0.42 * b.symbol)],
     "force": lambda b, item: [b.rigid(item, t.octahedron(0.4 * b.symbol), "force", COLOURS["force"])],
 }
-__all__ = ["BUILDERS", "Builder", "InputError", "joined"]

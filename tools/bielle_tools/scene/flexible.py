@@ -7,6 +7,7 @@ import numpy as np
 from ..cells import triangles_of
 from ..superelement_body import find_superelement, superelement_of
 from .parts import FlexibleBody, FlexiblePart
+from .transforms import rotated
 
 
 class FlexibleBodies:
@@ -57,7 +58,6 @@ class FlexibleBodies:
 
 def surface_points(part, rows, every=1):
     """(rows, p, 3) inertial points of a flexible part, every `every`-th one."""
-    from .transforms import rotated
     frame, q = part.frame(rows), part.coordinates(rows)
     local = part.body.points[::every] + np.tensordot(q, part.body.shapes[:, ::every], axes=1)
     return frame[:, None, :3] + rotated(frame[:, None, 3:], local)

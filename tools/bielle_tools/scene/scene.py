@@ -3,13 +3,14 @@
 import numpy as np
 
 from ..messages import InputError
+from .attachments import attachments
 from .builders import BUILDERS, Builder
-from .drawing import Drawing, place_of, places_of
+from .drawing import Drawing, places_of
 from .flexible import FlexibleBodies, surface_points
 from .motion import Motion
 from .parts import Anchor, FlexiblePart
 from .style import Palette, Style
-from .transforms import placed
+from .transforms import conjugate, placed, product
 
 SAMPLES = 24  # rows from which bounds are taken
 
@@ -69,8 +70,6 @@ class Scene:
             try:
                 for place in places_of(item):
                     x = self.motion_of_nodes.first(place)
-                    if place.node != "ground" and item["shape"] != "plane":
-                        builder.attached.setdefault(place.node, []).append(place.position) if item["shape"] not in ("body", "node", "ellipsoid") else None
                     if item["shape"] != "plane" and np.isfinite(x).all():
                         first.append(x)
                         paths.append(self.motion_of_nodes.position(place, self._samples()))
@@ -79,6 +78,7 @@ class Scene:
                     first += self._element_points(item)
             except (InputError, KeyError, TypeError, ValueError, AttributeError):
                 continue  # it is told when the item is built
+        builder.attached = attachments(self.items, self.motion_of_nodes)
         points = np.array(first + [row for path in paths for row in path]).reshape(-1, 3)
         points = points[np.isfinite(points).all(axis=1)]
         extent = self._own_extent()
@@ -91,7 +91,8 @@ class Scene:
         else:
             extent_first = extent
         builder.extent = extent or 1.0
-        self.symbol = builder.symbol = style.symbols * _symbol_size(extent_first or extent or 1.0, np.array(joints).reshape(-1, 3))
+        builder.planes = sum(item["shape"] == "plane" for item in self.items)
+        self.symbol = builder.symbol = style.symbols * _symbol_size(extent_first or extent or 1.0, np.array(joints).reshape(-1, 3), self._radii())
 
     def _own_extent(self):
         """Largest dimension of the shapes themselves."""
@@ -105,6 +106,11 @@ class Scene:
             if item["shape"] == "ellipsoid":
                 sizes.append(float(np.ptp(item["points"], axis=0).max()))
         return max(size for size in sizes if np.isfinite(size))
+
+    def _radii(self):
+        """Radii of wheels [m], which symbols of their bearings should not cover."""
+        radii = [item.get("radius") for item in self.items if item["shape"] in ("gear", "pulley", "tyre")]
+        return [radius for radius in radii if isinstance(radius, (int, float)) and np.isfinite(radius) and radius > 0]
 
     def _element_points(self, item):
         place, results = item["element"], self.results
@@ -147,7 +153,6 @@ class Scene:
                 continue
             known = np.isfinite(x).all(axis=1) & np.isfinite(q).all(axis=1)
             if known.any():
-                from .transforms import conjugate, product
                 moving = np.maximum(moving, np.ptp(x[known], axis=0))
                 turning = np.maximum(turning, np.abs(product(q[known], conjugate(q[known][:1]))[:, 1:]).max(axis=0))
         if not moving.any() and not turning.any():
@@ -160,9 +165,9 @@ class Scene:
         return None
 
 
-def _symbol_size(extent, joints):
-    """Two hundredths of the machine, less where neighbours are close."""
-    size = 0.02 * extent
+def _symbol_size(extent, joints, radii):
+    """Two hundredths of the machine, less where neighbours are close or wheels are small."""
+    size = min([0.02 * extent, *([0.35 * float(np.median(radii))] if radii else [])])
     if len(joints) > 1:
         from scipy.spatial import cKDTree
         joints = np.unique(np.round(joints / extent, 6), axis=0) * extent
@@ -178,5 +183,3 @@ def _reason(error):
     text = str(error)
     return text[:1].lower() + text[1:] if text else "it is damaged"
 
-
-__all__ = ["Scene", "make_scene", "place_of"]

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 BODIES = ("#5b84b1", "#d98c4a", "#6aa56f", "#b3687f", "#8a7bb8", "#c9b04d", "#4f9ba3", "#a77b5a", "#7f93a8", "#9aaa4e")
-COLOURS = {"outer": "#4a4f57", "inner": "#c8cdd3", "spring": "#3f9b62", "damper": "#6b6f76", "rod": "#d3d7dc", "rope": "#6e5638",
+COLOURS = {"outer": "#5c6a7c", "inner": "#d5d9de", "spring": "#3f9b62", "damper": "#707884", "rod": "#d3d7dc", "rope": "#6e5638",
            "node": "#20242a", "support": "#8b8f96", "ground": "#9aa3ad", "contact": "#d9a441", "force": "#cf3d3d", "mark": "#2d3138",
            "bar": "#8791a0", "stiffness": "#3f9b62"}
 

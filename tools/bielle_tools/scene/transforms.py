@@ -5,19 +5,26 @@ import numpy as np
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 
 
+def cross(a, b):
+    """(...,3) as np.cross gives it, in a third of the time."""
+    x, y, z = a[..., 0], a[..., 1], a[..., 2]
+    u, v, w = b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
+
+
 def product(a, b):
     """(...,4) of R(a) R(b)."""
     a, b = np.broadcast_arrays(a, b)
     w = a[..., :1] * b[..., :1] - (a[..., 1:] * b[..., 1:]).sum(axis=-1, keepdims=True)
-    return np.concatenate([w, a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + np.cross(a[..., 1:], b[..., 1:])], axis=-1)
+    return np.concatenate([w, a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + cross(a[..., 1:], b[..., 1:])], axis=-1)
 
 
 def rotated(q, v):
     """(...,3) R(q) v."""
     q, v = np.asarray(q, float), np.asarray(v, float)
-    axis = np.broadcast_to(q[..., 1:], np.broadcast_shapes(q.shape[:-1], v.shape[:-1]) + (3,))
-    t = 2 * np.cross(axis, np.broadcast_to(v, axis.shape))
-    return v + q[..., :1] * t + np.cross(axis, t)
+    axis = q[..., 1:]
+    t = 2 * cross(axis, v)
+    return v + q[..., :1] * t + cross(axis, t)
 
 
 def conjugate(q):

@@ -19,7 +19,7 @@ from .sequences import sequences
 
 LIBRARIES = ("/usr/share/javascript/three/three.min.js", "/usr/share/javascript/chart.js/chart.min.js")
 SOURCES = ("data.js", "vectors.js", "shaders.js", "tracks.js", "batch.js", "flexible.js", "arrows.js", "runs.js", "camera.js", "surroundings.js",
-           "entries.js", "player.js", "picking.js", "overlay.js", "traces.js", "tree.js", "details.js", "plot.js", "controls.js", "live.js", "main.js")
+           "entries.js", "player.js", "picking.js", "overlay.js", "traces.js", "tree.js", "details.js", "plot.js", "controls.js", "quality.js", "live.js", "main.js")
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page")
 
 
@@ -72,15 +72,15 @@ def build_page(paths, frames=500, superelements=None, analysis=None, live=None):
 
 def _described(sequence, scene, scenes, pack, layouts, listed):
     """A sequence for the page."""
-    drawn = scenes.described(scene, sequence.rows)
+    plain = sequence.kind != "mode"
+    drawn = scenes.described(scene, sequence.rows, arrows=plain)  # amplitudes of modes have no scale of force or velocity
     layout = {key: drawn.pop(key) for key in ("batch", "parts", "anchors")}
     key = json.dumps(layout)
     if key not in layouts:
         layouts[key] = len(listed)
         listed.append(layout)
-    plain = sequence.kind != "mode"
     return {"title": sequence.title, "kind": sequence.kind, "times": pack.add(sequence.times, "f4"), "rows": len(sequence.rows), "layout": layouts[key],
-            "scene": drawn, "joints": joint_facts(scene, sequence.rows[:1] if not plain else sequence.rows), "events": events_of(sequence.motion) if plain else [],
+            "scene": drawn, "joints": joint_facts(scene, sequence.rows if plain else sequence.rows[-1:]), "events": events_of(sequence.motion) if plain else [],
             "quantities": quantities(sequence.motion, pack) if plain else {"times": pack.add([], "f4"), "list": [], "left_out": 0}, **sequence.facts}
 
 

@@ -23,13 +23,20 @@ def quantities(results, pack):
                 left_out += 1
                 continue
             values = results.rows(place)[rows].reshape(len(rows), columns)
-            names = column_names(results, place) if columns > 1 else [""]
+            names = _names(results, place, columns)
             budget -= values.size
             found.append({"entry": entry, "name": place.rpartition("/")[2], "units": results.units(place), "columns": names,
                           "data": pack.add(values.T, "f4")})
         except (InputError, ValueError, KeyError):
             continue
     return {"times": pack.add(results.time[rows], "f4"), "list": found, "left_out": left_out}
+
+
+def _names(results, place, count):
+    """Names of columns; x y z .. of vectors and quaternions of nodes that have none."""
+    names = column_names(results, place, count) if count > 1 else [""]
+    plain = {3: "x y z", 4: "w x y z", 6: "x y z rx ry rz"}.get(count, "").split()
+    return plain if plain and names[0] == "1" and (place.startswith(("nodes/", "supports/")) or place.endswith(("/reaction", "/reaction_inertial"))) else names
 
 
 def _places(results):

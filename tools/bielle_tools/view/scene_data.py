@@ -17,13 +17,13 @@ class SceneData:
         self.bodies, self._numbers = [], {}
         self.errors = {"position": 0.0, "rotation": 0.0, "shape": 0.0, "stress": 0.0}
 
-    def described(self, scene, rows):
+    def described(self, scene, rows, arrows=True):
         """The scene at these rows, for the page."""
         tracks = Tracks(len(rows))
         parts = [(part, tracks.add(in_units(scene.poses(part, rows), self.centre, self.size))) for part in scene.parts]
         found = {"batch": self._batch(parts), "parts": [self._part(part, numbers) for part, numbers in parts],
                  "flexible": [self._flexible(part, rows, tracks) for part in scene.flexible],
-                 "anchors": self._anchors(scene, parts), "arrows": self._arrows(scene, rows, tracks)}
+                 "anchors": self._anchors(scene, parts), "arrows": self._arrows(scene, rows) if arrows else []}
         found["tracks"], position, rotation = tracks.stored(self.pack)
         self._largest(position=position, rotation=rotation)
         return found
@@ -34,14 +34,15 @@ class SceneData:
 
     @staticmethod
     def _part(part, numbers):
-        return {"entry": part.entry, "type": part.type, "colour": part.colour, "opacity": part.opacity, "group": part.group, "track": numbers[0] if numbers else 0}
+        return {"entry": part.entry, "type": part.type, "colour": part.colour, "opacity": part.opacity, "group": part.group,
+                "track": numbers[0] if numbers else 0, "endless": bool(part.mesh.lines.size)}
 
     def _batch(self, parts):
         """All rigid meshes as one: points, normals, number of track and of part of each point."""
         points, normals, bones, owners, triangles, lines, start = [], [], [], [], [], [], 0
         for number, (part, tracks) in enumerate(parts):
             mesh = part.mesh
-            points.append(mesh.points / np.array([self.size, self.size, self._unit(mesh, part)]))
+            points.append(mesh.points / self.size)
             normals.append(_normals(mesh))
             bones.append(np.asarray(tracks, int)[mesh.bones] if len(mesh.points) else np.zeros(0, int))
             owners.append(np.full(len(mesh.points), number))
@@ -51,9 +52,6 @@ class SceneData:
         add, join = self.pack.add, lambda pieces, width: np.concatenate(pieces) if pieces else np.zeros((0, width))
         return {"points": add(join(points, 3), "f4"), "normals": add(np.round(127 * join(normals, 3)), "i1"), "bones": add(join(bones, 1), "i4"),
                 "owners": add(join(owners, 1), "i4"), "triangles": add(join(triangles, 3), "i4"), "lines": add(join(lines, 2), "i4")}
-
-    def _unit(self, mesh, part):  # pylint: disable=unused-argument
-        return self.size
 
     def _flexible(self, part, rows, tracks):
         frame, q = part.frame(rows), part.coordinates(rows)
@@ -124,7 +122,7 @@ class SceneData:
                 found.append({"entry": anchor.entry, "flexible": flexible[id(anchor.part)], "point": point})
         return found
 
-    def _arrows(self, scene, rows, tracks):
+    def _arrows(self, scene, rows):
         found = []
         for arrow in arrows_of(scene, rows):
             x = (arrow.origin - self.centre) / self.size

@@ -6,7 +6,6 @@ components of quaternions have the error 1/65534. A row without numbers is marke
 
 import numpy as np
 
-from ..scene.transforms import rotated
 from .pack import quantised
 
 MISSING = -32768  # in place of w: the bone has no pose in this row
@@ -45,8 +44,8 @@ class Tracks:
         back = turns / 32767.0
         back /= np.linalg.norm(back, axis=-1, keepdims=True)
         positions = low + step * (whole.astype(int) + 32767)
-        errors = np.linalg.norm((positions - lengths)[..., :3], axis=-1).max(), 2 * np.arccos(np.clip(np.abs(
-            (back * poses[..., 3:7]).sum(axis=-1) / np.linalg.norm(poses[..., 3:7], axis=-1)), 0, 1).min())
+        exact = poses[..., 3:7] / np.linalg.norm(poses[..., 3:7], axis=-1, keepdims=True)
+        errors = np.linalg.norm((positions - lengths)[..., :3], axis=-1).max(), 2 * np.linalg.norm(back - exact, axis=-1).max()
         turns[..., 0][~known] = MISSING
         data = np.concatenate([whole, turns], axis=2).transpose(0, 2, 1)  # (tracks, 8, rows): x y z stretch, w x y z
         return {"count": count, "rows": self.rows, "data": pack.add(data, "i2", True), "low": pack.add(low[:, 0], "f4"),
@@ -75,5 +74,3 @@ def in_units(poses, centre, size):
     scaled[..., :3] = (scaled[..., :3] - centre) / size
     return scaled
 
-
-__all__ = ["Tracks", "in_units", "rotated"]

@@ -1,6 +1,6 @@
 // Arrows of reactions, contact forces, loads and velocities, in their own colours, with a common scale for each kind.
 
-const ARROW_COLOURS = {"reactions": "#1f7a3d", "contact forces": "#c97a00", "loads": "#cf3d3d", "velocities": "#2f6fb2"};
+const ARROW_COLOURS = {"reactions": "#a8287a", "contact forces": "#c97a00", "loads": "#cf3d3d", "velocities": "#2f6fb2"};
 const ARROW_LENGTH = 0.16;  // of the largest arrow of a kind, in sizes of the scene
 
 class Arrows {

@@ -36,17 +36,23 @@ class Camera {
     this.fit();
   }
 
+  /// Moves and sizes the picture so that all points of the motion are in it.
   fit() {
-    const {low, high} = this.app.data, axes = this.axes(), aspect = this.aspect();
-    const middle = low.map((x, k) => (x + high[k]) / 2), tangent = Math.tan(16 * Math.PI / 180);
-    let height = 0.02;
-    for (let k = 0; k < 8; k++) {
-      const d = minus([k & 1 ? high[0] : low[0], k & 2 ? high[1] : low[1], k & 4 ? high[2] : low[2]], middle);
-      const across = 2 * Math.max(Math.abs(dot(d, axes[1])), Math.abs(dot(d, axes[0])) / aspect);
-      height = Math.max(height, across + (this.ortho ? 0 : 2 * dot(d, axes[2]) * tangent));
+    if (!this.app.shown) return;
+    const points = this.app.extent(), aspect = this.aspect(), tangent = Math.tan(16 * Math.PI / 180), [right, up, back] = this.axes();
+    this.target = this.app.data.low.map((x, k) => (x + this.app.data.high[k]) / 2);
+    this.height = 3;
+    for (let round = 0; round < 6; round++) {
+      const distance = this.height / 2 / tangent;
+      let [left, most, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+      for (const p of points) {
+        const d = minus(p, this.target), nearer = this.ortho ? 1 : distance / Math.max(distance - dot(d, back), 0.1 * distance), x = dot(d, right) * nearer, y = dot(d, up) * nearer;
+        [left, most, bottom, top] = [Math.min(left, x), Math.max(most, x), Math.min(bottom, y), Math.max(top, y)];
+      }
+      if (!(most >= left)) break;
+      this.target = this.target.map((value, k) => value + (left + most) / 2 * right[k] + (bottom + top) / 2 * up[k]);
+      this.height = clamp(1.1 * Math.max(top - bottom, (most - left) / aspect, 0.01), this.height / 4, this.height * 4);
     }
-    this.target = middle;
-    this.height = 1.12 * height;
     this.app.changed();
   }
 
@@ -72,7 +78,7 @@ class Camera {
   watch(canvas) {
     let from = null, moved = 0;
     canvas.addEventListener("contextmenu", event => event.preventDefault());
-    canvas.addEventListener("pointerdown", event => { from = [event.clientX, event.clientY]; moved = 0; canvas.setPointerCapture(event.pointerId); });
+    canvas.addEventListener("pointerdown", event => { from = [event.clientX, event.clientY]; moved = 0; this.turning = true; canvas.setPointerCapture(event.pointerId); });
     canvas.addEventListener("pointermove", event => {
       if (!from) return;
       const dx = event.clientX - from[0], dy = event.clientY - from[1];
@@ -86,6 +92,8 @@ class Camera {
     });
     canvas.addEventListener("pointerup", event => {
       from = null;
+      this.turning = false;
+      this.app.changed();
       if (moved < 4 && event.button === 0) this.app.picking.click(event.offsetX, event.offsetY);
     });
     canvas.addEventListener("wheel", event => {

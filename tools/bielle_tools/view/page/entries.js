@@ -29,10 +29,10 @@ class Entries {
   }
 
   choose(entry, point = null) {
-    this.chosen = entry;
+    this.chosen = this.known.has(entry) ? entry : null;
     this.point = point;
     this.app.repaint();
-    this.app.details.show(entry);
+    this.app.details.show(this.chosen);
   }
 
   isolate(entry) {

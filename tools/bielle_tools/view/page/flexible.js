@@ -4,6 +4,8 @@ const STRESSES = {none: "", von_mises: "von Mises", peak: "von Mises, largest ov
                   xx: "normal xx", yy: "normal yy", zz: "normal zz", yz: "shear yz", xz: "shear xz", xy: "shear xy"};
 const COMPONENTS = ["xx", "yy", "zz", "yz", "xz", "xy"];
 
+const INVISIBLE = 2e-7, UNSEEN = 2e-4;  // shares of the size, and of the largest stress, below which a shape is left out
+
 /// out += sum of factors[k] * shapes[k], four shapes at a time; shapes of n numbers follow each other.
 function addShapes(out, shapes, factors, n) {
   const used = [];
@@ -14,6 +16,9 @@ function addShapes(out, shapes, factors, n) {
     for (let j = 0; j < n; j++) out[j] += fa * a[j] + fb * b[j] + fc * c[j] + fd * d[j];
   }
 }
+
+/// A factor of 16-bit numbers, or 0 if its shape nowhere exceeds a limit.
+function seen(factor, limit) { return Math.abs(factor) * 32767 < limit ? 0 : factor; }
 
 /// Largest and least eigenvalue of a symmetric matrix: the cubic in trigonometric form.
 function principal(xx, yy, zz, yz, xz, xy) {
@@ -43,13 +48,13 @@ class Body {
 
   place(q, magnify, out) {
     out.set(this.points);
-    addShapes(out, this.shapes, q.map((value, k) => magnify * value * this.scale[k]), this.points.length);
+    addShapes(out, this.shapes, q.map((value, k) => seen(magnify * value * this.scale[k], INVISIBLE)), this.points.length);
   }
 
   /// One stress at every point [Pa]; -1e30 at points without.
-  stressed_by(q, kind, out) {
+  stressed_by(q, kind, out, largest) {
     this.sums.fill(0);
-    addShapes(this.sums, this.stress, q.map((value, k) => value * this.stressScale[k]), this.sums.length);
+    addShapes(this.sums, this.stress, q.map((value, k) => seen(value * this.stressScale[k], UNSEEN * largest)), this.sums.length);
     const s = this.sums, component = COMPONENTS.indexOf(kind);
     for (let k = 0, i = 0; k < out.length; k++, i += 6)
       out[k] = !this.stressed[k] ? -1e30 : component >= 0 ? s[i + component] : kind === "von_mises" ? mises(s[i], s[i + 1], s[i + 2], s[i + 3], s[i + 4], s[i + 5])
@@ -71,7 +76,7 @@ class Flexible {
     this.look = new THREE.Vector4(1, 1, 1, 1);
     this.range = new THREE.Vector2();
     this.mesh = new THREE.Mesh(g, new THREE.ShaderMaterial({uniforms: {look: {value: this.look}, scale: {value: scale}, range: {value: this.range}}, vertexShader: FLEXIBLE_VERTEX,
-                                                            fragmentShader: FLEXIBLE_FRAGMENT, side: THREE.DoubleSide, extensions: {derivatives: true}}));
+                                                            fragmentShader: FLEXIBLE_FRAGMENT, extensions: {derivatives: true}}));
     this.mesh.frustumCulled = false;
     this.mesh.matrixAutoUpdate = false;
   }
@@ -98,7 +103,7 @@ class Flexible {
     if (!this.body.stress || stress === "none") this.range.set(0, 0);
     else {
       if (stress === "peak") this.values.set(this.peak.map((v, k) => this.body.stressed[k] ? v : -1e30));
-      else this.body.stressed_by(this.now, stress, this.values);
+      else this.body.stressed_by(this.now, stress, this.values, this.tracks.rows > 1 ? this.part.largest : 0);
       this.geometry.attributes.value.needsUpdate = true;
     }
   }

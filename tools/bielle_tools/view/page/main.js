@@ -4,8 +4,9 @@ class App {
   constructor(data, arrays) {
     Object.assign(this, {data, arrays, bodies: [], allShown: [], follow: null, dirty: true, number: 0, frames: 0});
     this.settings = {stress: "none", magnify: 1, amplitude: 1, decay: false, arrows: new Set(), arrowScale: 1, groups: {}, ghost: 0.4, labels: false, grid: true, tree: true, plots: true};
-    const canvas = document.getElementById("scene"), options = {alpha: true, antialias: true, preserveDrawingBuffer: true};
-    this.renderer = new THREE.WebGLRenderer({canvas, context: canvas.getContext("webgl2", options) || canvas.getContext("webgl", options) || undefined, antialias: true});
+    this.quality = new Quality(this);
+    const canvas = document.getElementById("scene"), options = {alpha: true, antialias: !this.quality.software, preserveDrawingBuffer: true};
+    this.renderer = new THREE.WebGLRenderer({canvas, context: canvas.getContext("webgl2", options) || canvas.getContext("webgl", options) || undefined});
     this.renderer.setClearColor(0x000000, 0);
     this.scene = new THREE.Scene();
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x9099a5, 1.05));
@@ -27,6 +28,22 @@ class App {
     this.show(0);
     this.camera.fit();
     new ResizeObserver(() => this.resize()).observe(document.getElementById("stage"));
+  }
+
+  /// Points of all that moves, over the sequence: some of each part at some rows.
+  extent() {
+    const {shown} = this, rows = shown.sequence.rows, picked = [...new Set([0, 1, 2, 3, 4, 5, 6, 7].map(k => Math.round(k / 7 * (rows - 1))))], points = [], before = shown.place;
+    const b = shown.batch, corners = [], counts = new Uint32Array(b.parts.length);
+    for (const owner of b.owners) counts[owner]++;
+    b.owners.forEach((owner, k) => { if (!b.parts[owner].endless && k % Math.ceil(counts[owner] / 40) === 0) corners.push(k); });
+    const every = Math.ceil(corners.length / 4000), all = p => { if (Number.isFinite(p[0])) points.push(p); };
+    for (const row of picked) {
+      shown.move(row, this.amplitude());
+      for (let k = 0; k < corners.length; k += every) all(b.corner(corners[k]));
+      for (const f of shown.flexible) for (let k = 0, n = f.body.points.length / 3; k < n; k += Math.ceil(n / 60)) all(f.corner(k));
+    }
+    if (before !== undefined) this.moved();
+    return points;
   }
 
   body(number) { return this.bodies[number] = this.bodies[number] || new Body(this.data.bodies[number], this.arrays); }
@@ -122,13 +139,14 @@ class App {
 
   resize() {
     const stage = document.getElementById("stage");
-    this.renderer.setPixelRatio(window.devicePixelRatio || 1);
+    this.renderer.setPixelRatio(this.quality.ratio);
     this.renderer.setSize(stage.clientWidth, stage.clientHeight, false);
     this.changed();
   }
 
   draw(now) {
     this.player.advance(now);
+    this.quality.adapt(now);
     if (this.dirty) {
       this.dirty = false;
       this.frames++;

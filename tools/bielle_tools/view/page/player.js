@@ -68,7 +68,7 @@ class Player {
     this.playing = !this.playing && this.last > 0;
     if (this.playing && this.place >= this.last) this.place = 0;
     this.before = performance.now();
-    document.getElementById("play").textContent = this.playing ? "\u23F8" : "\u25B6";
+    document.getElementById("play").textContent = this.playing ? "\u275A\u275A" : "\u25B6";
     document.getElementById("play").classList.toggle("on", this.playing);
     this.app.changed();
   }

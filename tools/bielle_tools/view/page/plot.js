@@ -51,7 +51,7 @@ class Plot {
     this.chart = new Chart(document.getElementById("plot"), {type: "line", data: {datasets: []}, plugins: [cursor], options: {
       animation: false, parsing: false, normalized: true, maintainAspectRatio: false, events: [], spanGaps: false,
       elements: {point: {radius: 0}, line: {borderWidth: 1.5}}, plugins: {legend: {display: false}, tooltip: {enabled: false}, decimation: {enabled: true}},
-      scales: {x: {type: "linear", ticks: {maxTicksLimit: 12}}, y: {ticks: {maxTicksLimit: 6}}}}});
+      scales: {x: {type: "linear", bounds: "data", ticks: {maxTicksLimit: 12}}, y: {ticks: {maxTicksLimit: 6}}}}});
     const canvas = document.getElementById("plot");
     canvas.addEventListener("pointerdown", event => { this.dragging = true; this.seek(event.offsetX); });
     canvas.addEventListener("pointermove", event => { if (this.dragging && event.buttons) this.seek(event.offsetX); });

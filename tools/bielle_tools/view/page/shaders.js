@@ -6,7 +6,7 @@ const LIGHT = `
     if (n.z < 0.0) n = -n;
     float key = max(dot(n, normalize(vec3(0.35, 0.65, 0.75))), 0.0), fill = max(dot(n, normalize(vec3(-0.7, 0.1, 0.5))), 0.0);
     float shine = pow(max(dot(n, normalize(vec3(0.2, 0.4, 1.0))), 0.0), 40.0);
-    return base * (0.46 + 0.5 * key + 0.16 * fill) + vec3(0.10 * shine);
+    return base * (0.50 + 0.42 * key + 0.14 * fill + 0.12 * n.z) + vec3(0.08 * shine);
   }`;
 
 const TEXEL = `

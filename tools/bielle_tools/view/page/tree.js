@@ -10,9 +10,9 @@ class Tree {
       if (!sections.has(section)) sections.set(section, []);
       sections.get(section).push(one);
     }
-    const box = document.getElementById("entries");
-    for (const [section, list] of sections)
-      box.append(element("details", {open: list.length < 400}, element("summary", {textContent: `${section} (${list.length})`}), ...list.map(one => this.line(one))));
+    const box = document.getElementById("entries"), last = section => section === "nodes" ? 1 : 0;
+    for (const [section, list] of [...sections].sort((a, b) => last(a[0]) - last(b[0])))
+      box.append(element("details", {open: list.length < 400 && !(last(section) && sections.size > 1)}, element("summary", {textContent: `${section} (${list.length})`}), ...list.map(one => this.line(one))));
     document.getElementById("filter").addEventListener("input", event => this.filter(event.target.value));
     const notes = app.data.notes.map(([entry, reason]) => element("div", {textContent: `not drawn: ${entry}: ${reason}`}));
     document.getElementById("notes").append(...notes);

@@ -1,0 +1,264 @@
+"""bielle-view: the page in a headless browser shows the results, for regular and for damaged files."""
+
+import http.client
+import os
+import subprocess
+import sys
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from box_mesh import REPOSITORY, InFolder
+from drawn_results import every_shape, resting, turning, write_results
+from page_driver import WHY_NOT, Pages
+sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract"))
+from python_tool import run_python_tool
+
+from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.scene import make_scene  # noqa: E402
+from bielle_tools.scene.transforms import placed  # noqa: E402
+from bielle_tools.superelement_body import SuperelementBody  # noqa: E402
+
+TOOL = os.path.join(REPOSITORY, "tools", "bielle-view")
+PROGRAMS = os.environ.get("BIELLE_PROGRAMS", os.path.join(REPOSITORY, "build", "release", "bin"))
+ARM = """mechanism: arm
+gravity: [0, 0, -9.81]
+nodes: {{root: {{position: [0, 0, 0]}}, tip: {{position: [1, 0, 0]}}}}
+elements: {{arm: {{type: superelement, file: bar.h5, position: [0, 0, 0], nodes: {{root: root, tip: tip}}}}}}
+joints: {{pin: {{type: hinge, nodes: [ground, root], axis: [0, 1, 0]}}}}
+analysis: [{}]
+"""
+
+
+def view(*arguments, **options):
+    return run_python_tool(TOOL, [str(word) for word in arguments], **options)
+
+
+class Command(InFolder):
+    def test_files_without_rows_are_refused(self):
+        path = write_results(self.path("empty.h5"), {"n": resting(0)}, [], times=np.zeros(0))
+        done = view(path)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("holds no results yet", done.stderr + done.stdout)
+
+    def test_wrong_options(self):
+        path = write_results(self.path("run.h5"), {"n": resting(2)}, [])
+        for words, said in ((["--frames", "0"], "from 1 on"), (["--port", "80"], "goes with --live"), (["-o", path], "would overwrite"), (["--analysis", "7"], "no analysis 7"),
+                            (["--live", "-o", "x.html"], "writes no file")):
+            done = view(path, *words)
+            self.assertEqual((done.returncode, said in done.stderr), (1, True), done.stderr)
+
+    def test_the_page_loads_nothing(self):
+        path = write_results(self.path("run.h5"), {"n": resting(2)}, [])
+        self.assertEqual(view(path).returncode, 0)
+        with open(self.path("run.html"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn("default-src 'none'", text)
+        self.assertIn("connect-src 'none'", text)
+        for word in ("<script src", "<link", "@import", "<img", "<iframe"):
+            self.assertNotIn(word, text.replace("<script>", ""), word)
+
+
+@unittest.skipIf(WHY_NOT, WHY_NOT)
+class Viewed(Pages, InFolder):
+    def page(self, *paths, options=()):
+        """Builds and opens the page of results."""
+        done = view(*paths, "-o", self.path("page.html"), *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.open(self.path("page.html"))
+        return done.stdout
+
+    def every(self, name="every.h5", **options):
+        nodes, items, meshes = every_shape()
+        return write_results(self.path(name), nodes, items, meshes=meshes, **options)
+
+    def test_pictures_show_the_motion(self):
+        self.page(self.every())
+        first = self.picture()
+        self.run_script("bielle.player.go(15)")
+        second = self.picture()
+        self.assertGreater(np.unique(first.reshape(-1, 3), axis=0).shape[0], 200)
+        self.assertGreater((np.abs(first - second).sum(axis=2) > 30).sum(), 500)
+        self.assertGreater(self.drawn(), 20000)
+        self.no_errors()
+
+    def test_corners_are_where_the_results_say(self):
+        path = self.every()
+        self.page(path)
+        with Results(path) as results:
+            scene = make_scene(results)
+            for row in (0, 7, 30):
+                expected = np.concatenate([placed(scene.poses(part, [row])[0, part.mesh.bones], part.mesh.points) for part in scene.parts])
+                found = np.array(self.run_script("bielle.player.go(arguments[0]); const b = bielle.shown.batch, all = [];"
+                                                 "for (let k = 0; k < b.owners.length; k++) all.push(bielle.real(b.corner(k))); return all", row))
+                self.assertEqual(found.shape, expected.shape)
+                self.assertLess(np.abs(found - expected).max(), 1e-4 * scene.size)
+        self.no_errors()
+
+    def test_the_cursor_and_a_click_on_the_plot(self):
+        self.page(self.every())
+        self.run_script("const q = bielle.quantities.list().find(q => q.title === 'nodes/end/position'); bielle.plot.toggle(q, 0)")
+        self.settled()
+        for share in (0.25, 0.8):
+            self.run_script("""const c = document.getElementById("plot"), s = bielle.plot.chart.scales.x, x = s.getPixelForValue(s.min + arguments[0] * (s.max - s.min));
+                const r = c.getBoundingClientRect(); for (const type of ["pointerdown", "pointerup"])
+                c.dispatchEvent(new PointerEvent(type, {clientX: r.left + x, clientY: r.top + 40, bubbles: true}));""", share)
+            self.assertAlmostEqual(self.run_script("return bielle.player.time()"), 0.3 * share, delta=0.002)
+            self.assertAlmostEqual(self.run_script("return bielle.plot.position()"), 0.3 * share, delta=0.002)
+        now = self.run_script("return bielle.quantities.now(bielle.quantities.list().find(q => q.title === 'nodes/end/position'), 0)")
+        self.assertAlmostEqual(now, 1.6 + 0.2 * np.sin(0.2 * 24), delta=0.005)
+        self.no_errors()
+
+    def test_a_click_identifies_hides_and_isolates(self):
+        box = {"entry": "elements/big", "type": "rigid_body", "shape": "box", "node": "n", "size": [1, 1, 1]}
+        self.page(write_results(self.path("box.h5"), {"n": resting(3)}, [box]))
+        self.run_script("""const c = document.getElementById("scene"), r = c.getBoundingClientRect(), o = {clientX: r.left + r.width / 2, clientY: r.top + r.height / 2, pointerId: 1, button: 0, bubbles: true};
+            c.setPointerCapture = () => {}; c.dispatchEvent(new PointerEvent("pointerdown", o)); c.dispatchEvent(new PointerEvent("pointerup", o));""")
+        self.assertEqual(self.run_script("return document.querySelector('#details h2').textContent"), "elements/big")
+        point = np.array(self.run_script("return bielle.real(bielle.pointNow(bielle.entries.point))"))
+        self.assertAlmostEqual(np.abs(point).max(), 0.5, delta=1e-4)
+        full = self.drawn()
+        self.run_script("bielle.entries.toggle('elements/big', 'hidden')")
+        self.assertLess(self.drawn(), 0.05 * full)
+        self.no_errors()
+
+    def test_a_failed_run_and_rows_without_numbers(self):
+        x, q = resting(9, (0.2, 0, 0))
+        x = x.copy()
+        x[5:] = np.nan
+        box = {"entry": "elements/b", "type": "rigid_body", "shape": "box", "node": "n", "size": [1, 1, 1]}
+        self.page(write_results(self.path("failed.h5"), {"n": (x, q), "m": resting(9)}, [box, {**box, "entry": "elements/c", "node": "m", "position": [2, 0, 0]}], complete=0))
+        both = self.drawn()
+        self.run_script("bielle.player.go(7)")
+        self.assertLess(self.drawn(), 0.8 * both)
+        self.no_errors()
+
+    def test_one_row_and_no_items(self):
+        self.page(write_results(self.path("one.h5"), {"n": resting(1)}, None))
+        self.assertEqual(self.run_script("return bielle.shown.sequence.kind"), "state")
+        self.page(write_results(self.path("none.h5"), {"n": resting(4)}, []))
+        self.no_errors()
+
+    def test_hostile_names_do_no_harm(self):
+        evil = ["</script><script>window.harmed=1</script>", "\"'><img src=x onerror=window.harmed=1>", "größe ☃ \u2028 `${window.harmed=1}`", "{{ARRAYS}}", "__proto__"]
+        items = [{"entry": f"elements/{name}", "type": name, "shape": "box", "node": "n", "size": [1, 1, 1], "position": [2 * k, 0, 0]} for k, name in enumerate(evil)]
+        self.page(write_results(self.path("evil.h5"), {"n": resting(3)}, items, name=evil[0]))
+        self.run_script("for (const one of bielle.entries.all) bielle.entries.choose(one.entry)")
+        self.assertIsNone(self.run_script("return window.harmed ?? null"))
+        self.assertEqual(self.run_script("return [...document.querySelectorAll('.entry .name')].map(e => e.textContent)"), evil)
+        self.assertEqual(self.run_script("return document.title"), evil[0])
+        self.no_errors()
+
+    def test_tiny_and_huge_machines(self):
+        sizes = []
+        for unit in (1e-6, 1e5):
+            x = unit * np.column_stack([np.cos(np.arange(9)), np.sin(np.arange(9)), np.zeros(9)])
+            items = [{"entry": "elements/b", "type": "rigid_body", "shape": "box", "node": "n", "size": [unit, unit, unit]},
+                     {"entry": "elements/s", "type": "spring_damper", "shape": "coil", "ends": [{"node": "ground", "position": [3 * unit, 0, 0]}, {"node": "n"}]}]
+            self.page(write_results(self.path(f"unit{unit}.h5"), {"n": (x, turning(9, (0, 0, 1)))}, items))
+            self.run_script("bielle.player.go(4)")
+            sizes.append(self.drawn())
+            self.assertGreater(sizes[-1], 5000)
+            corner = np.array(self.run_script("return bielle.real(bielle.shown.batch.corner(0))"))
+            self.assertLess(np.linalg.norm(corner - x[4]), 0.9 * unit)
+        self.assertAlmostEqual(sizes[0] / sizes[1], 1, delta=0.01)
+        self.no_errors()
+
+    def test_two_runs_are_overlaid(self):
+        first = self.every()
+        nodes, items, meshes = every_shape()
+        nodes["end"] = (nodes["end"][0] + [0, 0.3, 0], nodes["end"][1])
+        self.page(first, write_results(self.path("second.h5"), nodes, items, meshes=meshes))
+        self.assertEqual(self.run_script("return bielle.allShown.length"), 2)
+        self.run_script("const q = bielle.quantities.list().find(q => q.title === 'nodes/end/position'); bielle.plot.toggle(q, 1)")
+        self.assertEqual(self.run_script("return bielle.plot.chart.data.datasets.map(d => d.data[3].y)"), [0, np.float32(0.3)])
+        self.run_script("bielle.player.go(12)")
+        self.assertEqual(self.run_script("return bielle.allShown.map(s => s.place)"), [12, 12])
+        self.no_errors()
+
+    def test_five_thousand_items(self):
+        items = [{"entry": f"joints/j{k}", "type": "hinge", "shape": "joint", "frames": [{"node": "ground", "position": [k % 70, k // 70, 0]}, {"node": "n", "position": [k % 70, k // 70, 0]}]}
+                 for k in range(5000)]
+        self.page(write_results(self.path("many.h5"), {"n": resting(20)}, items))
+        self.assertEqual(self.run_script("return bielle.entries.all.length"), 5000)
+        self.assertGreater(self.drawn(), 5000)
+        self.no_errors()
+
+    def arm(self, analysis):
+        """Results of a flexible arm."""
+        for command in ([os.path.join(PROGRAMS, "bielle-reduce"), os.path.join(REPOSITORY, "meshes", "bar.yaml"), "-o", self.path("bar.h5")],
+                        [os.path.join(PROGRAMS, "bielle-mechanism"), self.write("arm.yaml", ARM.format(analysis))]):
+            done = subprocess.run(command, capture_output=True, text=True, cwd=self.folder, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        return self.path("arm.h5")
+
+    def test_a_flexible_body_and_its_stresses(self):
+        path = self.arm("{type: dynamic, duration: 0.2, step: 0.005}")
+        self.page(path)
+        with Results(path) as results, h5py.File(self.path("bar.h5")) as file:
+            body, stressed = SuperelementBody(self.path("bar.h5")), "stress" in file["recovery"]
+            frame, q = results.rows("elements/arm/frame", 20), results.rows("elements/arm/coordinates", 20)
+        self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(20)")
+        nodes = self.run_script("return Array.from(bielle.shown.flexible[0].body.nodes)")
+        found = np.array(self.run_script("const f = bielle.shown.flexible[0]; return f.body.nodes.reduce((all, n, k) => { all.push(bielle.real(f.corner(k))); return all; }, [])"))
+        np.testing.assert_allclose(found, body.at(frame, q)[0][nodes], atol=1e-4)
+        if stressed:
+            values = np.array(self.run_script("return Array.from(bielle.shown.flexible[0].values)"))
+            exact = body.von_mises(q)[nodes]
+            known = np.isfinite(exact)
+            np.testing.assert_allclose(values[known], exact[known], atol=0.02 * np.nanmax(exact))
+        self.run_script("bielle.settings.magnify = 0; bielle.player.go(20)")
+        flat = np.array(self.run_script("return bielle.real(bielle.shown.flexible[0].corner(0))"))
+        np.testing.assert_allclose(flat, body.at(frame, 0 * q)[0][nodes[0]], atol=1e-4)
+        self.no_errors()
+
+    def test_modes_and_their_decay(self):
+        path = self.arm("{type: assembly}, {type: eigen, count: 4}")
+        self.page(path)
+        kinds = self.run_script("return bielle.data.runs[0].sequences.map(s => s.kind)")
+        self.assertEqual(kinds, ["state"] + 4 * ["mode"])
+        self.run_script("bielle.show(3)")
+        corners = "const f = bielle.shown.flexible[0]; return Array.from(f.body.nodes, (_, k) => f.corner(k))"
+        rest = np.array(self.run_script("bielle.settings.amplitude = 1e-9; bielle.player.go(0);" + corners))
+        phases = [np.array(self.run_script("bielle.settings.amplitude = arguments[1]; bielle.player.go(arguments[0]);" + corners, place, size)) - rest
+                  for place, size in ((0, 1), (18, 1), (36, 1), (0, 2))]
+        np.testing.assert_allclose(phases[0], -phases[1], atol=1e-4)
+        np.testing.assert_allclose(phases[0], phases[2], atol=1e-9)
+        np.testing.assert_allclose(2 * phases[0], phases[3], atol=1e-4)
+        self.assertAlmostEqual(np.linalg.norm(phases[0], axis=1).max(), 0.1, delta=0.03)  # a tenth of the size
+        decay = self.run_script("bielle.settings.decay = true; bielle.settings.amplitude = 1; bielle.player.go(18); return [bielle.amplitude(), bielle.shown.sequence.decay]")
+        self.assertAlmostEqual(decay[0], np.exp(decay[1] / 2), 9)
+        self.no_errors()
+
+
+@unittest.skipIf(WHY_NOT, WHY_NOT)
+class Live(Pages, InFolder):
+    def test_a_growing_run_is_shown_again(self):
+        path, item = self.path("run.h5"), {"entry": "nodes/n", "type": "node", "shape": "node", "node": "n"}
+        write_results(path, {"n": resting(5)}, [item])
+        server = subprocess.Popen([sys.executable, TOOL, path, "--live"], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(server.stdout.close)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        address = server.stdout.readline().split()[0]
+        self.assertTrue(address.startswith("http://127.0.0.1:"), address)
+        self.open(address)
+        self.assertEqual(self.run_script("return bielle.shown.sequence.rows"), 5)
+        self.run_script("bielle.camera.turn = 0.123; bielle.player.go(4)")
+        write_results(path, {"n": resting(8)}, [item])
+        end = time.monotonic() + 60
+        while self.run_script("return window.bielle && window.bielle.ready ? bielle.shown.sequence.rows : 0") != 8:
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.2)
+        self.assertEqual(self.run_script("return [bielle.camera.turn, bielle.player.place]"), [0.123, 7])
+        self.no_errors()
+        connection = http.client.HTTPConnection(address[7:].strip("/"))
+        connection.request("GET", "/state", headers={"Host": "elsewhere.example"})
+        self.assertEqual(connection.getresponse().status, 403)
+        connection.close()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,35 @@
+// Resolution of the picture: coarser while a slow machine plays, fine when the picture stands still.
+
+const SLOW = 40, FAST = 20, COARSEST = 0.5;  // [ms] between pictures; pixels of the picture per pixel of the screen
+
+class Quality {
+  constructor(app) {
+    this.app = app;
+    this.finest = window.devicePixelRatio || 1;
+    this.software = isSoftware();  // without a graphics card: no smoothing of edges by several samples, but a finer picture at rest
+    this.moving = this.finest;
+    this.ratio = this.resting = this.software ? 1.5 * this.finest : this.finest;
+    this.mean = 30;
+  }
+
+  /// Adapts the resolution to the time since the last picture.
+  adapt(now) {
+    const passed = now - (this.before || now), playing = this.app.player.playing || this.app.camera.turning;
+    this.before = now;
+    if (playing) {
+      this.mean += 0.15 * (Math.min(passed, 200) - this.mean);
+      if (this.mean > SLOW) this.moving = Math.max(COARSEST, 0.8 * this.moving), this.mean = 30;
+      else if (this.mean < FAST && this.moving < this.finest) this.moving = Math.min(this.finest, 1.1 * this.moving), this.mean = 30;
+    }
+    const wanted = playing ? this.moving : this.resting;
+    if (Math.abs(wanted - this.ratio) < 1e-3) return;
+    this.ratio = wanted;
+    this.app.resize();
+  }
+}
+
+/// Tells whether the browser draws without a graphics card.
+function isSoftware() {
+  const context = document.createElement("canvas").getContext("webgl"), names = context && context.getExtension("WEBGL_debug_renderer_info");
+  return Boolean(names) && /swiftshader|llvmpipe|software/i.test(context.getParameter(names.UNMASKED_RENDERER_WEBGL));
+}
