@@ -12,6 +12,7 @@ sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 
 from bielle_tools.results_file import Results  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
+from bielle_tools.scene.arrows import arrows_of  # noqa: E402
 from bielle_tools.scene.templates import box, cylinder, extruded, lathe, sphere, torus, tube  # noqa: E402
 from bielle_tools.rotations import rotation_matrices  # noqa: E402
 from bielle_tools.scene.transforms import from_axes, from_z, placed, product, rotated  # noqa: E402
@@ -129,6 +130,18 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(volume(scene.parts[0].mesh), 0, 12)  # all stations at the origin of their bones
         points = placed(scene.poses(scene.parts[0], [2])[0, scene.parts[0].mesh.bones], scene.parts[0].mesh.points)
         self.assertAlmostEqual(volume(type(scene.parts[0].mesh)(points, scene.parts[0].mesh.triangles, None, None)), 16, 9)
+
+    def test_arrows_of_reactions_and_contacts(self):
+        def records(file):
+            file["joints/pin/reaction_inertial"] = np.tile([1.0, 2, 3, 4, 5, 6], (4, 1))
+            file["contacts/touch/point"] = np.tile([1.0, 1, 1], (4, 1))
+            file["contacts/touch/force"] = np.array([[[0, 0, -5.0], [0, 0, 3.0], [0, 0, 2.0]]] * 4)
+        items = [{"entry": "joints/pin", "type": "hinge", "shape": "joint", "frames": [{"node": "ground"}, {"node": "n", "position": [0.5, 0, 0]}]},
+                 *({"entry": "joints/touch", "type": "contact", "shape": "sphere", "radius": 0.1, "role": "contact", "node": node} for node in ("ground", "n", "m"))]
+        scene = self.scene({"n": resting(4, (2, 0, 0)), "m": resting(4, (3, 0, 0))}, items, extra=records)
+        found = [(arrow.entry, arrow.kind, arrow.origin[2].tolist(), arrow.vector[2].tolist()) for arrow in arrows_of(scene, scene.rows)]
+        self.assertEqual(found, [("joints/pin", "reactions", [2.5, 0, 0], [1, 2, 3]), ("joints/touch", "contact forces", [2, 0, 0], [0, 0, 3]),
+                                 ("joints/touch", "contact forces", [3, 0, 0], [0, 0, 2])])
 
     def test_planar_machines_and_scales(self):
         for unit in (1e-6, 1.0, 1e5):

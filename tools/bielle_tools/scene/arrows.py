@@ -66,9 +66,15 @@ def _support(scene, name, rows):
 def _contact(scene, name, rows):
     place = f"contacts/{name}"
     if scene.results.has(f"{place}/point") and scene.results.has(f"{place}/force"):
-        force = scene.results.rows(f"{place}/force")[rows]
-        force = force.sum(axis=1) if force.ndim == 3 else force
-        yield f"joints/{name}", "contact forces", "N", scene.results.rows(f"{place}/point")[rows], force
+        entry, force = f"joints/{name}", scene.results.rows(f"{place}/force")[rows]
+        if force.ndim == 2:
+            yield entry, "contact forces", "N", scene.results.rows(f"{place}/point")[rows], force
+            return
+        # The results hold the sum of the forces on each of several shapes, which acts at its middle as far as they tell.
+        shapes = [item for item in scene.items if item["entry"] == entry and item.get("role") == "contact"]
+        for k, item in enumerate(shapes if len(shapes) == force.shape[1] else []):
+            if place_of(item).node != "ground":
+                yield entry, "contact forces", "N", scene.motion_of_nodes.position(place_of(item), rows), force[:, k]
 
 
 def _velocity(scene, name, rows):

@@ -9,7 +9,7 @@ import numpy as np
 
 from .transforms import between, rotated
 
-PIECES = 14  # of an arc
+PIECES = 14  # number of straight pieces that an arc is drawn with
 
 
 class Course:

@@ -1,25 +1,66 @@
 """A local page that reloads while a run grows, bound to the loopback address."""
 
+import contextlib
 import http.server
+import io
 import os
+import shutil
 import socketserver
+import tempfile
+import threading
+import time
 
 from ..messages import InputError, note
 
 PAGE, STATE = "/", "/state"
+TRIES, PAUSE = 10, 0.5  # attempts to build the first page; time between them [s]
 
 
 def serve(paths, port, page):
-    """Serves page(token) until it is interrupted. The token changes when a file grows. @raises InputError if the first page cannot be built"""
-    handler = _handler(paths, page)
+    """Serves page(paths, token) until it is interrupted. The token changes when a file grows. @raises InputError if the first page cannot be
+    built within some tries: a file is unreadable at moments while a run writes it"""
+    def build(token):
+        with copies(paths) as copied:
+            return page(copied, token)
+    handler = _handler(paths, build)
     try:
         server = _Server(("127.0.0.1", port), handler)
     except OSError as error:
         raise InputError(f"port {port} cannot be used: {error.strerror}") from None
     with server:
-        handler.kept = (token_of(paths), page(token_of(paths)))  # wrong input is told before the address
+        handler.kept = _first(paths, build)  # wrong input is told before the address
         print(f"http://127.0.0.1:{server.server_address[1]}/  (Ctrl-C ends it)", flush=True)
         server.serve_forever()
+
+
+def _first(paths, build):
+    for again in reversed(range(TRIES)):
+        token = token_of(paths)
+        try:
+            return token, build(token)
+        except InputError:
+            time.sleep(PAUSE)
+            if not again or token == token_of(paths):
+                raise  # the file stays as it is
+    raise AssertionError
+
+
+@contextlib.contextmanager
+def copies(paths):
+    """Copies of files of this moment, since a run changes them while they are read; other files beside them are found beside the copies."""
+    with tempfile.TemporaryDirectory(prefix="bielle-view-") as folder:
+        copied = []
+        for number, path in enumerate(paths):
+            if not os.path.isfile(path):
+                copied.append(path)  # its absence is told where it is read
+                continue
+            own, beside = os.path.join(folder, str(number)), os.path.dirname(os.path.abspath(path))
+            os.mkdir(own)
+            copied.append(shutil.copyfile(path, os.path.join(own, os.path.basename(path))))
+            for entry in os.scandir(beside):
+                if entry.name.endswith(".h5") and entry.name != os.path.basename(path):
+                    os.symlink(entry.path, os.path.join(own, entry.name))
+        yield copied
 
 
 class _Server(socketserver.ThreadingMixIn, http.server.HTTPServer):
@@ -42,27 +83,32 @@ def _handler(paths, build):
     class Handler(http.server.BaseHTTPRequestHandler):
         """Answers the page, and the token of its files."""
 
-        kept = ("", "")
+        kept, said, lock = ("", ""), "", threading.Lock()
 
         def do_GET(self):  # pylint: disable=invalid-name
             host = (self.headers.get("Host") or "").partition(":")[0]
             if host not in ("127.0.0.1", "localhost"):  # a page elsewhere that resolves its own name to this address gets nothing
                 self.send_error(403)
             elif self.path == STATE:
-                self._answer(token_of(paths), "text/plain")
+                self._answer(self._newest()[0], "text/plain")
             elif self.path == PAGE:
-                self._answer(self._page(), "text/html")
+                self._answer(self._newest()[1], "text/html")
             else:
                 self.send_error(404)
 
-        def _page(self):
-            token = token_of(paths)
-            if token != Handler.kept[0]:
-                try:
-                    Handler.kept = (token, build(token))
-                except InputError as error:  # a file that is just being written: the last page stays
-                    note(str(error))
-            return Handler.kept[1]
+        def _newest(self):
+            """The token of the newest page that could be built, and the page. A file that cannot be read now keeps the page before."""
+            with Handler.lock:
+                token = token_of(paths)
+                if token != Handler.kept[0]:
+                    try:
+                        with contextlib.redirect_stderr(io.StringIO()):  # the notes of the first page would come again each time
+                            Handler.kept = (token, build(token))
+                    except InputError as error:
+                        if str(error) != Handler.said:
+                            Handler.said = str(error)
+                            note(Handler.said)
+                return Handler.kept
 
         def _answer(self, text, kind):
             data = text.encode()

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..messages import InputError, note
 from ..modes import Modes, ModeMotion, ModeScenery
-from ..results_file import Results
+from ..results_file import Results, open_hdf5, reading
 
 PHASES = 36
 MOST_MODES = 20
@@ -19,9 +19,9 @@ class Sequence:
 
 def sequences(path, frames, superelements, analysis=None):
     """(sequences, results to close) of a file. frames: largest number of rows of one. @raises InputError"""
-    with Results(path) as whole:
-        groups = {name: (str(_attribute(whole.file[name], "type")), len(whole.file[name].get("time", ())), "eigen" in whole.file[name])
-                  for name in whole.file if name.startswith("analysis_") and name[9:].isdigit()}
+    with open_hdf5(path, "bielle results", "results of bielle-mechanism") as file, reading(path, "/"):
+        groups = {name: (_type(file[name]), len(file[name].get("time", ())), "eigen" in file[name])
+                  for name in file if name.startswith("analysis_") and name[9:].isdigit()}
     numbers = sorted(int(name[9:]) for name in groups) if analysis is None else [analysis]
     found, opened = [], []
     for number in numbers:
@@ -33,7 +33,7 @@ def sequences(path, frames, superelements, analysis=None):
                 found.append(_motion(results, f"{number}. {kind or 'analysis'}", frames))
             if modal:
                 found += _modes(results, superelements, f"{number}. ")
-    if not found and not groups:
+    if not found and not any(rows or modal for _, rows, modal in groups.values()):
         results = Results(path)
         opened.append(results)
         found.append(_motion(results, "motion", frames))
@@ -42,9 +42,9 @@ def sequences(path, frames, superelements, analysis=None):
     return found, opened
 
 
-def _attribute(group, name):
-    value = group.attrs.get(name, "")
-    return value.decode() if isinstance(value, bytes) else value
+def _type(group):
+    value = group.attrs.get("type", "")
+    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def _motion(results, title, frames):

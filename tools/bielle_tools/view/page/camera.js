@@ -39,6 +39,7 @@ class Camera {
   /// Moves and sizes the picture so that all points of the motion are in it.
   fit() {
     if (!this.app.shown) return;
+    this.touched = false;
     const points = this.app.extent(), aspect = this.aspect(), tangent = Math.tan(16 * Math.PI / 180), [right, up, back] = this.axes();
     this.target = this.app.data.low.map((x, k) => (x + this.app.data.high[k]) / 2);
     this.height = 3;
@@ -84,6 +85,7 @@ class Camera {
       const dx = event.clientX - from[0], dy = event.clientY - from[1];
       from = [event.clientX, event.clientY];
       moved += Math.abs(dx) + Math.abs(dy);
+      this.touched = true;
       if (event.buttons === 1 && !event.shiftKey) {
         this.turn -= 0.008 * dx;
         this.tilt = clamp(this.tilt + 0.008 * dy, -Math.PI / 2, Math.PI / 2);
@@ -98,6 +100,7 @@ class Camera {
     });
     canvas.addEventListener("wheel", event => {
       event.preventDefault();
+      this.touched = true;
       const factor = Math.exp(0.0012 * clamp(event.deltaY, -300, 300)), rect = canvas.getBoundingClientRect(), [right, up] = this.axes();
       const x = event.clientX - rect.left - rect.width / 2, y = event.clientY - rect.top - rect.height / 2, unit = this.height / rect.height * (1 - factor);
       this.target = this.target.map((value, k) => value + unit * (x * right[k] - y * up[k]));

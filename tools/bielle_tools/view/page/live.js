@@ -11,10 +11,8 @@ class Live {
 
   async ask() {
     try {
-      const token = await (await fetch("/state", {cache: "no-store"})).text();
-      if (token === this.app.data.live || token === this.seen) { this.seen = token; return; }
-      if (this.seen === undefined || this.seen !== token) { this.seen = token; }
-      const {app} = this;
+      const token = await (await fetch("/state", {cache: "no-store"})).text(), {app} = this;
+      if (token === app.data.live) return;
       sessionStorage.setItem("bielle-view", JSON.stringify({camera: app.camera.saved(), last: app.player.place >= app.player.last, place: app.player.place, sequence: app.number, series: app.plot.series}));
       location.reload();
     } catch (error) {
@@ -27,7 +25,7 @@ class Live {
     if (!text) return;
     const saved = JSON.parse(text);
     if (saved.sequence < app.data.runs[0].sequences.length) app.show(saved.sequence);
-    Object.assign(app.camera, saved.camera);
+    Object.assign(app.camera, saved.camera, {touched: true});
     app.plot.series = saved.series;
     app.plot.refill();
     app.player.go(saved.last ? app.player.last : saved.place);

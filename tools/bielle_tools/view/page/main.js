@@ -67,7 +67,7 @@ class App {
     document.getElementById("sequence").value = number;
     this.player.cycles = 0;
     this.player.reset();
-    this.stressChanged();
+    this.ranges = {};
     this.entries.point = null;
     this.traces.rebuild();
     this.controls.reset();
@@ -75,6 +75,7 @@ class App {
     this.repaint();
     this.details.show(this.entries.chosen);
     this.moved();
+    if (!this.camera.touched) this.camera.fit();
   }
 
   /// Amplitude of a mode: with its decay since it was started if that is wanted.
@@ -101,17 +102,15 @@ class App {
   /// The last phase of a mode is its first.
   placeIn(each, place) { return each.rest >= 0 && place >= each.rest ? place - each.rest : each.rest >= 0 && place > each.rest - 1 ? each.rest - 1 : place; }
 
-  /// Colours of stresses cover the largest von Mises stress over time, or the extremes of this moment.
-  stressChanged() { this.overlay.legendOf = null; }
-
+  /// Colours of stresses cover the largest von Mises stress over time, or the extremes of the moments that were shown.
   range() {
     const {stress} = this.settings, all = this.allShown.flatMap(each => each.flexible.filter(f => f.body.stress));
     this.colours = null;
     if (stress === "none" || !all.length) return;
-    let low = 0, high = 0;
+    let [low, high] = this.ranges[stress] || [0, 0];
     if (stress === "von_mises" || stress === "peak") high = Math.max(...all.map(f => f.part.largest || 0));
-    if (!(high > 0) || this.shown.rest >= 0) for (const f of all) { const [a, b] = f.extremes(); low = Math.min(low, a); high = Math.max(high, b); }
-    this.colours = [low, high];
+    if (!["von_mises", "peak"].includes(stress) || !(high > 0)) for (const f of all) { const [a, b] = f.extremes(); low = Math.min(low, a); high = Math.max(high, b); }
+    this.colours = this.ranges[stress] = [low, high];
     for (const f of all) f.range.set(low, high);
   }
 

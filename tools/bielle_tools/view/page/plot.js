@@ -16,7 +16,11 @@ class Quantities {
     return q.read;
   }
 
-  of(entry) { return this.list().filter(one => one.entry === entry); }
+  /// Quantities of an entry, also those that are recorded in another section under its name.
+  of(entry) {
+    const names = [entry, entry.replace(/^joints\//, "contacts/"), entry.replace(/^nodes\//, "supports/")];
+    return this.list().filter(one => names.includes(one.entry));
+  }
 
   column(quantity, k) { const n = quantity.times.length; return quantity.values.subarray(k * n, k * n + n); }
 

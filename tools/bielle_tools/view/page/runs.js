@@ -40,6 +40,8 @@ class Shown {
     let opacity = part.opacity;
     if (this.app.entries.hidden(part.entry) || s.groups[part.group] === false) opacity = 0;
     if (state.faint) opacity *= 0.25;
+    const facts = this.sequence.kind === "state" && this.sequence.joints[part.entry];
+    if (facts) colour.lerp(new THREE.Color("#d3262f"), 0.65);  // gaps and redundant constraints of a model that was only assembled
     if (this.number) { colour.lerp(new THREE.Color(GHOSTS[(this.number - 1) % GHOSTS.length]), 0.75); opacity *= s.ghost; }
     if (this.app.entries.chosen === part.entry) colour.lerp(new THREE.Color("#ffb000"), 0.6);
     return [colour.r, colour.g, colour.b, opacity];
