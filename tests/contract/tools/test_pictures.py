@@ -343,8 +343,9 @@ class Surroundings(Pictures):
         command[5] = "2000"
         with subprocess.Popen(command, cwd=self.folder, env=environment, stdout=subprocess.DEVNULL) as running:
             processors = len(os.sched_getaffinity(0))
-            everyone = 3 + (processors if processors > 1 else 0)  # the one that waits, the one that works, the display, those that draw
-            self.assertTrue(self.wait_for(lambda: len(self.marked(mark)) >= everyone), self.marked(mark))
+            own = 2 + (processors if processors > 1 else 0)  # the one that waits, the one that works, those that draw
+            self.assertTrue(self.wait_for(lambda: list(self.marked(mark).values()).count("bielle-animate") >= own), self.marked(mark))
+            self.assertIn("Xvfb", self.marked(mark).values())
             for number in sorted(self.marked(mark))[:2]:
                 os.kill(number, signal.SIGKILL)
             running.wait()
