@@ -202,7 +202,7 @@ class Results:
         found = self._found(place)
         if found == ():
             raise KeyError(place)
-        data = self.root[place] if found is None else found[0][found[2]]
+        data = self.root[place] if found is None else self._stacked.dataset(found)
         if not isinstance(data, h5py.Dataset) or data.dtype.kind not in "fiu":
             raise InputError(f"'{self.path}': '{place}' holds no numbers")
         shape = self.shape(place)

@@ -8,6 +8,7 @@ A section contains one such group per kind; entries of a kind record the same qu
 
 import numpy as np
 
+MOST_KEPT = 200e6  # bytes of datasets that are kept, since their entries are read one after another
 SECTIONS = ("nodes", "elements", "joints", "measures")
 
 
@@ -20,6 +21,9 @@ class StackedLayout:
         self._places = {}  # section -> {name: (group of the kind, number)}
         self._lists = {}  # path of an attribute -> its texts
         self._row = {}  # path of a dataset -> (row, numbers of all entries)
+        self._opened = {}  # (identity of a group, field) -> dataset, or None
+        self._whole = {}  # path of a dataset -> (rows, numbers of all entries in them)
+        self._room = MOST_KEPT
 
     def names(self, section):
         """Names in the order of their kinds; None if the section is not stacked."""
@@ -37,7 +41,21 @@ class StackedLayout:
         return (*entries[name], field) if name in entries else ()
 
     def has(self, found):
-        return bool(found) and (not found[2] or found[2] in found[0])
+        return bool(found) and (not found[2] or self._dataset(found[0], found[2]) is not None)
+
+    def dataset(self, found):
+        """The dataset with all entries of the kind. @raises KeyError"""
+        data = self._dataset(found[0], found[2])
+        if data is None:
+            raise KeyError(found[2])
+        return data
+
+    def _dataset(self, group, field):
+        """The dataset of a field, opened once; None if the group has no such field."""
+        key = (id(group), field)
+        if key not in self._opened:
+            self._opened[key] = group[field] if field in group else None
+        return self._opened[key]
 
     def datasets(self, found):
         """Names of the datasets of an entry."""
@@ -60,7 +78,9 @@ class StackedLayout:
     def read(self, found, rows):
         """Rows of one entry. Rows of many entries at one time are read together."""
         group, number, field = found
-        data = group[field]
+        data = self.dataset(found)
+        if isinstance(rows, slice) and rows.step is None:
+            return self._of_all(data, rows)[:, number].copy()
         if isinstance(rows, slice) or np.ndim(rows):
             return np.asarray(data[rows, number])
         kept = self._row.get(data.name)
@@ -68,9 +88,20 @@ class StackedLayout:
             self._row[data.name] = kept = (rows, data[rows])
         return kept[1][number]
 
+    def _of_all(self, data, rows):
+        """Rows of all entries, kept if there is room."""
+        kept = self._whole.get(data.id)
+        if kept is not None and kept[0] == rows:
+            return kept[1]
+        if data.size * data.dtype.itemsize > self._room:
+            return _Columns(data, rows)
+        self._room -= data.size * data.dtype.itemsize
+        self._whole[data.id] = (rows, np.asarray(data[rows]))
+        return self._whole[data.id][1]
+
     def shape(self, found):
         """Shape of the dataset for the entry alone."""
-        shape = found[0][found[2]].shape
+        shape = self.dataset(found).shape
         return shape[:1] + shape[2:] if len(shape) > 1 else ()  # a number that is no row over time
 
     def value(self, found):
@@ -84,3 +115,13 @@ class StackedLayout:
                 places.update((name, (group, k)) for k, name in enumerate(group["name"].asstr()[:]))
             self._places[section] = places
         return self._places[section]
+
+
+class _Columns:
+    """Rows of a dataset that is too large to be kept: `[:, number]` reads those of one entry."""
+
+    def __init__(self, data, rows):
+        self.data, self.rows = data, rows
+
+    def __getitem__(self, index):
+        return np.asarray(self.data[self.rows, index[1]])

@@ -20,6 +20,7 @@ class Builder:
         self.motion, self.drawing, self.palette, self.flexible = motion, drawing, palette, flexible
         self.symbol, self.extent, self.centre = 1.0, 1.0, np.zeros(3)
         self.planes = 1  # their number
+        self.around = 24  # corners of symbols around an axis
         self.attached = {}  # node -> positions in its axes of what is attached to it
 
     def parts(self, item):
@@ -71,8 +72,8 @@ def _body(b, item):
     ends = np.array(b.attached.get(item["node"], [])).reshape(-1, 3)
     ends = ends[np.linalg.norm(ends - centre, axis=1) > 0.6 * b.symbol]
     thin = max(0.42 * b.symbol, 0.012 * max(np.linalg.norm(ends - centre, axis=1), default=0))
-    pieces = [t.rod(centre, end, (thin, 0.62 * thin)) for end in np.unique(np.round(ends, 12), axis=0)]
-    return [b.rigid(item, t.merged([t.moved(t.sphere(1.25 * thin if len(pieces) else 0.6 * b.symbol), centre), *pieces]))]
+    pieces = [t.rod(centre, end, (thin, 0.62 * thin), b.around // 3 + 2) for end in np.unique(np.round(ends, 12), axis=0)]
+    return [b.rigid(item, t.merged([t.moved(t.sphere(1.25 * thin if len(pieces) else 0.6 * b.symbol, b.around // 3 + 2, b.around // 2 + 4), centre), *pieces]))]
 
 
 def _gear(b, item):
@@ -190,7 +191,7 @@ def _joint(b, item):
     places = [place_of(frame) for frame in item["frames"]]
     if len(places) != 2:
         raise ValueError("it has not two frames")
-    meshes = symbols.joint_symbol(item["type"], b.symbol)
+    meshes = symbols.joint_symbol(item["type"], b.symbol, b.around)
     parts = [b.rigid(item, mesh, "joint", colour, place) for mesh, place, colour in zip(meshes, places, (COLOURS["outer"], COLOURS["inner"])) if mesh]
     if item.get("colour"):
         parts[-1].colour = lighter(b.colour(item, COLOURS["inner"]))
@@ -241,7 +242,7 @@ BUILDERS = {
     "sphere": lambda b, item: [b.rigid(item, t.sphere(*_positive(item["radius"]), 16, 32))],
     "mesh": _mesh, "ellipsoid": _ellipsoid, "gear": _gear, "pulley": _pulley, "tyre": _tyre, "cam": _cam, "plane": _plane, "curve": _curve,
     "body": _body, "support": _support, "joint": _joint, "stiffness": _stiffness, "beam": _beam, "superelement": _superelement, "course": _course,
-    "node": lambda b, item: [b.rigid(item, t.sphere(0.28 * b.symbol, 8, 12), "node", COLOURS["node"])],
+    "node": lambda b, item: [b.rigid(item, t.sphere(0.28 * b.symbol, b.around // 4, b.around // 2), "node", COLOURS["node"])],
     "bar": lambda b, item: [b.link(item, bar_mesh(float(item.get("radius", 0.3 * b.symbol))), COLOURS["bar"], "body")],
     "rope": lambda b, item: [b.link(item, rope_mesh(0.16 * b.symbol), COLOURS["rope"], "rope")],
     "coil": lambda b, item: [_coil(b, item)],

@@ -13,6 +13,7 @@ from .style import Palette, Style
 from .transforms import conjugate, placed, product
 
 SAMPLES = 24  # rows from which bounds are taken
+MANY = 800  # items from which on symbols are coarser, and bounds are taken from spheres about bones
 
 
 def make_scene(results, superelements=None, style=None):
@@ -22,7 +23,7 @@ def make_scene(results, superelements=None, style=None):
 
 class Scene:
     """parts, flexible: what is drawn; size: characteristic length [m]; symbol: size of symbols [m]; planar: 0, 1, 2 for the axis normal to a
-    planar motion, or None; gravity (3) or None; notes: [(entry, reason)] of entries that are not drawn; anchors of labels."""
+    planar motion, or None; gravity (3) or None; notes: [(entry, reason)] of entries that are not drawn; anchors of labels; low, high (3): bounds over the rows."""
 
     def __init__(self, results, superelements, style):
         self.results, self.rows = results, np.arange(len(results.time))
@@ -36,7 +37,7 @@ class Scene:
         for item in self.items:
             self._add(builder, item)
         self.notes += [("/drawing", f"items of the shape '{shape}' are not known here: {count}") for shape, count in self._unknown.items()]
-        low, high = self.bounds(self._samples())
+        self.low, self.high = low, high = self.bounds(self._samples())
         self.size = float(np.linalg.norm(high - low)) or 1.0
         self.planar = self._planar()
 
@@ -51,8 +52,12 @@ class Scene:
             if part.group == "ground" and part.mesh.lines.size:
                 continue  # planes extend without end
             poses = self.poses(part, rows)
-            every = max(1, len(part.mesh.points) // 400)
-            points = placed(poses[:, part.mesh.bones[::every]], part.mesh.points[::every]).reshape(-1, 3)
+            if len(self.parts) > MANY:
+                reach = np.abs(part.mesh.points).max(initial=0) * np.fmax(poses[..., 7:], 1)
+                points = np.concatenate([poses[..., :3] - reach, poses[..., :3] + reach]).reshape(-1, 3)
+            else:
+                every = max(1, len(part.mesh.points) // 400)
+                points = placed(poses[:, part.mesh.bones[::every]], part.mesh.points[::every]).reshape(-1, 3)
             low, high = np.fmin(low, np.fmin.reduce(points, initial=np.inf)), np.fmax(high, np.fmax.reduce(points, initial=-np.inf))
         for part in self.flexible:
             points = surface_points(part, rows, max(1, len(part.body.points) // 400)).reshape(-1, 3)
@@ -91,6 +96,7 @@ class Scene:
         else:
             extent_first = extent
         builder.extent = extent or 1.0
+        builder.around = 24 if len(self.items) < MANY else 8
         builder.planes = sum(item["shape"] == "plane" for item in self.items)
         self.symbol = builder.symbol = style.symbols * _symbol_size(extent_first or extent or 1.0, np.array(joints).reshape(-1, 3), self._radii())
 

@@ -1,4 +1,9 @@
-"""Symbols of joints by type: the part on the first node and the part on the second, with axis z, for a symbol size of 1."""
+"""Symbols of joints by type: the part on the first node and the part on the second, with axis z, for a symbol size of 1.
+
+n: number of corners around an axis.
+"""
+
+import functools
 
 import numpy as np
 
@@ -6,61 +11,61 @@ from . import templates as t
 from .parts import Mesh
 
 
-def _hinge():
-    return t.tube(1, 0.6, 1.2), t.cylinder(0.58, 2.2)
+def _hinge(n):
+    return t.tube(1, 0.6, 1.2, n), t.cylinder(0.58, 2.2, n)
 
 
-def _spherical():
-    return t.tube(1.12, 0.8, 0.7), t.sphere(0.95)
+def _spherical(n):
+    return t.tube(1.12, 0.8, 0.7, n), t.sphere(0.95, n // 2 - 1, n)
 
 
-def _prismatic():
+def _prismatic(n):
     sleeve = t.merged([t.moved(t.box([1.8, 0.35, 2.0]), (0, side * 0.725, 0)) for side in (1, -1)]
                       + [t.moved(t.box([0.35, 1.1, 2.0]), (side * 0.725, 0, 0)) for side in (1, -1)])
     return sleeve, t.box([1.0, 1.0, 4.4])
 
 
-def _cylindrical():
-    return t.tube(1, 0.6, 1.8), t.cylinder(0.56, 4.4)
+def _cylindrical(n):
+    return t.tube(1, 0.6, 1.8, n), t.cylinder(0.56, 4.4, n)
 
 
-def _universal():
-    pins = t.moved(t.cylinder(0.35, 2.6), axes=t.ALONG_X), t.moved(t.cylinder(0.35, 2.6), axes=t.ALONG_Y)
+def _universal(n):
+    pins = t.moved(t.cylinder(0.35, 2.6, n), axes=t.ALONG_X), t.moved(t.cylinder(0.35, 2.6, n), axes=t.ALONG_Y)
     return t.merged([pins[0], t.moved(t.box([0.3, 0.9, 0.9]), (1.3, 0, 0)), t.moved(t.box([0.3, 0.9, 0.9]), (-1.3, 0, 0))]), \
-        t.merged([pins[1], t.moved(t.box([0.9, 0.3, 0.9]), (0, 1.3, 0)), t.moved(t.box([0.9, 0.3, 0.9]), (0, -1.3, 0)), t.sphere(0.55)])
+        t.merged([pins[1], t.moved(t.box([0.9, 0.3, 0.9]), (0, 1.3, 0)), t.moved(t.box([0.9, 0.3, 0.9]), (0, -1.3, 0)), t.sphere(0.55, n // 2 - 1, n)])
 
 
-def _constant_velocity():
-    return t.merged([t.tube(1.2, 0.85, 1.1), t.tube(1.2, 0.3, 0.1)]), t.merged([t.sphere(0.8), t.cylinder(0.35, 2.4)])
+def _constant_velocity(n):
+    return t.merged([t.tube(1.2, 0.85, 1.1, n), t.tube(1.2, 0.3, 0.1, n)]), t.merged([t.sphere(0.8, n // 2 - 1, n), t.cylinder(0.35, 2.4, n)])
 
 
-def _planar():
-    return t.moved(t.cylinder(2.4, 0.15, around=36), (0, 0, -0.1)), t.moved(t.cylinder(1.0, 0.3), (0, 0, 0.15))
+def _planar(n):
+    return t.moved(t.cylinder(2.4, 0.15, n + n // 2), (0, 0, -0.1)), t.moved(t.cylinder(1.0, 0.3, n), (0, 0, 0.15))
 
 
-def _line():
-    return t.cylinder(0.2, 5.0), t.sphere(0.7)
+def _line(n):
+    return t.cylinder(0.2, 5.0, n), t.sphere(0.7, n // 2 - 1, n)
 
 
-def _rigid():
+def _rigid(n):
     return t.box([1.3, 1.3, 0.5]), t.box([0.8, 0.8, 1.3])
 
 
-def _screw():
+def _screw(n):
     profile = [(0, -2.2)] + [(0.62 if k % 2 else 0.42, -2.2 + 0.2 * k) for k in range(23)] + [(0, 2.2)]
     return t.lathe(profile, around=18), t.lathe([(0.6, -0.5), (1.1, -0.5), (1.1, 0.5), (0.6, 0.5)], around=6)
 
 
-def _bearing():
-    return t.tube(1.25, 0.95, 0.8), t.merged([t.cylinder(0.6, 1.6)] + [
+def _bearing(n):
+    return t.tube(1.25, 0.95, 0.8, n), t.merged([t.cylinder(0.6, 1.6, n)] + [
         t.moved(t.sphere(0.17, 6, 10), (0.78 * x, 0.78 * y, 0)) for x, y in t.circle(8)])
 
 
-def _bushing():
-    return t.tube(1.2, 1.0, 1.4), t.merged([t.tube(1.0, 0.5, 1.2), t.cylinder(0.5, 2.0)])
+def _bushing(n):
+    return t.tube(1.2, 1.0, 1.4, n), t.merged([t.tube(1.0, 0.5, 1.2, n), t.cylinder(0.5, 2.0, n)])
 
 
-def _other():
+def _other(n):
     return None, t.octahedron(0.8)
 
 
@@ -70,10 +75,11 @@ SYMBOLS = {"hinge": _hinge, "clearance_hinge": _hinge, "spherical": _spherical, 
            "bushing": _bushing}
 
 
-def joint_symbol(kind, size):
-    """Meshes on the first and on the second frame of a joint; None for a side without one."""
+@functools.lru_cache(maxsize=64)
+def joint_symbol(kind, size, around=24):
+    """Meshes on the first and on the second frame of a joint; None for a side without one. around: number of corners around an axis"""
     return [None if shape is None else Mesh(size * shape.points, shape.triangles, shape.lines, shape.bones)
-            for shape in SYMBOLS.get(kind, _other)()]
+            for shape in SYMBOLS.get(kind, _other)(around)]
 
 
 def support_symbol(size, complete):

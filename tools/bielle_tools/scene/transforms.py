@@ -6,25 +6,30 @@ IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 def cross(a, b):
-    """(...,3) as np.cross gives it, in a third of the time."""
-    x, y, z = a[..., 0], a[..., 1], a[..., 2]
-    u, v, w = b[..., 0], b[..., 1], b[..., 2]
-    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
+    """(...,3); several times as fast as numpy's for few vectors."""
+    a, b = np.broadcast_arrays(a, b)
+    result = np.empty(a.shape)
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        result[..., i] = a[..., j] * b[..., k] - a[..., k] * b[..., j]
+    return result
 
 
 def product(a, b):
     """(...,4) of R(a) R(b)."""
     a, b = np.broadcast_arrays(a, b)
-    w = a[..., :1] * b[..., :1] - (a[..., 1:] * b[..., 1:]).sum(axis=-1, keepdims=True)
-    return np.concatenate([w, a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + cross(a[..., 1:], b[..., 1:])], axis=-1)
+    result = np.empty(a.shape)
+    result[..., 0] = a[..., 0] * b[..., 0] - (a[..., 1:] * b[..., 1:]).sum(axis=-1)
+    result[..., 1:] = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + cross(a[..., 1:], b[..., 1:])
+    return result
 
 
 def rotated(q, v):
     """(...,3) R(q) v."""
     q, v = np.asarray(q, float), np.asarray(v, float)
-    axis = q[..., 1:]
-    t = 2 * cross(axis, v)
-    return v + q[..., :1] * t + cross(axis, t)
+    if not v.any():
+        return np.broadcast_to(v, np.broadcast_shapes(q.shape[:-1], v.shape[:-1]) + (3,)) + 0 * q[..., 1:]
+    t = 2 * cross(q[..., 1:], v)
+    return v + q[..., :1] * t + cross(q[..., 1:], t)
 
 
 def conjugate(q):

@@ -13,7 +13,7 @@ LONGEST = 160  # characters of a value
 def keys_of(results):
     """{entry: [[key, value as written]]} of the input file; entries that parts and repetitions make have none."""
     try:
-        tree = yaml.load(results.text_of("input"), Loader=yaml.BaseLoader)
+        tree = yaml.load(results.text_of("input"), Loader=getattr(yaml, "CBaseLoader", yaml.BaseLoader))
     except (yaml.YAMLError, RecursionError):
         return {}
     found = {}

@@ -52,7 +52,7 @@ def build_page(paths, frames=500, superelements=None, analysis=None, live=None):
             for sequence in found:
                 scene = make_scene(sequence.motion, superelements)
                 if scenes is None:
-                    low, high = scene.bounds(sequence.rows[np.unique(np.linspace(0, len(sequence.rows) - 1, 24).astype(int))])
+                    low, high = scene.low, scene.high
                     scenes = SceneData(pack, (low + high) / 2, scene.size)
                     data.update(centre=scenes.centre.tolist(), size=scene.size, planar=scene.planar, symbol=scene.symbol / scene.size,
                                 low=((low - scenes.centre) / scene.size).tolist(), high=((high - scenes.centre) / scene.size).tolist(),
