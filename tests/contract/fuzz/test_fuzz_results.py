@@ -97,7 +97,7 @@ class Results(FuzzTest):
             fine = -status in messages.CRASHES or (status in (0, 1) and len(sentences) == status)
             fine = fine and not any(word in said for word in NEVER)
             if not fine and KEEP:
-                for file in ("run.h5", "box.h5"):
+                for file in filter(lambda name: os.path.exists(self.path(name)), ("run.h5", "box.h5")):
                     shutil.copy(self.path(file), os.path.join(KEEP, f"{name}_{note.split()[0]}_{file}"))
             with self.subTest(case=note):
                 self.assertTrue(fine, f"{name}: case {note}: status {status}: {said[-600:]}")
