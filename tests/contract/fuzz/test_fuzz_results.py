@@ -47,7 +47,7 @@ def changed_item(rng, item):
     if rng.random() < 0.2 and isinstance(holder, dict):
         del holder[key]
     else:
-        holder[key] = rng.choice([None, -1, 0, 1e300, 1e-300, float("nan"), "text", [], {}, [1, 2], [[0, 0, 0]], True, 2**70])
+        holder[key] = rng.choice([None, -1, 0, 1e300, 1e-300, float("nan"), "text", [], {}, [1, 2], [[0, 0, 0]], True, 2**70, 10**400])
     return item
 
 

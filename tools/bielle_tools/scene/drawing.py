@@ -41,7 +41,7 @@ class Drawing:
             self.items, self.name, self.from_file = found["items"], str(found.get("name", "")), True
             gravity = np.asarray(found.get("gravity", [0, 0, 0]), float)
             self.gravity = gravity if gravity.shape == (3,) and np.isfinite(gravity).all() and gravity.any() else None
-        except (ValueError, TypeError, AttributeError) as error:
+        except (ValueError, TypeError, AttributeError, ArithmeticError) as error:
             self.notes.append(("/drawing", f"it cannot be read: {error}"))
 
     def _usable(self, item):
