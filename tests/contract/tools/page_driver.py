@@ -26,7 +26,7 @@ class Pages(unittest.TestCase):
         from selenium.webdriver.chrome.service import Service
         options = Options()
         options.binary_location = shutil.which("chromium")
-        for word in ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage",
+        for word in ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing", "--disable-dev-shm-usage",
                      "--window-size=1000,700"):
             options.add_argument(word)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
@@ -65,7 +65,7 @@ class Pages(unittest.TestCase):
         """The number of pixels of the scene's own canvas that are drawn, without the grid."""
         self.run_script("bielle.settings.grid = false; bielle.changed()")
         self.settled()
-        return self.run_script("""const c = document.getElementById("scene"), o = document.createElement("canvas"); o.width = c.width; o.height = c.height;
+        return self.run_script("""bielle.render(); const c = document.getElementById("scene"), o = document.createElement("canvas"); o.width = c.width; o.height = c.height;
             const p = o.getContext("2d"); p.drawImage(c, 0, 0); const d = p.getImageData(0, 0, c.width, c.height).data; let n = 0;
             for (let k = 3; k < d.length; k += 4) if (d[k] > 0) n++; return n;""")
 

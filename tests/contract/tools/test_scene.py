@@ -1,6 +1,8 @@
 """The scene that is drawn of results: meshes, motion, paths of ropes, damaged drawings."""
 
+import json
 import os
+import random
 import sys
 import tempfile
 import unittest
@@ -142,6 +144,28 @@ class Scenes(unittest.TestCase):
         found = [(arrow.entry, arrow.kind, arrow.origin[2].tolist(), arrow.vector[2].tolist()) for arrow in arrows_of(scene, scene.rows)]
         self.assertEqual(found, [("joints/pin", "reactions", [2.5, 0, 0], [1, 2, 3]), ("joints/touch", "contact forces", [2, 0, 0], [0, 0, 3]),
                                  ("joints/touch", "contact forces", [3, 0, 0], [0, 0, 2])])
+
+    def test_damaged_drawings_never_fail(self):
+        nodes, items, meshes = every_shape(5)
+        chance, text = random.Random(7), json.dumps(items)
+        wrong = [None, -1, 0, 1e308, float("nan"), float("inf"), "x", [], {}, [1], True, [[1, 2], [3]], "ground", "end"]
+
+        def damaged(tree):
+            places = []
+
+            def walk(part):
+                for key, each in list(part.items() if isinstance(part, dict) else enumerate(part) if isinstance(part, list) else ()):
+                    places.append((part, key))
+                    walk(each)
+            walk(tree)
+            for part, key in chance.sample(places, chance.choice([1, 3, 30])):
+                part[key] = chance.choice(wrong)
+            return tree
+        for _ in range(60):
+            scene = self.scene(nodes, damaged(json.loads(text)), meshes=meshes)
+            self.assertTrue(np.isfinite(scene.size) and np.isfinite(scene.symbol) and scene.size > 0)
+            for part in scene.parts:
+                self.assertEqual(scene.poses(part, scene.rows).shape, (5, part.mesh.bone_count, 8), part.entry)
 
     def test_planar_machines_and_scales(self):
         for unit in (1e-6, 1.0, 1e5):

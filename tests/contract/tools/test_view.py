@@ -124,6 +124,42 @@ class Viewed(Pages, InFolder):
         self.assertLess(self.drawn(), 0.05 * full)
         self.no_errors()
 
+    def test_traces_arrows_and_following(self):
+        x, q = resting(20)
+        x = np.column_stack([np.cos(0.1 * np.arange(20)), np.sin(0.1 * np.arange(20)), np.zeros(20)])
+
+        def velocity(file):
+            file["analysis_1/nodes/n/velocity"][:] = np.tile([0, 2.0, 0, 0, 0, 0], (20, 1))
+        self.page(write_results(self.path("trace.h5"), {"n": (x, q)}, [{"entry": "nodes/n", "type": "node", "shape": "node", "node": "n"}], extra=velocity))
+        self.run_script("bielle.traces.toggle('nodes/n', null)")
+        path = np.array(self.run_script("const p = bielle.traces.group.children[0].geometry.attributes.position.array, all = [];"
+                                        "for (let k = 0; k < p.length; k += 3) all.push(bielle.real(Array.from(p.subarray(k, k + 3)))); return all"))
+        np.testing.assert_allclose(path, x, atol=1e-4)
+        without = self.drawn()
+        self.assertAlmostEqual(self.run_script("return bielle.shown.arrows.largest('velocities')"), 2, 6)
+        self.run_script("bielle.settings.arrows.add('velocities'); bielle.moved()")
+        self.assertGreater(self.drawn(), without + 300)
+        self.run_script("bielle.followEntry('nodes/n')")
+        places = [self.run_script("bielle.player.go(arguments[0]); bielle.render(); return bielle.camera.pixels(bielle.shown.anchor('nodes/n')).slice(0, 2)", row) for row in (0, 15)]
+        np.testing.assert_allclose(places[0], places[1], atol=0.01)
+        self.no_errors()
+
+    def test_keys(self):
+        self.page(self.every())
+        press = "document.dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0], bubbles: true}))"
+        for key, place in (("End", 30), ("ArrowLeft", 29), ("Home", 0), ("ArrowRight", 1)):
+            self.run_script(press, key)
+            self.assertEqual(self.run_script("return bielle.player.place"), place, key)
+        self.run_script(press, " ")
+        self.assertTrue(self.run_script("return bielle.player.playing"))
+        before = self.run_script("return bielle.frames")
+        time.sleep(1)
+        self.run_script(press, " ")
+        self.assertGreater(self.run_script("return bielle.frames"), before)
+        self.run_script(press, "z")
+        np.testing.assert_allclose(self.run_script("return bielle.camera.axes()"), np.eye(3), atol=1e-9)
+        self.no_errors()
+
     def test_a_failed_run_and_rows_without_numbers(self):
         x, q = resting(9, (0.2, 0, 0))
         x = x.copy()
@@ -209,6 +245,8 @@ class Viewed(Pages, InFolder):
             exact = body.von_mises(q)[nodes]
             known = np.isfinite(exact)
             np.testing.assert_allclose(values[known], exact[known], atol=0.02 * np.nanmax(exact))
+        units = self.run_script("const q = bielle.quantities.list().find(q => q.title === 'joints/pin/reaction'); return q.columns.map((_, k) => q.unitsOf(k))")
+        self.assertEqual(units, 3 * ["N"] + 3 * ["N m"])
         self.run_script("bielle.settings.magnify = 0; bielle.player.go(20)")
         flat = np.array(self.run_script("return bielle.real(bielle.shown.flexible[0].corner(0))"))
         np.testing.assert_allclose(flat, body.at(frame, 0 * q)[0][nodes[0]], atol=1e-4)

@@ -66,7 +66,7 @@ class Surfaces:
     def _add(self, points, normals, triangles, lines, part):
         colour, opacity = self.paint or (part.colour, part.opacity)
         red_green_blue = muted(rgb(colour)) if self.muted else rgb(colour)
-        rgba = np.rint(255 * np.array([*red_green_blue, opacity])).astype(np.uint8)
+        rgba = np.rint(255 * np.clip([*red_green_blue, opacity], 0, 1)).astype(np.uint8)
         self._endless.append(np.full(len(points), part.group == "ground" and len(lines) > 0))  # planes have no end
         self._points.append(points)
         self._normals.append(normals)

@@ -7,18 +7,18 @@ from .drawing import places_of
 from .transforms import conjugate, rotated
 
 NOT_ATTACHED = ("body", "node", "ellipsoid", "plane", "support", "mesh", "box", "cylinder", "tube", "cone", "sphere", "gear", "pulley", "tyre", "cam")
+CARRIED = ("node", "body", "ellipsoid", "mesh", "box", "cylinder", "tube", "cone", "sphere", "gear", "pulley", "tyre", "cam")  # if on a carried node
 
 
 def attachments(items, motion):
     """{node: positions (3) in its axes}. A node that another carries counts for the one that carries all."""
     found = {}
     for item in items:
-        if item["shape"] in NOT_ATTACHED:
-            continue
         try:
             for place in places_of(item):
                 node, position = _carried(place.node, np.array(place.position), motion)
-                found.setdefault(node, []).append(position)
+                if item["shape"] not in NOT_ATTACHED or item["shape"] in CARRIED and node != place.node:
+                    found.setdefault(node, []).append(position)
         except (InputError, KeyError, TypeError, ValueError, AttributeError, ArithmeticError):
             continue  # it is told when the item is built
     found.pop("ground", None)

@@ -13,9 +13,7 @@ from ..rigid_bodies import rigid_bodies
 from .motion import Place
 
 FORMAT, VERSION = "bielle drawing", 1
-# How the keys of all shapes are judged.
-LOOKS = {"type": lambda value: isinstance(value, str),
-         "opacity": lambda value: isinstance(value, (int, float)) and 0 <= value <= 1}
+LARGEST_NUMBER = 1e30
 
 
 class Drawing:
@@ -41,19 +39,19 @@ class Drawing:
             self.items, self.name, self.from_file = found["items"], str(found.get("name", "")), True
             gravity = np.asarray(found.get("gravity", [0, 0, 0]), float)
             self.gravity = gravity if gravity.shape == (3,) and np.isfinite(gravity).all() and gravity.any() else None
-        except (ValueError, TypeError, AttributeError, ArithmeticError) as error:
+        except (ValueError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
             self.notes.append(("/drawing", f"it cannot be read: {error}"))
 
     def _usable(self, item):
-        if not isinstance(item, dict) or not all(isinstance(item.get(key), str) for key in ("entry", "shape")):
-            self.notes.append(("/drawing", "an item has no entry or no shape"))
+        if isinstance(item, dict) and all(isinstance(item.get(key), str) for key in ("entry", "shape")):
+            if not isinstance(item.setdefault("type", item["shape"]), str):
+                item["type"] = item["shape"]
+            if _bounded(item):
+                return True
+            self.notes.append((item["entry"], "it holds numbers that are infinite or beyond all bounds"))
             return False
-        item.setdefault("type", item["shape"])
-        for key, fits in LOOKS.items():
-            if key in item and not fits(item[key]):
-                self.notes.append((item["entry"], f"its key '{key}' is {json.dumps(item[key])[:40]}"))
-                return False
-        return True
+        self.notes.append(("/drawing", "an item has no entry or no shape"))
+        return False
 
     def mesh(self, name):
         """Points (n,3) and triangles (m,3) of a mesh in the file. @raises InputError"""
@@ -67,6 +65,13 @@ class Drawing:
                 or triangles.size and not 0 <= triangles.min() <= triangles.max() < len(points):
             raise InputError(f"the mesh '{name}' is damaged")
         return points, triangles
+
+
+def _bounded(value):
+    """Tells whether all numbers in a tree of lists and dicts are of a size that a machine can have."""
+    if isinstance(value, (dict, list)):
+        return all(_bounded(each) for each in (value.values() if isinstance(value, dict) else value))
+    return not isinstance(value, (int, float)) or abs(value) < LARGEST_NUMBER
 
 
 def place_of(item):

@@ -5,8 +5,6 @@ n: number of corners around an axis.
 
 import functools
 
-import numpy as np
-
 from . import templates as t
 from .parts import Mesh
 
@@ -86,17 +84,6 @@ def support_symbol(size, complete):
     """A support below the origin: a pyramid on a hatched foot; without the foot if directions are free."""
     foot = t.moved(t.box([2.6, 2.6, 0.25]), (0, 0, -1.7))
     return scaled(t.merged([t.moved(t.cone((1.0, 0.08), 1.6, around=4), (0, 0, -0.8)), *([foot] if complete else [])]), size)
-
-
-def arrow_template(width):
-    """An arrow of length 1 along z whose shaft has this radius; it is stretched along z."""
-    return t.merged([t.moved(t.cylinder(width, 0.8, around=10), (0, 0, 0.4)), t.moved(t.cone((2.6 * width, 0), 0.2, around=14), (0, 0, 0.9))])
-
-
-def axes_symbol(size):
-    """Three thin arrows: meshes along x, y, z."""
-    arrow = t.merged([t.moved(t.cylinder(0.025, 0.8, around=8), (0, 0, 0.4)), t.moved(t.cone((0.07, 0), 0.22, around=12), (0, 0, 0.9))])
-    return [scaled(t.moved(arrow, axes=axes), size) for axes in (t.ALONG_X, t.ALONG_Y, np.eye(3))]
 
 
 def scaled(shape, size):

@@ -20,6 +20,7 @@ from .sequences import sequences
 LIBRARIES = ("/usr/share/javascript/three/three.min.js", "/usr/share/javascript/chart.js/chart.min.js")
 SOURCES = ("data.js", "vectors.js", "shaders.js", "tracks.js", "batch.js", "flexible.js", "arrows.js", "runs.js", "camera.js", "surroundings.js",
            "entries.js", "player.js", "picking.js", "overlay.js", "traces.js", "tree.js", "details.js", "plot.js", "controls.js", "quality.js", "live.js", "main.js")
+MOST_NOTES = 12  # on the terminal
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page")
 
 
@@ -35,7 +36,8 @@ class Report:
         return [f"{self.contents}; {self.size / 1e6:.1f} MB, built in {self.seconds:.1f} s",
                 f"errors by 16-bit numbers: positions {e['position']:.1e} of the size, rotations {e['rotation']:.1e} rad, "
                 f"deformations {e['shape']:.1e} of the size, stresses {e['stress']:.1e} of the largest",
-                *(f"not drawn: {entry}: {reason}" for entry, reason in self.notes)]
+                *(f"not drawn: {entry}: {reason}" for entry, reason in self.notes[:MOST_NOTES]),
+                *([f"not drawn: {len(self.notes) - MOST_NOTES} more, which the page lists"] if len(self.notes) > MOST_NOTES else [])]
 
 
 def build_page(paths, frames=500, superelements=None, analysis=None, live=None):

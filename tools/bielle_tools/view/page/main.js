@@ -5,7 +5,7 @@ class App {
     Object.assign(this, {data, arrays, bodies: [], allShown: [], follow: null, dirty: true, number: 0, frames: 0});
     this.settings = {stress: "none", magnify: 1, amplitude: 1, decay: false, arrows: new Set(), arrowScale: 1, groups: {}, ghost: 0.4, labels: false, grid: true, tree: true, plots: true};
     this.quality = new Quality(this);
-    const canvas = document.getElementById("scene"), options = {alpha: true, antialias: !this.quality.software, preserveDrawingBuffer: true};
+    const canvas = document.getElementById("scene"), options = {alpha: true, antialias: !this.quality.software};
     this.renderer = new THREE.WebGLRenderer({canvas, context: canvas.getContext("webgl2", options) || canvas.getContext("webgl", options) || undefined});
     this.renderer.setClearColor(0x000000, 0);
     this.scene = new THREE.Scene();
@@ -87,8 +87,8 @@ class App {
   moved() {
     const {player} = this;
     for (const each of this.allShown) {
-      const same = !each.number || player.byTime !== (each.sequence.kind === "time");
-      const place = same ? player.place / (player.last || 1) * (each.number ? each.sequence.rows - 1 : player.last) : placeAt(each.times, player.time());
+      let place = player.place;
+      if (each.number) place = player.byTime && each.sequence.kind === "time" ? placeAt(each.times, player.time()) : place / (player.last || 1) * (each.sequence.rows - 1);
       each.move(this.placeIn(each, place), this.amplitude());
     }
     this.range();
@@ -143,6 +143,11 @@ class App {
     this.changed();
   }
 
+  render() {
+    this.camera.place(this.following());
+    this.renderer.render(this.scene, this.camera.active);
+  }
+
   draw(now) {
     this.player.advance(now);
     this.quality.adapt(now);
@@ -150,8 +155,7 @@ class App {
       this.dirty = false;
       this.frames++;
       this.surroundings.group.visible = this.settings.grid;
-      this.camera.place(this.following());
-      this.renderer.render(this.scene, this.camera.active);
+      this.render();
       this.overlay.draw();
     }
     requestAnimationFrame(time => this.draw(time));

@@ -12,19 +12,22 @@ class Overlay {
 
   draw() {
     const stage = document.getElementById("stage"), ratio = window.devicePixelRatio || 1, [w, h] = [stage.clientWidth, stage.clientHeight], pen = this.pen;
+    const s = this.app.settings, moving = s.labels || this.app.entries.chosen, key = JSON.stringify([w, h, ratio, s.grid, this.app.camera.saved()]);
+    this.scale();
+    if (!moving && key === this.drawnOf) return;  // nothing has changed
+    this.drawnOf = moving ? null : key;
     if (this.canvas.width !== Math.round(w * ratio) || this.canvas.height !== Math.round(h * ratio))
       [this.canvas.width, this.canvas.height] = [Math.round(w * ratio), Math.round(h * ratio)];
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, w, h);
     pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
     this.triad(h);
-    if (this.app.settings.labels || this.app.entries.chosen) this.labels();
-    if (this.app.settings.grid) {
+    if (moving) this.labels();
+    if (s.grid) {
       pen.fillStyle = "#6b7685";
       pen.textAlign = "right";
       pen.fillText(`grid ${shown(this.app.surroundings.step)} m`, w - 10, h - 10);
     }
-    this.scale();
   }
 
   triad(h) {

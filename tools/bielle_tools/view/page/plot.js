@@ -2,6 +2,12 @@
 
 const PLOT_COLOURS = ["#2f6fb2", "#cf3d3d", "#2e8b57", "#8a4fb0", "#c97a00", "#1d8a8a", "#7a5230", "#555f6e"];
 
+/// Units of a column: `N, N m` are those of both halves, of forces and of moments.
+function unitsOf({units, columns}, k) {
+  const list = units.split(","), each = columns.length / list.length;
+  return (Number.isInteger(each) ? list[Math.floor(k / each)] : units).trim();
+}
+
 class Quantities {
   constructor(app) { this.app = app; }
 
@@ -11,7 +17,7 @@ class Quantities {
     if (!q.read) {
       q.read = q.list.map(one => ({...one, values: this.app.arrays.at(one.data), times: this.app.arrays.at(q.times),
         title: one.entry === "energy" || one.entry === "solver" ? `${one.entry}/${one.name}` : one.entry.startsWith("measures/") ? one.entry : `${one.entry}/${one.name}`,
-        unitsOf: k => { const units = one.units.split(","); return (units.length === one.columns.length ? units[k] : one.units).trim(); }}));
+        unitsOf: k => unitsOf(one, k)}));
     }
     return q.read;
   }
