@@ -13,6 +13,7 @@ import warnings
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 # The last one: reading does not end.
 CRASHES = (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL, signal.SIGPROF)
+PACKAGES = {"vtkmodules": "vtk9"}  # Debian's packages with other names than their modules
 longest_reading = 0  # [s] of processor time in one call; 0: without limit. A process that crashes alone has one
 
 
@@ -118,7 +119,7 @@ def require(*modules):
         return
     command = os.path.relpath(sys.argv[0])
     advice = f"run {command} itself, not through python3, or" if sys.executable != "/usr/bin/python3" else "run"
-    packages = " ".join(f"python3-{module.lower()}" for module in missing)
+    packages = " ".join(f"python3-{PACKAGES.get(module, module.lower())}" for module in missing)
     print(f"{os.path.basename(command)}: {sys.executable} has no {' and no '.join(missing)}. Debian's /usr/bin/python3 has, with the "
           f"packages {packages}: {advice} tools/install", file=sys.stderr)
     sys.exit(2)

@@ -3,11 +3,11 @@
 import numpy as np
 
 from . import plot_style as style
-from .messages import InputError, note
+from .messages import note
 from .modes import ModeMotion, Modes, ModeScenery
-from .render import Scene
 
 MOST_SHAPES = 12
+PANEL = 640, 500  # pixels of a shape
 MARKERS = {"oscillating": ("o", style.COLOURS[0]), "decaying": ("s", style.COLOURS[2]), "growing": ("^", style.COLOURS[1]),
            "rigid": ("D", style.COLOURS[6])}
 RATIOS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5]  # damping ratios whose lines are drawn in the complex plane
@@ -68,36 +68,28 @@ def eigenvalues(modes, at):
 
 
 def shapes(scenery, at):
-    """Draws a panel for each of the first modes, at its largest deviation from the state, with the beams and nodes of
-    the state behind it."""
+    """Draws a panel for each of the first modes: its largest deviation, over the state in grey."""
+    from .pictures import display, frames, shot  # VTK takes time to load
     modes = scenery.modes
     count = min(len(modes), MOST_SHAPES)
+    if display.missing():
+        note(f"mode_shapes is left out: {display.missing()}")
+        return []
     if count < len(modes):
         note(f"mode_shapes shows {count} of {len(modes)} modes; bielle-animate --mode N shows any")
+    look = shot.Look(view="iso", superelements=scenery.superelements, size=PANEL)
     motions = [ModeMotion(scenery, number + 1, pictures=24) for number in range(count)]
-    reach = np.max([motion.reach() for motion in motions], axis=0)
+    if not (scenery.nodes or scenery.beams or scenery.bodies):
+        return []
+    images = frames.drawings(shot.Shot(motion.only(motion.farthest()), look, 1) for motion in motions)
     columns = min(4, count)
     lines = -(-count // columns)
     fig, axes = style.plt.subplots(lines, columns, figsize=(3.4 * columns, 3.0 * lines + 0.5), squeeze=False)
     fig.suptitle(f"{modes.results.title}: shapes of modes", x=0.01, ha="left", fontsize=12, fontweight="bold")
     for panel in axes.flat:
         panel.set_axis_off()
-    for panel, motion in zip(axes.flat, motions):
-        motion.reach = lambda: reach
-        scene = Scene(motion, superelements=scenery.superelements)
-        if not (scene.bodies or scene.beams or scene.nodes):
-            style.plt.close(fig)
-            return []
-        row = motion.farthest()
-        try:
-            scene.prepare([0, row, len(motion.time) // 2])
-        except InputError:
-            style.plt.close(fig)
-            raise
-        for nodes in [*scenery.beams.values(), *([name] for name in scenery.nodes)]:
-            state = scene.project(modes.position[[scenery.index[node] for node in nodes]])
-            panel.plot(state[:, 0], state[:, 1], "--" if len(nodes) > 1 else ".", color="#bbbbbb", linewidth=0.9, markersize=4, zorder=1)
-        scene.draw(panel, row)
+    for panel, motion, image in zip(axes.flat, motions, images):
+        panel.imshow(image, interpolation="antialiased")
         panel.set_title(_title(modes, motion.number), fontsize=9)
     return [style.save(fig, at("mode_shapes"))]
 

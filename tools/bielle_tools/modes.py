@@ -10,6 +10,7 @@ The results name nodes and beams. The shapes of superelements and rigid bodies a
 `assembly` before `eigen` is sufficient.
 """
 
+import copy
 import re
 
 import numpy as np
@@ -100,7 +101,8 @@ class ModeScenery:
         self.base, self.row = self._state()
         self.bodies = {}
         if self.base is None:
-            if re.search(r"\btype\s*:\s*[\"']?(superelement|rigid_body)\b", modes.results.text_of("input")):
+            kinds = "superelement" if modes.results.text_of("drawing") else "superelement|rigid_body"  # a drawing has the shapes of rigid ones
+            if re.search(rf"\btype\s*:\s*[\"']?({kinds})\b", modes.results.text_of("input")):
                 note("bodies are left out: no analysis of the file has rows of this state; list {type: assembly} before 'eigen'")
             return
         for name in self.base.elements_with("frame", "coordinates"):
@@ -214,6 +216,18 @@ class ModeMotion:
         limits += [MOST_TURN * share / turn] if turn > 1e-12 else []
         return min(limits, default=1.0)
 
+    def at_rest(self):
+        """The state about which the mode swings, as a motion of one row."""
+        still = self.only(0)
+        still.factor = np.zeros(1)
+        return still
+
+    def only(self, row):
+        """One row of it, as a motion."""
+        one = copy.copy(self)
+        one.time, one.factor = self.time[row:row + 1], self.factor[row:row + 1]
+        return one
+
     def farthest(self):
         """The row in which the nodes are farthest from the state."""
         u, turn = self.modes.displacement[self.k], self.modes.rotation[self.k]
@@ -295,13 +309,6 @@ class ModeMotion:
             u = np.concatenate([modes.displacement[k, numbers], np.zeros((len(numbers), 3))], axis=1)
             return np.real(rate * factors[:, None, None] * u)
         raise KeyError(quantity)
-
-    def reach(self):
-        """(3) the extent of the model and its motion along the inertial axes, which determines the view."""
-        motion = 2 * np.abs(self.modes.displacement[self.k]).max(axis=0, initial=0)
-        largest = motion.max()
-        scaled = motion / largest * self.scenery.extent() if largest > 0 else motion
-        return np.maximum(np.ptp(self.modes.position, axis=0), scaled)
 
 
 def turned(vectors, quaternions):

@@ -51,9 +51,12 @@ class SuperelementBody:
             self.stressed = _node_numbers(recovery, "stress_nodes", len(self.stress) / 6, len(self.points))
 
     def surface(self):
-        """Boundary faces {type: (n,k)}, outward."""
+        """Boundary faces {type: (n,k)}, outward: at least one. @raises InputError for cells that leave none"""
         solids = {kind: cells for kind, cells in self.cells.items() if kind in SOLIDS}
-        return boundary_faces(solid_faces(solids)) if solids else self.cells  # a file that keeps the skin alone
+        faces = boundary_faces(solid_faces(solids)) if solids else self.cells  # a file that keeps the skin alone
+        if not any(len(block) for block in faces.values()):
+            raise InputError(f"'{self.path}' is damaged: the cells of its mesh have no surface, since each face belongs to several of them")
+        return faces
 
     def local_displacement(self, q):
         """(...,p,3) displacement of every node in the body's frame [m]; nodes without recovery stay at rest. q: (...,n)."""

@@ -1,5 +1,6 @@
 """The tools on results and superelement files with damaged bytes, structures and numbers."""
 
+import copy
 import importlib.machinery
 import importlib.util
 import os
@@ -8,8 +9,12 @@ import shutil
 import sys
 import unittest
 
+import h5py
+import numpy as np
+
 from fuzzing import KEEP, NEVER, FuzzTest, damaged_bytes
-from test_fuzz_hdf5 import changed, near_structures
+from test_fuzz_hdf5 import changed, near_structures, rewritten
+import drawn_results
 import synthetic_modes
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY
@@ -29,6 +34,21 @@ def module_of(name):
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module
+
+
+def changed_item(rng, item):
+    """An item of a drawing, one in three with a value that does not fit or without it."""
+    if rng.random() < 0.67:
+        return item
+    holder, key = item, rng.choice(sorted(set(item) - {"entry"}))
+    while isinstance(holder[key], (dict, list)) and holder[key] and rng.random() < 0.7:
+        holder, inside = holder[key], holder[key]
+        key = rng.choice(sorted(inside)) if isinstance(inside, dict) else rng.randrange(len(inside))
+    if rng.random() < 0.2 and isinstance(holder, dict):
+        del holder[key]
+    else:
+        holder[key] = rng.choice([None, -1, 0, 1e300, 1e-300, float("nan"), "text", [], {}, [1, 2], [[0, 0, 0]], True, 2**70, 10**400])
+    return item
 
 
 class Results(FuzzTest):
@@ -77,7 +97,7 @@ class Results(FuzzTest):
             fine = -status in messages.CRASHES or (status in (0, 1) and len(sentences) == status)
             fine = fine and not any(word in said for word in NEVER)
             if not fine and KEEP:
-                for file in ("run.h5", "box.h5"):
+                for file in filter(lambda name: os.path.exists(self.path(name)), ("run.h5", "box.h5")):
                     shutil.copy(self.path(file), os.path.join(KEEP, f"{name}_{note.split()[0]}_{file}"))
             with self.subTest(case=note):
                 self.assertTrue(fine, f"{name}: case {note}: status {status}: {said[-600:]}")
@@ -111,11 +131,33 @@ class Results(FuzzTest):
             self.judge_tools(case, self.damaged(rng, "sound_modes.h5", "run.h5"), ["bielle-plot", "bielle-animate", "bielle-paraview"],
                              ["--mode", "1"])
 
+    def test_drawings(self):
+        nodes, items, meshes = drawn_results.every_shape(7)
+        for case, rng in self.cases(12):
+            drawn_results.write_results(self.path("run.h5"), nodes, [changed_item(rng, item) for item in copy.deepcopy(items)], meshes=meshes)
+            note = changed(rng, self.path("run.h5")) if rng.random() < 0.5 else "items"
+            self.judge_tools(case, note, ["bielle-animate"], ["--size", "100x100", "--labels"])
+
     def test_superelements(self):
         shutil.copy(self.path("sound.h5"), self.path("run.h5"))
         for case, rng in self.cases(8):
             self.judge_tools(case, self.damaged(rng, "sound_box.h5", "box.h5"),
                              ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-table"])
+
+    def test_cells_without_a_surface(self):
+        """All cells of the superelement have the same nodes, so that none of their faces belongs to one cell only."""
+        shutil.copy(self.path("sound.h5"), self.path("run.h5"))
+        shutil.copy(self.path("sound_box.h5"), self.path("box.h5"))
+        with h5py.File(self.path("box.h5"), "r+") as file:
+            cells = file["mesh/cells/11"][()]
+            for number, damaged in enumerate((np.zeros_like(cells), np.tile(cells[:1], (2, 1)))):
+                rewritten(file, "mesh/cells/11", damaged)
+                file.flush()
+                for name in ("bielle-animate", "bielle-paraview"):
+                    status, said = self.run_tool(name)
+                    with self.subTest(case=number, name=name):
+                        self.assertEqual(status, 1, said)
+                        self.assertRegex(said, f"^{name}: 'box.h5' is damaged: the cells of its mesh have no surface[^\\n]*\n$")
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ def _candidates(scene, rows):
                 force = results.rows(f"{item['entry']}/force")
                 if force.ndim == 2 and force.shape[1] == 3:
                     yield item["entry"], "loads", "N", motion.position(place_of(item), rows), force[rows]
-        except (InputError, KeyError, TypeError, ValueError, IndexError):
+        except (InputError, KeyError, TypeError, ValueError, IndexError, ArithmeticError):
             continue
     for section, function in (("supports", _support), ("contacts", _contact), ("nodes", _velocity)):
         for name in results.names(section):

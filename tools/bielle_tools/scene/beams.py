@@ -5,7 +5,7 @@ import numpy as np
 from ..messages import InputError
 from . import templates as t
 from .parts import Mesh
-from .transforms import conjugate, pose, product
+from .transforms import conjugate, from_z, pose, product
 
 
 def beam_motion(results, place):
@@ -27,7 +27,7 @@ def _section_rotations(results, place):
     is taken from its neighbours in the first known row, as if the curvature was constant."""
     q = results.rows(f"{place}/rotation")
     if q.shape[1] < 3:
-        return q
+        return _along(results.rows(f"{place}/position"), q)
     if hasattr(results, "scenery"):  # a mode: the state about which it is
         reference = results.modes.orientation[[results.scenery.index[node] for node in results.scenery.beams[place.split("/", 1)[1]]]]
     else:
@@ -40,6 +40,15 @@ def _section_rotations(results, place):
         bend = product(conjugate(reference[second]), reference[first]) if q.shape[1] > 4 else np.array([1.0, 0, 0, 0])
         q[:, end] = product(q[:, end], product(conjugate(reference[end]), product(reference[first], bend)))
     return q
+
+
+def _along(x, q):
+    """Rotations of a beam without inner nodes: its sections, round their axis anyhow, are across the line between its ends."""
+    known = np.flatnonzero(np.isfinite(x).all(axis=(1, 2)) & np.isfinite(q).all(axis=(1, 2)))
+    if not len(known) or q.shape[1] < 2:
+        return q
+    across = product(from_z(x[known[0], 1] - x[known[0], 0]), [np.sqrt(0.5), 0, -np.sqrt(0.5), 0])  # z of from_z is their x
+    return product(q, product(conjugate(q[known[0]]), across))
 
 
 def beam_mesh(stations, sections, thin):

@@ -8,6 +8,7 @@ import json
 import numpy as np
 
 from ..messages import InputError
+from ..results_file import reading
 from ..rigid_bodies import rigid_bodies
 from .motion import Place
 
@@ -38,7 +39,7 @@ class Drawing:
             self.items, self.name, self.from_file = found["items"], str(found.get("name", "")), True
             gravity = np.asarray(found.get("gravity", [0, 0, 0]), float)
             self.gravity = gravity if gravity.shape == (3,) and np.isfinite(gravity).all() and gravity.any() else None
-        except (ValueError, TypeError, AttributeError, RecursionError) as error:
+        except (ValueError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
             self.notes.append(("/drawing", f"it cannot be read: {error}"))
 
     def _usable(self, item):
@@ -55,9 +56,11 @@ class Drawing:
     def mesh(self, name):
         """Points (n,3) and triangles (m,3) of a mesh in the file. @raises InputError"""
         group = f"drawing_meshes/{name}"
-        if group not in self.file:
-            raise InputError(f"the results hold no mesh '{name}'")
-        points, triangles = np.asarray(self.file[group]["points"], float), np.asarray(self.file[group]["triangles"], np.int64)
+        with reading(self.file.filename, group):
+            found = self.file[group] if group in self.file else None
+            if found is None:
+                raise InputError(f"the results hold no mesh '{name}'")
+            points, triangles = np.asarray(found["points"], float), np.asarray(found["triangles"], np.int64)
         if points.ndim != 2 or points.shape[1:] != (3,) or triangles.ndim != 2 or triangles.shape[1:] != (3,) or not np.isfinite(points).all() \
                 or triangles.size and not 0 <= triangles.min() <= triangles.max() < len(points):
             raise InputError(f"the mesh '{name}' is damaged")
@@ -96,9 +99,10 @@ def _file_of(results):
 
 def _text(file):
     try:
-        text = file["drawing"][()] if "drawing" in file else ""
-        return text.decode() if isinstance(text, bytes) else str(text)
-    except (OSError, RuntimeError, TypeError, UnicodeDecodeError, ValueError):
+        with reading(file.filename, "drawing"):
+            text = file["drawing"][()] if "drawing" in file else ""
+            return text.decode() if isinstance(text, bytes) else str(text)
+    except InputError:
         return "damaged"
 
 

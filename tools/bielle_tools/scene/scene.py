@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..messages import InputError
+from ..results_file import LARGEST
 from .attachments import attachments
 from .builders import BUILDERS, Builder
 from .drawing import Drawing, places_of
@@ -81,7 +82,7 @@ class Scene:
                         joints += [x] if item["shape"] in ("joint", "node") else []
                 if item["shape"] in ("beam", "superelement"):
                     first += self._element_points(item)
-            except (InputError, KeyError, TypeError, ValueError, AttributeError):
+            except (InputError, KeyError, TypeError, ValueError, AttributeError, ArithmeticError):
                 continue  # it is told when the item is built
         builder.attached = attachments(self.items, self.motion_of_nodes)
         points = np.array(first + [row for path in paths for row in path]).reshape(-1, 3)
@@ -107,7 +108,7 @@ class Scene:
             for key in ("size", "radius", "length", "radii"):
                 try:
                     sizes += [float(np.max(np.abs(item[key])))] if key in item and item["shape"] != "plane" else []
-                except (TypeError, ValueError):
+                except (TypeError, ValueError, ArithmeticError):
                     pass
             if item["shape"] == "ellipsoid":
                 sizes.append(float(np.ptp(item["points"], axis=0).max()))
@@ -116,7 +117,7 @@ class Scene:
     def _radii(self):
         """Radii of wheels [m], which symbols of their bearings should not cover."""
         radii = [item.get("radius") for item in self.items if item["shape"] in ("gear", "pulley", "tyre")]
-        return [radius for radius in radii if isinstance(radius, (int, float)) and np.isfinite(radius) and radius > 0]
+        return [radius for radius in radii if isinstance(radius, (int, float)) and 0 < radius < LARGEST]
 
     def _element_points(self, item):
         place, results = item["element"], self.results
@@ -133,7 +134,7 @@ class Scene:
             parts = builder.parts(item)
             for part in parts:  # a part whose motion cannot be read is told here, not while it plays
                 (part.frame if isinstance(part, FlexiblePart) else part.motion)(self.rows[:1])
-        except (InputError, KeyError, TypeError, ValueError, AttributeError, IndexError, FloatingPointError) as error:
+        except (InputError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
             self.notes.append((item["entry"], _reason(error)))
             return
         known = {anchor.entry for anchor in self.anchors[-8:]}

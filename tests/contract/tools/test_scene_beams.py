@@ -1,0 +1,90 @@
+"""Beams of scenes: their sections at nodes whose axes are not those of the section."""
+
+import unittest
+
+import numpy as np
+
+import box_mesh  # noqa: F401  (it knows where the tools are)
+from bielle_tools.rotations import rotation_matrices  # noqa: E402
+from bielle_tools.scene.beams import beam_motion  # noqa: E402
+from bielle_tools.scene.transforms import from_axes, product  # noqa: E402
+
+ROWS = 4
+
+
+class Recorded:
+    """Results of one beam."""
+
+    def __init__(self, position, rotation):
+        self.values = {"elements/beam/position": position, "elements/beam/rotation": rotation}
+
+    def has(self, place):
+        return place in self.values
+
+    def rows(self, place):
+        return self.values[place]
+
+    def shape(self, place):
+        return self.values[place].shape
+
+
+def sections(position, rotation):
+    """(rows,stations,3,3) axes of the sections as they are drawn"""
+    poses, _ = beam_motion(Recorded(position, rotation), "elements/beam")
+    return rotation_matrices(poses(np.arange(len(position)))[:, :, 3:7])
+
+
+def about_z(angles):
+    """(...,4) quaternions of turns about z [rad]."""
+    half = 0.5 * np.asarray(angles)
+    return np.stack([np.cos(half), 0 * half, 0 * half, np.sin(half)], axis=-1)
+
+
+class Sections(unittest.TestCase):
+    def arc(self, stations, angle, ends):
+        """A circular arc in the plane x y, whose end nodes have the axes `ends`, and which turns about z. Its section axes: along it,
+        towards the centre, z. @returns positions, recorded rotations, rotations of the section"""
+        s = np.linspace(0, angle, stations)
+        x = np.column_stack([np.cos(s), np.sin(s), 0 * s])
+        tangent = np.column_stack([-np.sin(s), np.cos(s), 0 * s])
+        section = from_axes(tangent, -x, np.tile([0.0, 0, 1], (stations, 1)))
+        recorded = section.copy()
+        recorded[[0, -1]] = ends
+        turns = about_z(0.7 * np.arange(ROWS))
+        R = rotation_matrices(turns)
+        return x @ R.transpose(0, 2, 1), product(turns[:, None], recorded[None]), product(turns[:, None], section[None])
+
+    def check(self, stations, angle, tolerance):
+        for ends in (np.array([1.0, 0, 0, 0]), np.array([0.5, -0.5, 0.5, 0.5])):
+            x, recorded, section = self.arc(stations, angle, ends)
+            self.assertLess(np.abs(sections(x, recorded) - rotation_matrices(section)).max(), tolerance, ends)
+
+    def test_the_section_continues_that_of_the_inner_nodes(self):
+        for stations in (5, 9):
+            self.check(stations, 1.0, 1e-12)
+
+    def test_with_few_inner_nodes_the_curvature_is_left_out(self):
+        self.check(3, 1e-3, 1e-3)
+        self.check(4, 1e-3, 1e-3)
+
+    def test_without_inner_nodes_the_section_is_across_the_beam(self):
+        turns = about_z(0.7 * np.arange(ROWS))
+        R = rotation_matrices(turns)
+        for ends in (np.array([1.0, 0, 0, 0]), np.array([0.5, -0.5, 0.5, 0.5])):
+            for direction in ([0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0], [1, 2, -3]):
+                x = np.array([[0.0, 0, 0], direction]) @ R.transpose(0, 2, 1)
+                found = sections(x, product(turns[:, None], np.array([[ends, ends]])))
+                tangent = R @ (np.array(direction) / np.linalg.norm(direction))
+                np.testing.assert_allclose(found[..., 0], np.stack([tangent] * 2, axis=1), atol=1e-12)
+                np.testing.assert_allclose(found @ found.swapaxes(-1, -2), np.broadcast_to(np.eye(3), found.shape), atol=1e-12)
+
+    def test_rows_that_are_no_numbers_stay_so(self):
+        x, recorded, section = self.arc(5, 1.0, np.array([1.0, 0, 0, 0]))
+        recorded[0] = np.nan
+        found = sections(x, recorded)
+        self.assertTrue(np.isnan(found[0]).all())
+        np.testing.assert_allclose(found[1:], rotation_matrices(section[1:]), atol=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()
