@@ -1,7 +1,6 @@
 #include "mechanism/results/largest_values.hpp"
 
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -67,10 +66,8 @@ void LargestValues::add_field(const ResultsKind& kind, const ResultsField& field
     add_groups(Quantity::tension, 1);
   } else if (name == "force" && field.shape.empty() && field.units == "N" && kind.section != Section::joints) {
     add_groups(Quantity::element_force, 1);
-  } else if (name == "stress" && field.units == "Pa" && !field.shape.empty() && field.shape.back() == 3) {
-    add_groups(Quantity::beam_stress, 3);
   } else if (name == "von_mises" && field.units == "Pa") {
-    add_groups(Quantity::body_stress, 1);
+    add_groups(kind.type == "beam" ? Quantity::beam_stress : Quantity::body_stress, 1);
   } else if (name == "pressure" && field.units == "Pa") {
     add_groups(Quantity::pressure, 1);
   }
@@ -86,9 +83,7 @@ void LargestValues::begin(std::string rows, std::string time, std::string unit) 
 void LargestValues::add(double time, const double* values) {
   for (const Group& group : groups_) {
     const Eigen::Map<const Eigen::VectorXd> numbers(values + group.begin, static_cast<Eigen::Index>(group.count));
-    const double value = group.quantity == Quantity::beam_stress
-                             ? std::sqrt(numbers(0) * numbers(0) + 3 * numbers.tail(2).squaredNorm())
-                             : numbers.norm();
+    const double value = numbers.norm();
     Largest& largest = largest_[static_cast<std::size_t>(group.quantity)];
     if (value > largest.value) largest = {value, time, group.entry};
   }

@@ -38,7 +38,7 @@ class LargestValues {
     body_stress,
     pressure
   };
-  /// Numbers of a row of which one value is made: the norm of a force, the equivalent stress of a point.
+  /// Numbers of a row of whose norm the largest is sought: a force, a stress.
   struct Group {
     Quantity quantity;
     std::size_t begin, count;

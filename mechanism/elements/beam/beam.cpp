@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "mechanism/elements/beam/beam_geometry.hpp"
 #include "mechanism/elements/beam/distributed_load.hpp"
 #include "mechanism/elements/beam/section_keys.hpp"
+#include "mechanism/math/so3.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/start_motion.hpp"
 
@@ -128,7 +130,15 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
       model.add(std::make_unique<DistributedLoad>(name, span, load), own, Recorded::no);
   }
   model.add_chain(own, nodes);
-  model.add_shape(own, {.shape = "beam", .values = {{"element", results_path(own)}}, .sections = section.drawn()});
+  std::vector<std::vector<double>> turns;  // from the axes of the end nodes to those of the sections
+  for (const auto& [node, at] :
+       {std::pair{nodes.front(), sections.front()}, std::pair{nodes.back(), sections.back()}}) {
+    const Eigen::Vector4d turn_there = quaternion_of(model.node(node).frame.R.transpose() * at.R);
+    turns.emplace_back(turn_there.begin(), turn_there.end());
+  }
+  model.add_shape(own, {.shape = "beam",
+                        .values = {{"element", results_path(own)}, {"turn", std::move(turns)}},
+                        .sections = section.drawn()});
 }
 
 }  // namespace bielle::mechanism

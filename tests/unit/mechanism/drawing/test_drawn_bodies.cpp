@@ -182,6 +182,23 @@ TEST_CASE("beams have the sections of their taper along them, and none if consta
   CHECK(drawn.one("elements/plain", "beam").sections.empty());
 }
 
+TEST_CASE("beams tell how their sections are turned against the axes of their end nodes") {
+  const DrawnModel drawn(
+      "nodes: {a: {fixed: true}, b: {position: [2, 0, 0], rotation_vector: [0, 0, pi/2]}}\nelements:\n"
+      "  it: {type: beam, nodes: [a, b], elements: 3, orientation: [0, 1, 0], twist: pi/2, section: {circle: 0.1, "
+      "young: 2e11, poisson: 0.3, density: 7800}}\n");
+  const auto turn = value_of<std::vector<std::vector<double>>>(drawn.one("elements/it", "beam"), "turn");
+  REQUIRE(turn.size() == 2);
+  const auto axes = [&](std::size_t end) {
+    return rotation_of_quaternion(Eigen::Vector4d(turn[end][0], turn[end][1], turn[end][2], turn[end][3]));
+  };
+  CHECK((axes(0) - Matrix3::Identity()).norm() < 1e-14);
+  // The section at the end is turned by a quarter about x, the node by a quarter about z.
+  const Matrix3 node = exp_so3(Vector3(0, 0, std::numbers::pi / 2)),
+                section = exp_so3(Vector3(std::numbers::pi / 2, 0, 0));
+  CHECK((node * axes(1) - section).norm() < 1e-14);
+}
+
 /// Volume inside of a closed surface whose triangles are anticlockwise seen from outside.
 double volume_of(const DrawnMesh& mesh) {
   double volume = 0;
