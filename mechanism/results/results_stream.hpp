@@ -53,7 +53,7 @@ class ResultsStream {
   // The following functions may be called after wait_until_all_is_written:
   Hdf5File& file() { return file_; }
   ResultsRows& rows() { return rows_; }
-  LargestValues& largest() { return largest_; }  ///< of the rows of the open analysis
+  LargestValues& largest() { return largest_; }  ///< largest values in rows of the open analysis
   const Model& model() const { return model_; }
   ResultsLayout layout() const { return layout_; }
   const std::string& group() const { return group_; }

@@ -19,7 +19,7 @@ struct ModeRequest {
 
 /// Finds the requested modes of a held body, and the eigenvalue of the next one (Eigenpairs::next) where it is known;
 /// none without a request.
-/// @param problem  of the interior unknowns, K_ii phi = omega^2 M_ii phi, without a shift
+/// @param problem  problem of the interior unknowns, K_ii phi = omega^2 M_ii phi, without a shift
 /// @param search   finds the given number of pairs of this problem nearest to zero
 /// @throws InputError if more modes are requested than there are unknowns inside, or if a frequency without a count
 /// has too many modes below it; ComputationError if they do not converge

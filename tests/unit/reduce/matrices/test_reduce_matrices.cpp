@@ -91,7 +91,7 @@ TEST_CASE("Modes of matrices are found by iteration where the body is large") {
   const Superelement below = test::reduced(set, options);
   REQUIRE(below.modes() == 4);
   CHECK(difference(counted.frequencies.head(4), below.frequencies) < 1e-8);
-  options.modes.count = 2;  // of the four below
+  options.modes.count = 2;  // the lowest of four
   const Superelement both = test::reduced(set, options);
   REQUIRE(both.modes() == 2);
   CHECK(difference(counted.frequencies.head(2), both.frequencies) < 1e-8);
