@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/nested.hpp"
 #include "mechanism/measures/read_measure.hpp"
 
 namespace bielle::mechanism {
@@ -37,8 +38,6 @@ double integral(const Function& N, double from, double to, double whole, int dep
   if (depth == 0 || std::abs(left + right - whole) <= 1e-12 * (std::abs(left) + std::abs(right))) return left + right;
   return integral(N, from, middle, left, depth - 1) + integral(N, middle, to, right, depth - 1);
 }
-
-thread_local FormulaGradient gradient;
 
 const KeyTable& table_keys() {
   using namespace keys;
@@ -86,6 +85,9 @@ double ForceLaw::force(const LocalState& state, double x, double v) const {
 
 LawForce ForceLaw::calc(const LocalState& state, double x, double v, bool split) const {
   LawForce law{preload_ + stiffness_ * x + damping_ * v, stiffness_, damping_, preload_ + stiffness_ * x, stiffness_};
+  if (formulas_.empty()) return law;
+  Nested<FormulaGradient, ForceLaw> nested;  // a formula may read the force of another law
+  FormulaGradient& gradient = *nested;
   const auto each = [&](double rate, const auto& take) {
     const std::array<double, 3> variables{x, rate, state.time()};
     for (const StateFormula& formula : formulas_) {
@@ -113,6 +115,8 @@ LawForce ForceLaw::calc(const LocalState& state, double x, double v, bool split)
 void ForceLaw::add_measures(const LocalState& state, double x, double v, const Eigen::Ref<const VectorX>& direction,
                             int row, LocalTangent& tangent) const {
   const std::array<double, 3> variables{x, v, state.time()};
+  Nested<FormulaGradient, ForceLaw> nested;
+  FormulaGradient& gradient = *nested;
   for (const StateFormula& formula : formulas_) {
     if (!formula.reads_state()) continue;
     formula.calc(state, variables, gradient);

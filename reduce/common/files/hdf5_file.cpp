@@ -25,6 +25,11 @@ Hdf5File Hdf5File::create(const std::string& path) {
   const Hdf5Id creation = ordered_group_properties(H5P_FILE_CREATE), access = access_properties();
   // Datasets have few chunks. By default a node of their index has room for 64 of them and takes 20 kB of memory.
   H5Pset_istore_k(creation, 2);
+  // A writer may be killed while it links results from the root. The links of the root stand in its header, which has
+  // room for them from the start and is written as a whole; by default nine links move to another structure.
+  constexpr unsigned root_links = 64, length_of_name = 16;
+  H5Pset_link_phase_change(creation, root_links, root_links / 2);
+  H5Pset_est_link_info(creation, root_links / 2, length_of_name);
   handle->file = Hdf5Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   if (!handle->file.valid())
     handle->fail(

@@ -137,7 +137,7 @@ damping: {ratio: 0.01}
                            (head + "interfaces: {a: {nodes: [1, 2], tie: average, weights: [1]}}\n", "one weight for each of the 2 nodes"),
                            (head + "interfaces: {a: {nodes: [1], weights: [1]}}\n", "weights belong to 'tie: average'"),
                            (head + "modes: {count: 2, proof: true}\n", "modes of matrices are not counted"),
-                           (head + "modes: {count: 7}\n", "7 are asked for"), (head + "points: {p: {group: x}}\n", "either `node`"),
+                           (head + "modes: {count: 7}\n", "7 fixed-boundary modes are asked for"), (head + "points: {p: {group: x}}\n", "either `node`"),
                            (head + "points: {p: {node: 9}}\n", "no node 9"), (head + "spin: [0, 0, 1]\n", "no geometric stiffness"),
                            ("body: b\nmatrices: {file: beam.npz, units: furlongs}\n", "units"),
                            ("body: b\nmatrices: {file: beam.npz, fromat: npz}\n", "did you mean 'format'"),
