@@ -8,24 +8,42 @@ from .parts import Mesh
 from .transforms import conjugate, from_z, pose, product
 
 
-def beam_motion(results, place):
-    """(rows -> (rows, stations, 8), number of stations) of the element at `place`, in axes of its sections."""
+def beam_motion(results, place, turns=None):
+    """(rows -> (rows, stations, 8), number of stations) of the element at `place`, in axes of its sections. turns: as `turns_of` gives them"""
     if not (results.has(f"{place}/position") and results.has(f"{place}/rotation")):
         raise InputError("the results do not record its position and rotation")
     kept = []
 
     def poses(rows):
         if not kept:
-            kept.append((results.rows(f"{place}/position"), _section_rotations(results, place)))
+            kept.append((results.rows(f"{place}/position"), _section_rotations(results, place, turns)))
         x, q = kept[0]
         return pose(x[rows], q[rows])
     return poses, results.shape(f"{place}/position")[1]
 
 
-def _section_rotations(results, place):
-    """(nt, stations, 4) of the sections. Both ends are recorded as the nodes there, whose axes are any: the section that each of them carries
-    is taken from its neighbours in the first known row, as if the curvature was constant."""
+def turns_of(item):
+    """(2,4) rotations from the axes of the first and last node of a beam to those of its sections there, or None. @raises InputError"""
+    if item.get("turn") is None:
+        return None
+    try:
+        turns = np.asarray(item["turn"], float).reshape(2, 4)
+    except (TypeError, ValueError):
+        turns = np.zeros((2, 4))
+    length = np.linalg.norm(turns, axis=1, keepdims=True)
+    if not (np.isfinite(length) & (length > 0)).all():
+        raise InputError(f"'turn' of '{item['entry']}' in the drawing is damaged: two quaternions are expected")
+    return turns / length
+
+
+def _section_rotations(results, place, turns):
+    """(nt, stations, 4) of the sections. Both ends are recorded as the nodes there, whose axes are any. Older drawings have no turns: the section
+    that each node carries is then taken from its neighbours in the first known row, as if the curvature was constant."""
     q = results.rows(f"{place}/rotation")
+    if turns is not None:
+        q = q.copy()
+        q[:, [0, -1]] = product(q[:, [0, -1]], turns)
+        return q
     if q.shape[1] < 3:
         return _along(results.rows(f"{place}/position"), q)
     if hasattr(results, "scenery"):  # a mode: the state about which it is
