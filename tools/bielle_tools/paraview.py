@@ -20,7 +20,7 @@ from .messages import InputError
 from .results_file import modes_to_show
 from .rotations import rotation_matrices
 from .rigid_bodies import rigid_bodies
-from .scene.beams import beam_motion, turns_of
+from .scene.beams import beam_motion, beam_stress, turns_of
 from .scene.drawing import Drawing
 from .superelement_body import superelement_of
 
@@ -117,6 +117,7 @@ def _beams(results):
     first = np.cumsum([0] + counts)
     lines = np.concatenate([np.column_stack([np.arange(n - 1), np.arange(1, n)]) + start for n, start in zip(counts, first)])
     turns = {item.get("element"): turns_of(item) for item in Drawing(results).items if item["shape"] == "beam"}
+    stresses = [beam_stress(results, f"elements/{name}") for name in names]
     motions = [beam_motion(results, f"elements/{name}", turns.get(f"elements/{name}"))[0] for name in names]
 
     def mesh_at(row):
@@ -127,17 +128,11 @@ def _beams(results):
         if all(results.has(f"elements/{name}/resultants") for name in names):
             table = np.concatenate([results.rows(f"elements/{name}/resultants", row) for name in names])
             cell_data.update({title: [table[:, k]] for k, title in enumerate(RESULTANTS)})
-        if any(results.has(f"elements/{name}/von_mises") for name in names):
-            cell_data["von_mises"] = [np.concatenate([_beam_stress(results, name, n - 1, row) for name, n in zip(names, counts)])]
+        if any(stresses):
+            cell_data["von_mises"] = [np.concatenate([stress([row])[0] if stress else np.full(n - 1, np.nan) for stress, n in zip(stresses, counts)])]
         return points, [("line", lines)], data, cell_data
 
     return "beams", mesh_at
-
-
-def _beam_stress(results, name, elements, row):
-    """(elements) highest von Mises stress at the section's stress points [Pa]; not a number if there are none."""
-    place = f"elements/{name}/von_mises"
-    return results.rows(place, row).max(axis=1) if results.has(place) else np.full(elements, np.nan)
 
 
 def _nodes(results):

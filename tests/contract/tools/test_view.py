@@ -10,14 +10,16 @@ import unittest
 import h5py
 import numpy as np
 
+import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
-from drawn_results import every_shape, resting, turning, write_results
+from drawn_results import STRESSES, every_shape, resting, stressed_beam, turning, write_results
 from page_driver import WHY_NOT, Pages
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract"))
 from python_tool import run_python_tool
 
 from bielle_tools.results_file import Results  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
+from bielle_tools.scene.stress_scale import stress_colours  # noqa: E402
 from bielle_tools.scene.transforms import placed  # noqa: E402
 from bielle_tools.superelement_body import SuperelementBody  # noqa: E402
 
@@ -250,6 +252,57 @@ class Viewed(Pages, InFolder):
         self.run_script("bielle.settings.magnify = 0; bielle.player.go(20)")
         flat = np.array(self.run_script("return bielle.real(bielle.shown.flexible[0].corner(0))"))
         np.testing.assert_allclose(flat, body.at(frame, 0 * q)[0][nodes[0]], atol=1e-4)
+        self.no_errors()
+
+    def beam(self):
+        """The page of a beam with stresses, seen along z without perspective and symbols."""
+        item, records = stressed_beam()
+        self.page(write_results(self.path("beam.h5"), {"n": resting(3)}, [item], extra=records))
+        self.run_script("bielle.settings.grid = false; bielle.camera.view('z'); bielle.camera.ortho = true; bielle.camera.fit()")
+
+    def elements_colours(self):
+        """Colours of the middles of the two elements as drawn now, (2,3)."""
+        self.settled()
+        return np.array(self.run_script("""bielle.render(); const c = document.getElementById("scene"), o = document.createElement("canvas"), r = c.width / c.clientWidth; o.width = c.width; o.height = c.height;
+            const p = o.getContext("2d"); p.drawImage(c, 0, 0); return [0.5, 1.5].map(x => bielle.camera.pixels([(x - bielle.data.centre[0]) / bielle.data.size, 0, 0.1 / bielle.data.size]))
+            .map(([x, y]) => Array.from(p.getImageData(Math.round(r * x), Math.round(r * y), 1, 1).data.slice(0, 3)))"""))
+
+    def test_elements_of_beams_are_coloured_by_stress(self):
+        self.beam()
+        self.assertEqual(self.run_script("return Array.from(document.querySelectorAll('#options option'), o => o.value)"), ["none", "von_mises", "peak"])
+        plain = self.elements_colours()
+        np.testing.assert_array_equal(plain[0], plain[1])
+        self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(1)")
+        self.assertEqual(self.run_script("return bielle.stressRange()"), [0, np.max(STRESSES[2, :1])])
+        values = "return [0, 1].map(cell => bielle.shown.stresses.at(cell))"
+        np.testing.assert_allclose(self.run_script(values), STRESSES[1], atol=1e8 / 65534)
+        np.testing.assert_allclose(self.run_script("bielle.player.go(0.5);" + values), STRESSES[:2].mean(axis=0), atol=1e8 / 65534)
+        shades = []
+        for row in range(3):
+            self.run_script("bielle.player.go(arguments[0])", row)
+            shades.append(self.elements_colours())
+        # The light is the same everywhere: colours are those of the scale times one factor, apart from the shine, which is equal for all.
+        blue = np.array([stress_colours(share / 1e8) for share in (0.0, 10e6, 20e6, 40e6, 100e6)], float)[:, 2]
+        found = np.array([shades[0][0], shades[0][1], shades[1][0], shades[1][1], shades[2][0]])[:, 2]
+        factor, shine = np.polyfit(blue, found, 1)
+        np.testing.assert_allclose(found, factor * blue + shine, atol=4)
+        self.assertGreater(factor, 0.3)
+        self.assertLess(np.ptp(shades[2][1]), 30, "an element without a stress is grey")
+        self.run_script("bielle.settings.stress = 'peak'; bielle.player.go(0)")
+        np.testing.assert_allclose(self.run_script(values), [1e8, 4e7], atol=1e8 / 65534)
+        self.no_errors()
+
+    def test_bodies_and_beams_share_one_scale(self):
+        synthetic.write_superelement(self.path("box.h5"))
+        synthetic.write_results(self.path("run.h5"), "box.h5")
+        self.page(self.path("run.h5"))
+        largest = synthetic.YOUNG * synthetic.STRAIN  # of the body; 40 MPa in the beam
+        self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(20)")
+        np.testing.assert_allclose(self.run_script("return bielle.stressRange()"), [0, largest], rtol=1e-3)
+        self.assertEqual(self.run_script("return [bielle.shown.batch.range.y, bielle.shown.flexible[0].range.y]"), 2 * [self.run_script("return bielle.stressRange()[1]")])
+        np.testing.assert_allclose(self.run_script("return [0, 1, 2, 3].map(cell => bielle.shown.stresses.at(cell))"), [1e7, 2e7, 3e7, 4e7], rtol=1e-3)
+        self.run_script("bielle.settings.stress = 'xx'; bielle.player.go(20)")
+        self.assertEqual(self.run_script("return bielle.shown.stresses.at(0)"), None)
         self.no_errors()
 
     def test_modes_and_their_decay(self):

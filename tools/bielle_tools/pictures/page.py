@@ -4,7 +4,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ..messages import InputError
-from .colours import stress_colours
+from ..scene.stress_scale import stress_colours
 
 INK, QUIET = (30, 33, 38), (95, 102, 112)
 

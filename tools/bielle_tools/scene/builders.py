@@ -4,7 +4,7 @@ import numpy as np
 
 from . import symbols
 from . import templates as t
-from .beams import beam_mesh, beam_motion, turns_of
+from .beams import beam_mesh, beam_motion, beam_stress, turns_of
 from .course import Course
 from .drawing import place_of
 from .links import Ends, bar_mesh, coil_mesh, rope_mesh, telescope
@@ -178,8 +178,9 @@ def _course(b, item):
 
 def _beam(b, item):
     poses, stations = beam_motion(b.motion.results, item["element"], turns_of(item))
-    mesh = beam_mesh(stations, list(item.get("sections") or []), 0.3 * b.symbol)
-    return [Part(item["entry"], item["type"], mesh, b.colour(item, b.palette.of(item["element"])), float(item.get("opacity", 1)), "beam", poses)]
+    mesh, elements = beam_mesh(stations, list(item.get("sections") or []), 0.3 * b.symbol)
+    stress = beam_stress(b.motion.results, item["element"])
+    return [Part(item["entry"], item["type"], mesh, b.colour(item, b.palette.of(item["element"])), float(item.get("opacity", 1)), "beam", poses, stress, elements)]
 
 
 def _superelement(b, item):

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..messages import InputError
 from ..scene import make_scene
+from ..scene.stress_scale import ANCHORS, hexadecimal
 from .facts import events_of, joint_facts, keys_of
 from .pack import Pack
 from .quantities import quantities
@@ -18,7 +19,7 @@ from .scene_data import SceneData
 from .sequences import sequences
 
 LIBRARIES = ("/usr/share/javascript/three/three.min.js", "/usr/share/javascript/chart.js/chart.min.js")
-SOURCES = ("data.js", "vectors.js", "shaders.js", "tracks.js", "batch.js", "flexible.js", "arrows.js", "runs.js", "camera.js", "surroundings.js",
+SOURCES = ("data.js", "vectors.js", "shaders.js", "tracks.js", "stresses.js", "batch.js", "flexible.js", "arrows.js", "runs.js", "camera.js", "surroundings.js",
            "entries.js", "player.js", "picking.js", "overlay.js", "traces.js", "tree.js", "details.js", "plot.js", "controls.js", "quality.js", "live.js", "main.js")
 MOST_NOTES = 12  # on the terminal
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page")
@@ -44,7 +45,7 @@ def build_page(paths, frames=500, superelements=None, analysis=None, live=None):
     """The page of one or more results files as text, and its report. superelements: {element: path}; live: token of a growing run.
     @raises InputError"""
     start, pack = time.monotonic(), Pack()
-    data = {"runs": [], "layouts": [], "live": live}
+    data = {"runs": [], "layouts": [], "live": live, "colours": [hexadecimal(colour) for colour in ANCHORS]}
     scenes, opened, notes, layouts = None, [], [], {}
     try:
         for path in paths:
