@@ -43,6 +43,19 @@ def resting(rows, position=(0, 0, 0)):
     return np.tile(np.asarray(position, float), (rows, 1)), np.tile([1.0, 0, 0, 0], (rows, 1))
 
 
+def write_check(path, failure="", redundant=(), apart=0.0):
+    """A model that was only checked: a bar on two hinges whose second has frames that are `apart` along y [m]."""
+    items = [{"entry": f"joints/{name}", "type": "hinge", "shape": "joint", "frames": [{"node": "ground", "position": [x, 0, 0]}, {"node": "n", "position": [x, y, 0]}]}
+             for name, x, y in (("first", 0, 0), ("second", 1, apart))]
+    items.append({"entry": "elements/bar", "type": "rigid_body", "shape": "box", "node": "n", "position": [0.5, 0, 0], "size": [1, 0.1, 0.1]})
+
+    def extra(file):
+        file["analysis_1"].attrs.update({"type": "check", "assembled": int(not failure), **({"failure": failure} if failure else {})})
+        if redundant:
+            file["redundant"] = list(redundant)
+    return write_results(path, {"n": resting(1)}, items, extra=extra)
+
+
 def stressed_beam(name="beam", turn=None):
     """An item and a function that adds its records: a beam along x of 2 elements in 3 rows, whose sections have two points. Its largest stresses
     [Pa] are STRESSES."""

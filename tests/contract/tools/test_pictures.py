@@ -247,6 +247,23 @@ class Stresses(Pictures):
         self.refuse("--superelement rod=PATH", "run.h5")
 
 
+class CheckedModels(Pictures):
+    def test_marks_and_sentences(self):
+        shots = [self.shot(drawn_results.write_check(self.path("check.h5"), **options), size=(500, 400))
+                 for options in ({}, {"redundant": ["joints/second"]}, {"failure": 20 * "it does not close ", "apart": 0.02})]
+        red = [(shot.at(0)[0].colours[:, 0].astype(int) - shot.at(0)[0].colours[:, 1] > 60).sum() for shot in shots]
+        self.assertEqual(red[0], 0)
+        self.assertGreater(red[1], 100)
+        self.assertEqual(red[1], red[2])
+        self.assertEqual([len(shot.said) for shot in shots[:2]], [1, 2])
+        self.assertGreater(len(shots[2].said), 3)
+        for shot in shots:
+            picture = np.asarray(next(drawn(shot, processes=1))).astype(int)
+            self.assertEqual(picture.shape, (400, 500, 3))
+            self.assertTrue(inked(picture[-shot.paper.line:]).any())
+            self.assertFalse(inked(picture[:, -3:]).any(), "lines end before the edge")
+
+
 class ModePictures(Pictures):
     def test_the_mode_is_over_its_state(self):
         synthetic_modes.write_whirl(self.path("whirl.h5"))

@@ -12,7 +12,7 @@ import numpy as np
 
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
-from drawn_results import STRESSES, every_shape, resting, stressed_beam, turning, write_results
+from drawn_results import STRESSES, every_shape, resting, stressed_beam, turning, write_check, write_results
 from page_driver import WHY_NOT, Pages
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract"))
 from python_tool import run_python_tool
@@ -322,6 +322,81 @@ class Viewed(Pages, InFolder):
         decay = self.run_script("bielle.settings.decay = true; bielle.settings.amplitude = 1; bielle.player.go(18); return [bielle.amplitude(), bielle.shown.sequence.decay]")
         self.assertAlmostEqual(decay[0], np.exp(decay[1] / 2), 9)
         self.no_errors()
+
+
+@unittest.skipIf(WHY_NOT, WHY_NOT)
+class Checked(Pages, InFolder):
+    """Models that were only checked."""
+    BAR = """gravity: [0, 0, -9.81]
+nodes: {a: {position: [1, 0, 0]}}
+elements: {a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}}
+joints:
+  pin: {type: hinge, nodes: [ground, a], position: [0, 0, 0], axis: [0, 1, 0]}
+"""
+
+    def shown(self, path):
+        done = view(path, "-o", self.path("page.html"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.open(self.path("page.html"))
+        marks = self.run_script("return Object.fromEntries(Array.from(document.querySelectorAll('.entry'), e => [e.title, e.querySelector('.mark').textContent]).filter(pair => pair[1]))")
+        return self.run_script("const box = document.getElementById('verdict'); return [box.className, Array.from(box.children, e => e.textContent)]"), marks
+
+    def colours(self):
+        """{entry: excess of red over green}, shares of 1"""
+        return self.run_script("const d = bielle.shown.batch.looks.data; return Object.fromEntries(bielle.shown.layout.parts.map((part, k) => [part.entry, d[4 * k] - d[4 * k + 1]]))")
+
+    def checked(self, text, status=0):
+        """Results of the program's check of a model."""
+        done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), self.write("model.yaml", text), "--check", "-o", self.path("check.h5")],
+                              capture_output=True, text=True, cwd=self.folder, check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return self.path("check.h5")
+
+    def test_what_was_found_is_said_and_marked(self):
+        (kind, said), marks = self.shown(write_check(self.path("check.h5"), redundant=["joints/second", "nodes/far"]))
+        self.assertEqual((kind, said), ("", ["The model is assembled.", "Constraints are redundant, and set aside: joints/second, nodes/far."]))
+        self.assertEqual(marks, {"joints/second": "redundant"})
+        colours = self.colours()
+        self.assertGreater(colours["joints/second"], 0.3)
+        self.assertLess(colours["joints/first"], 0.05)
+        self.assertEqual(self.run_script("return document.getElementById('moment').textContent"), "")
+        (kind, said), marks = self.shown(write_check(self.path("check.h5"), failure="the loop <b>does not</b> close.", apart=0.02))
+        self.assertEqual((kind, said), ("failed", ["The model cannot be assembled, and is shown as it is drawn: the loop <b>does not</b> close."]))
+        self.assertEqual(marks, {"joints/second": "gap"})
+        self.run_script("bielle.entries.choose('joints/second')")
+        self.assertIn("its frames are up to 0.02 m apart", self.run_script("return document.getElementById('details').textContent"))
+        self.no_errors()
+
+    def test_a_loop_with_redundant_constraints(self):
+        (kind, said), marks = self.shown(self.checked(self.BAR + "  second: {type: hinge, nodes: [ground, a], position: [0, 1, 0], axis: [0, 1, 0]}\n"))
+        self.assertEqual((kind, said[1:], marks), ("", ["Constraints are redundant, and set aside: joints/second."], {"joints/second": "redundant"}))
+        self.no_errors()
+
+    def test_loops_that_cannot_be_closed(self):
+        for second, mark, sentence in (("at: [[50, 0, 0], [0, 0, 0]], axis: [0, 1, 0]", "gap", "its frames are up to 49 m apart"),
+                                       ("position: [0, 1, 0], axes: [[0, 1, 0], [0, 1, 1]]", "tilt", "its axes are up to 45\u00b0 apart")):
+            with self.subTest(mark):
+                (kind, said), marks = self.shown(self.checked(self.BAR + f"  second: {{type: hinge, nodes: [ground, a], {second}}}\n", status=2))
+                self.assertEqual(kind, "failed")
+                self.assertEqual(set(marks), {"joints/second"})
+                self.assertIn(mark, marks["joints/second"])
+                with h5py.File(self.path("check.h5")) as file:
+                    self.assertIn(file["analysis_1"].attrs["failure"].strip(" ."), said[0])
+                self.run_script("bielle.entries.choose('joints/second')")
+                self.assertIn(sentence, self.run_script("return document.getElementById('details').textContent"))
+        self.no_errors()
+
+    def test_pictures_and_tables(self):
+        animate, path = os.path.join(REPOSITORY, "tools", "bielle-animate"), write_check(self.path("check.h5"), failure="it does not close", apart=0.02)
+        done = run_python_tool(animate, [path, "-o", self.path("check.png")])
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for tool, options, says in (("bielle-animate", [], "holds no motion to show: it has one position, which -o FILE.png draws"),
+                                    ("bielle-plot", [], "it has one time only, which bielle-view shows")):
+            done = run_python_tool(os.path.join(REPOSITORY, "tools", tool), [path, *options])
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn(says, done.stderr)
+        done = run_python_tool(os.path.join(REPOSITORY, "tools", "bielle-table"), [path])
+        self.assertEqual((done.returncode, "nodes/n/position" in done.stdout), (0, True), done.stderr)
 
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)

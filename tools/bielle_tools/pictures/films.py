@@ -49,8 +49,9 @@ def film(results, path, look, pictures=60, seconds=6.0):
 
 
 def _prepared(results, look, pictures, sheet):
-    if len(results.time) < 2 and isinstance(results, Results):
-        raise InputError(f"'{results.path}' holds no motion to show" + modes_to_show(results))
+    if isinstance(results, Results) and len(results.time) < (1 if sheet else 2):
+        still = ": it has one position, which -o FILE.png draws" if len(results.time) else ""
+        raise InputError(f"'{results.path}' holds no motion to show" + (modes_to_show(results) or still))
     return Shot(results, look, pictures, sheet)
 
 

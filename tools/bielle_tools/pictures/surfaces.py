@@ -9,8 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..rotations import rotation_matrices
-from ..scene.transforms import conjugate, placed, rotated
 from ..scene.stress_scale import stress_colours
+from ..scene.style import marked
+from ..scene.transforms import conjugate, placed, rotated
 from .colours import muted, rgb
 from .normals import corner_normals, split_at_edges
 
@@ -31,9 +32,10 @@ class Surfaces:
     """Rigid and flexible parts at `rows`. triangles (m,3) and lines (k,2) are numbers of points; translucent (m) tells
     which triangles are; highest: the largest stress over the rows [Pa], None without stresses."""
 
-    def __init__(self, scene, rows, scale=1.0, paint=None, hidden=lambda part: False):
-        """scale: magnifies elastic displacements of bodies; paint: ("#rrggbb", opacity) instead of colours and stresses"""
-        self.scale, self.paint = scale, paint
+    def __init__(self, scene, rows, scale=1.0, paint=None, hidden=lambda part: False, marks=()):
+        """scale: magnifies elastic displacements of bodies; paint: ("#rrggbb", opacity) instead of colours and stresses; marks: entries whose
+        colours are those of marked ones"""
+        self.scale, self.paint, self.marks = scale, paint, marks
         shown = [part for part in [*scene.parts, *scene.flexible] if not hidden(part)]
         self.muted = not paint and any((part.body.stress if hasattr(part, "body") else part.stress) is not None for part in shown)
         self.stressed = []  # (place of points among all, their cells, stresses (rows,cells)) of beams
@@ -71,7 +73,8 @@ class Surfaces:
 
     def _add(self, points, normals, triangles, lines, part):
         colour, opacity = self.paint or (part.colour, part.opacity)
-        red_green_blue = muted(rgb(colour)) if self.muted else rgb(colour)
+        known = part.entry in self.marks and not self.paint
+        red_green_blue = rgb(marked(colour)) if known else muted(rgb(colour)) if self.muted else rgb(colour)
         rgba = np.rint(255 * np.clip([*red_green_blue, opacity], 0, 1)).astype(np.uint8)
         self._endless.append(np.full(len(points), part.group == "ground" and len(lines) > 0))  # planes have no end
         self._points.append(points)

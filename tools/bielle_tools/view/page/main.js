@@ -65,6 +65,7 @@ class App {
     this.allShown = this.data.runs.filter(run => run.sequences.length > number).map((run, k) => new Shown(this, run, run.sequences[number], k));
     for (const each of this.allShown) this.scene.add(each.group);
     document.getElementById("sequence").value = number;
+    this.verdict();
     this.player.cycles = 0;
     this.player.reset();
     this.ranges = {};
@@ -76,6 +77,14 @@ class App {
     this.details.show(this.entries.chosen);
     this.moved();
     if (!this.camera.touched) this.camera.fit();
+  }
+
+  /// Sentences on a model that was only checked, of all runs.
+  verdict() {
+    const box = document.getElementById("verdict"), several = this.allShown.length > 1;
+    box.replaceChildren(...this.allShown.flatMap(each => each.sequence.said.map(text => element("div", {textContent: several ? `${each.run.name}: ${text}` : text}))));
+    box.className = this.allShown.some(each => each.sequence.failed) ? "failed" : "";
+    box.hidden = !box.children.length;
   }
 
   /// Amplitude of a mode: with its decay since it was started if that is wanted.

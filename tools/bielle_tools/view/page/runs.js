@@ -44,13 +44,12 @@ class Shown {
   }
 
   look(part) {
-    const colour = new THREE.Color(part.colour), state = this.app.entries.state(part.entry), s = this.app.settings;
+    const marks = this.sequence.kind === "state" && this.sequence.marks[part.entry];  // of a model that was only assembled
+    const colour = new THREE.Color(marks ? part.marked : part.colour), state = this.app.entries.state(part.entry), s = this.app.settings;
     let opacity = part.opacity;
     if (this.app.entries.hidden(part.entry) || s.groups[part.group] === false) opacity = 0;
     if (state.faint) opacity *= 0.25;
-    if (this.app.colours) mute(colour);
-    const facts = this.sequence.kind === "state" && this.sequence.joints[part.entry];
-    if (facts) colour.lerp(new THREE.Color("#d3262f"), 0.65);  // gaps and redundant constraints of a model that was only assembled
+    if (this.app.colours && !marks) mute(colour);
     if (this.number) { colour.lerp(new THREE.Color(GHOSTS[(this.number - 1) % GHOSTS.length]), 0.75); opacity *= s.ghost; }
     if (this.app.entries.chosen === part.entry) colour.lerp(new THREE.Color("#ffb000"), 0.6);
     return [colour.r, colour.g, colour.b, opacity];
