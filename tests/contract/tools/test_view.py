@@ -374,7 +374,7 @@ joints:
 
     def test_loops_that_cannot_be_closed(self):
         for second, mark, sentence in (("at: [[50, 0, 0], [0, 0, 0]], axis: [0, 1, 0]", "gap", "its frames are up to 49 m apart"),
-                                       ("position: [0, 1, 0], axes: [[0, 1, 0], [0, 1, 1]]", "tilt", "its axes are up to 45\u00b0 apart")):
+                                       ("position: [0, 1, 0], axis: [[0, 1, 0], [0, 1, 1]]", "tilt", "its axes are up to 45\u00b0 apart")):
             with self.subTest(mark):
                 (kind, said), marks = self.shown(self.checked(self.BAR + f"  second: {{type: hinge, nodes: [ground, a], {second}}}\n", status=2))
                 self.assertEqual(kind, "failed")

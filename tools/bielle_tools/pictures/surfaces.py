@@ -10,9 +10,8 @@ import numpy as np
 
 from ..rotations import rotation_matrices
 from ..scene.stress_scale import stress_colours
-from ..scene.style import marked
+from ..scene.style import marked, muted, shares_of
 from ..scene.transforms import conjugate, placed, rotated
-from .colours import muted, rgb
 from .normals import corner_normals, split_at_edges
 
 
@@ -74,8 +73,8 @@ class Surfaces:
     def _add(self, points, normals, triangles, lines, part):
         colour, opacity = self.paint or (part.colour, part.opacity)
         known = part.entry in self.marks and not self.paint
-        red_green_blue = rgb(marked(colour)) if known else muted(rgb(colour)) if self.muted else rgb(colour)
-        rgba = np.rint(255 * np.clip([*red_green_blue, opacity], 0, 1)).astype(np.uint8)
+        colour = marked(colour) if known else muted(colour) if self.muted else colour
+        rgba = np.array([*shares_of(colour), np.rint(255 * np.clip(opacity, 0, 1))], np.uint8)
         self._endless.append(np.full(len(points), part.group == "ground" and len(lines) > 0))  # planes have no end
         self._points.append(points)
         self._normals.append(normals)

@@ -77,7 +77,13 @@ def beam_stress(results, place):
     shape, stations = results.shape(f"{place}/von_mises"), results.shape(f"{place}/position")[1]
     if len(shape) != 3 or shape[1] != stations - 1 or not shape[2]:
         raise InputError("its 'von_mises' does not fit its nodes")
-    return lambda rows: np.fmax.reduce(results.rows(f"{place}/von_mises", rows), axis=2)
+    kept = []
+
+    def largest(rows):
+        if not kept:
+            kept.append(np.fmax.reduce(results.rows(f"{place}/von_mises"), axis=2))
+        return kept[0][rows]
+    return largest
 
 
 def beam_mesh(stations, sections, thin):

@@ -9,7 +9,7 @@ from .course import Course
 from .drawing import place_of
 from .links import Ends, bar_mesh, coil_mesh, rope_mesh, telescope
 from .parts import Mesh, Part, on_bones
-from .style import COLOURS, lighter
+from .style import COLOURS, lighter, visible
 from .transforms import between, conjugate, from_z, rotated
 
 
@@ -19,7 +19,7 @@ class Builder:
     def __init__(self, motion, drawing, palette, flexible):
         self.motion, self.drawing, self.palette, self.flexible = motion, drawing, palette, flexible
         self.symbol, self.extent, self.centre = 1.0, 1.0, np.zeros(3)
-        self.planes = 1  # their number
+        self.planes = []  # DrawnPlanes
         self.around = 24  # corners of symbols around an axis
         self.attached = {}  # node -> positions in its axes of what is attached to it
 
@@ -43,7 +43,7 @@ class Builder:
     def colour(item, default):
         given = item.get("colour", "")
         try:
-            return given if len(given) == 7 and given[0] == "#" and int(given[1:], 16) >= 0 else default
+            return visible(given) if len(given) == 7 and given[0] == "#" and int(given[1:], 16) >= 0 else default
         except (TypeError, ValueError):
             return default
 
@@ -112,9 +112,11 @@ def _cam(b, item):
 
 
 def _plane(b, item):
-    place = place_of(item)
-    alone = b.planes < 2
-    size = float(np.max(item["size"])) if "size" in item else (1.15 if alone else 0.15) * b.extent
+    place, own = place_of(item), next((plane for plane in b.planes if plane.item is item), None)
+    if own is None:
+        return []  # another entry has the same plane
+    alone = len(b.planes) < 2
+    size = float(np.max(item["size"])) if "size" in item else 1.15 * b.extent if alone else min([0.15 * b.extent, *own.distances(b.planes, b.extent)])
     shift = np.zeros(3)
     if "size" not in item and alone and place.node == "ground":  # the part of the plane under the machine
         shift = rotated(conjugate(np.array(place.rotation)), b.centre - np.array(place.position)) * [1, 1, 0]
@@ -136,10 +138,14 @@ def _curve(b, item):
     return [b.rigid(item, t.polyline(points, 0.14 * b.symbol), colour=COLOURS["bar"])]
 
 
-def _coil(b, item, radius=0.75):
-    ends = b.ends(item)
+def _coil_radius(b, item):
+    length = np.nan_to_num(b.ends(item).lengths()[1]) or b.symbol
+    return min(0.75 * b.symbol, 0.2 * length)
+
+
+def _coil(b, item):
+    ends, radius = b.ends(item), _coil_radius(b, item)
     length = np.nan_to_num(ends.lengths()[1]) or b.symbol
-    radius = min(radius * b.symbol, 0.25 * length) if radius < 1 else radius * b.symbol
     return b.link(item, coil_mesh(radius, min(0.13 * b.symbol, 0.35 * length / 8), length), COLOURS["spring"])
 
 
@@ -248,6 +254,6 @@ BUILDERS = {
     "rope": lambda b, item: [b.link(item, rope_mesh(0.16 * b.symbol), COLOURS["rope"], "rope")],
     "coil": lambda b, item: [_coil(b, item)],
     "damper": _telescope, "jack": _telescope,
-    "coil_damper": lambda b, item: [_coil(b, item, 1.05), *_telescope(b, item, 0.42 * b.symbol)],
+    "coil_damper": lambda b, item: [_coil(b, item), *_telescope(b, item, 0.5 * _coil_radius(b, item))],
     "force": lambda b, item: [b.rigid(item, t.octahedron(0.4 * b.symbol), "force", COLOURS["force"])],
 }

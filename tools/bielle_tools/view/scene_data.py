@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..scene.arrows import arrows_of
-from ..scene.style import marked
+from ..scene.style import marked, muted
 from .pack import quantised
 from .tracks import Tracks, in_units
 
@@ -36,7 +36,7 @@ class SceneData:
 
     @staticmethod
     def _part(part, numbers):
-        return {"entry": part.entry, "type": part.type, "colour": part.colour, "marked": marked(part.colour), "opacity": part.opacity, "group": part.group,
+        return {"entry": part.entry, "type": part.type, "colour": part.colour, "marked": marked(part.colour), "muted": muted(part.colour), "opacity": part.opacity, "group": part.group,
                 "track": numbers[0] if numbers else 0, "endless": bool(part.mesh.lines.size)}
 
     def _batch(self, parts):
@@ -70,7 +70,7 @@ class SceneData:
         frame, q = part.frame(rows), part.coordinates(rows)
         pose = np.concatenate([frame, np.ones((len(frame), 1))], axis=1)[:, None]
         number = self._body(part.body, q)
-        return {"entry": part.entry, "type": part.type, "colour": part.colour, "marked": marked(part.colour), "opacity": part.opacity, "group": "body", "body": number,
+        return {"entry": part.entry, "type": part.type, "colour": part.colour, "marked": marked(part.colour), "muted": muted(part.colour), "opacity": part.opacity, "group": "body", "body": number,
                 "track": tracks.add(in_units(pose, self.centre, self.size))[0], "coordinates": self.pack.add(np.nan_to_num(q), "f4"),
                 "missing": [int(row) for row in np.flatnonzero(~np.isfinite(q).all(axis=1))], **self._peaks(part.body, q)}
 

@@ -45,11 +45,10 @@ class Shown {
 
   look(part) {
     const marks = this.sequence.kind === "state" && this.sequence.marks[part.entry];  // of a model that was only assembled
-    const colour = new THREE.Color(marks ? part.marked : part.colour), state = this.app.entries.state(part.entry), s = this.app.settings;
+    const colour = new THREE.Color(marks ? part.marked : this.app.colours ? part.muted : part.colour), state = this.app.entries.state(part.entry), s = this.app.settings;
     let opacity = part.opacity;
     if (this.app.entries.hidden(part.entry) || s.groups[part.group] === false) opacity = 0;
     if (state.faint) opacity *= 0.25;
-    if (this.app.colours && !marks) mute(colour);
     if (this.number) { colour.lerp(new THREE.Color(GHOSTS[(this.number - 1) % GHOSTS.length]), 0.75); opacity *= s.ghost; }
     if (this.app.entries.chosen === part.entry) colour.lerp(new THREE.Color("#ffb000"), 0.6);
     return [colour.r, colour.g, colour.b, opacity];

@@ -18,12 +18,6 @@ function scaleTexture(colours) {
   return texture;
 }
 
-/// A colour beside coloured stresses: nearly grey, so that it is not read as a stress.
-function mute(colour) {
-  const grey = 0.7 * (0.75 * (0.30 * colour.r + 0.59 * colour.g + 0.11 * colour.b) + 0.2);
-  return colour.setRGB(0.3 * colour.r + grey, 0.3 * colour.g + grey, 0.3 * colour.b + grey);
-}
-
 /// Stresses of the elements of all beams of a sequence, one number in a texture for each.
 class BeamStresses {
   constructor(descriptions, rows, arrays) {
