@@ -52,6 +52,26 @@ class Command(InFolder):
             done = view(path, *words)
             self.assertEqual((done.returncode, said in done.stderr), (1, True), done.stderr)
 
+    def test_linear_analyses_alone_have_nothing_to_show(self):
+        for group, says in (("campbell", ": bielle-plot draws its 'campbell'\n"), ("frequency_response", ": bielle-plot draws its 'frequency_response'\n"), ("state_space", "to show\n")):
+            with h5py.File(self.path("linear.h5"), "w") as file:
+                file.attrs.update({"format": "bielle results", "version": 1, "complete": 1})
+                file[f"analysis_1/{group}/numbers"] = [1.0]
+                file["analysis_1"].attrs["type"] = group
+                file[group] = h5py.SoftLink(f"/analysis_1/{group}")
+            done = view(self.path("linear.h5"))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn("holds no motion, state or shapes of modes to show", done.stderr)
+            self.assertTrue(done.stderr.endswith(says), done.stderr)
+            self.assertFalse(os.path.exists(self.path("linear.html")))
+
+    def test_places_that_cannot_be_written(self):
+        path = write_results(self.path("run.h5"), {"n": resting(2)}, [])
+        for target, status, says in ((self.path("nowhere/x.html"), 1, "No such file or directory"), ("/dev/full", 2, "No space left on device"), (self.folder, 1, "Is a directory")):
+            done = view(path, "-o", target)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (status, 1), done.stderr)
+            self.assertIn(says, done.stderr)
+
     def test_the_page_loads_nothing(self):
         path = write_results(self.path("run.h5"), {"n": resting(2)}, [])
         self.assertEqual(view(path).returncode, 0)
