@@ -17,7 +17,7 @@ class Check:
 
     @property
     def sentences(self):
-        """What was found, for people."""
+        """Sentences for people: whether it is assembled, and the redundant entries."""
         said = ["The model is assembled."] if self.assembled else \
             ["The model cannot be assembled, and is shown as it is drawn" + (f": {self.failure.rstrip('.')}." if self.failure else ".")]
         return said + ([f"Constraints are redundant, and set aside: {', '.join(self.redundant)}."] if self.redundant else [])

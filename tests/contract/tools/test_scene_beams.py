@@ -83,7 +83,7 @@ class Sections(unittest.TestCase):
         ends = np.array([[0.5, -0.5, 0.5, 0.5], [0.0, 0.6, 0.0, 0.8]])
         for stations in (2, 3, 5):
             x, recorded, section = self.arc(stations, 1.0, ends)
-            turns = turns_of({"entry": "elements/beam", "turn": (3 * product(conjugate(ends), section[0, [0, -1]])).tolist()})  # of any length
+            turns = turns_of({"entry": "elements/beam", "turn": (3 * product(conjugate(ends), section[0, [0, -1]])).tolist()})  # unit length is not needed
             self.assertLess(np.abs(sections(x, recorded, turns) - rotation_matrices(section)).max(), 1e-12, stations)
 
     def test_damaged_turns_are_told(self):

@@ -316,7 +316,7 @@ class Viewed(Pages, InFolder):
         synthetic.write_superelement(self.path("box.h5"))
         synthetic.write_results(self.path("run.h5"), "box.h5")
         self.page(self.path("run.h5"))
-        largest = synthetic.YOUNG * synthetic.STRAIN  # of the body; 40 MPa in the beam
+        largest = synthetic.YOUNG * synthetic.STRAIN  # stress in the body; the beam has 40 MPa
         self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(20)")
         np.testing.assert_allclose(self.run_script("return bielle.stressRange()"), [0, largest], rtol=1e-3)
         self.assertEqual(self.run_script("return [bielle.shown.batch.range.y, bielle.shown.flexible[0].range.y]"), 2 * [self.run_script("return bielle.stressRange()[1]")])

@@ -7,7 +7,7 @@ COLOURS = {"outer": "#5c6a7c", "inner": "#d5d9de", "spring": "#3f9b62", "damper"
            "node": "#20242a", "support": "#8b8f96", "ground": "#9aa3ad", "contact": "#d9a441", "force": "#cf3d3d", "mark": "#2d3138",
            "bar": "#8791a0", "stiffness": "#3f9b62", "marked": "#d3262f"}
 MARKED = 0.65  # share of the colour of marks
-DARKEST = 33  # of 255: shading does not show on darker colours
+DARKEST = 33  # least share of red, green and blue, up to 255: shading does not show on darker colours
 
 
 @dataclass
