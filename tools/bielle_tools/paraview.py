@@ -20,6 +20,8 @@ from .messages import InputError
 from .results_file import modes_to_show
 from .rotations import rotation_matrices
 from .rigid_bodies import rigid_bodies
+from .scene.beams import beam_motion, beam_stress, turns_of
+from .scene.drawing import Drawing
 from .superelement_body import superelement_of
 
 RESULTANTS = ["axial_force", "shear_force_y", "shear_force_z", "torque", "bending_moment_y", "bending_moment_z"]
@@ -114,26 +116,23 @@ def _beams(results):
     counts = [len(results.rows(f"elements/{name}/position", 0)) for name in names]
     first = np.cumsum([0] + counts)
     lines = np.concatenate([np.column_stack([np.arange(n - 1), np.arange(1, n)]) + start for n, start in zip(counts, first)])
+    turns = {item.get("element"): turns_of(item) for item in Drawing(results).items if item["shape"] == "beam"}
+    stresses = [beam_stress(results, f"elements/{name}") for name in names]
+    motions = [beam_motion(results, f"elements/{name}", turns.get(f"elements/{name}"))[0] for name in names]
 
     def mesh_at(row):
-        points = np.concatenate([results.rows(f"elements/{name}/position", row) for name in names])
-        axes = rotation_matrices(np.concatenate([results.rows(f"elements/{name}/rotation", row) for name in names]))
+        poses = np.concatenate([poses_of([row])[0] for poses_of in motions])
+        points, axes = poses[:, :3], rotation_matrices(poses[:, 3:7])
         data = {"section_y": axes[:, :, 1], "section_z": axes[:, :, 2]}
         cell_data = {"beam": [np.repeat(np.arange(len(names)), np.array(counts) - 1)]}
         if all(results.has(f"elements/{name}/resultants") for name in names):
             table = np.concatenate([results.rows(f"elements/{name}/resultants", row) for name in names])
             cell_data.update({title: [table[:, k]] for k, title in enumerate(RESULTANTS)})
-        if any(results.has(f"elements/{name}/von_mises") for name in names):
-            cell_data["von_mises"] = [np.concatenate([_beam_stress(results, name, n - 1, row) for name, n in zip(names, counts)])]
+        if any(stresses):
+            cell_data["von_mises"] = [np.concatenate([stress([row])[0] if stress else np.full(n - 1, np.nan) for stress, n in zip(stresses, counts)])]
         return points, [("line", lines)], data, cell_data
 
     return "beams", mesh_at
-
-
-def _beam_stress(results, name, elements, row):
-    """(elements) highest von Mises stress at the section's stress points [Pa]; not a number if there are none."""
-    place = f"elements/{name}/von_mises"
-    return results.rows(place, row).max(axis=1) if results.has(place) else np.full(elements, np.nan)
 
 
 def _nodes(results):

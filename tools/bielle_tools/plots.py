@@ -46,7 +46,7 @@ def draw_all(results, folder, extension="png", nodes=None, joints=None, superele
     written += frequency_response(results, at)
     if not written:
         raise InputError(f"'{results.path}' holds nothing to draw over time: "
-                         + ("it has one time only" if len(results.time) == 1 else "nothing in it changes or nothing is recorded"))
+                         + ("it has one time only, which bielle-view shows" if len(results.time) == 1 else "nothing in it changes or nothing is recorded"))
     return written
 
 

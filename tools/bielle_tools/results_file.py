@@ -80,7 +80,8 @@ class Results:
         if not len(self.time) and not other:
             raise InputError(f"'{path}' holds no results yet: the run ended before its first step was recorded")
         with reading(self.path, "/"):
-            self.static = self._kind() == "static"  # then `time` is the load factor
+            self.kind = self._kind()
+            self.static = self.kind == "static"  # then `time` is the load factor
         if not complete:
             note(f"{path}: the run was not completed; {counted(len(self.time), 'recorded time')} of it can be shown")
 
@@ -114,7 +115,9 @@ class Results:
         return "load factor" if self.static else "time [s]"
 
     def moment(self, row):
-        """`t = 0.1230 s`: describes a row."""
+        """`t = 0.1230 s`: describes a row. A model that was only checked has no time."""
+        if self.kind == "check":
+            return ""
         return f"load factor {self.time[row]:.4g}" if self.static else f"t = {self.time[row]:.4f} s"
 
     def __enter__(self):

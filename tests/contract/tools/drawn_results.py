@@ -43,6 +43,37 @@ def resting(rows, position=(0, 0, 0)):
     return np.tile(np.asarray(position, float), (rows, 1)), np.tile([1.0, 0, 0, 0], (rows, 1))
 
 
+def write_check(path, failure="", redundant=(), apart=0.0):
+    """A model that was only checked: a bar on two hinges whose second has frames that are `apart` along y [m]."""
+    items = [{"entry": f"joints/{name}", "type": "hinge", "shape": "joint", "frames": [{"node": "ground", "position": [x, 0, 0]}, {"node": "n", "position": [x, y, 0]}]}
+             for name, x, y in (("first", 0, 0), ("second", 1, apart))]
+    items.append({"entry": "elements/bar", "type": "rigid_body", "shape": "box", "node": "n", "position": [0.5, 0, 0], "size": [1, 0.1, 0.1]})
+
+    def extra(file):
+        file["analysis_1"].attrs.update({"type": "check", "assembled": int(not failure), **({"failure": failure} if failure else {})})
+        if redundant:
+            file["redundant"] = list(redundant)
+    return write_results(path, {"n": resting(1)}, items, extra=extra)
+
+
+def stressed_beam(name="beam", turn=None):
+    """An item and a function that adds its records: a beam along x of 2 elements in 3 rows, whose sections have two points. Its largest stresses
+    [Pa] are STRESSES."""
+    item = {"entry": f"elements/{name}", "type": "beam", "shape": "beam", "element": f"elements/{name}", **({"turn": turn} if turn else {}),
+            "sections": [{"at": 0, "outer": [[0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1], [0.1, -0.1]]}]}
+
+    def records(file):
+        group = file.create_group(f"analysis_1/elements/{name}")
+        group.attrs["type"] = "beam"
+        group["position"] = np.tile([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]], (3, 1, 1))
+        group["rotation"] = np.tile([1.0, 0, 0, 0], (3, 3, 1))
+        group["von_mises"] = np.stack([0.25 * STRESSES, STRESSES], axis=2)
+        group["von_mises"].attrs["units"] = "Pa"
+        file["elements"] = file["analysis_1/elements"]
+    return item, records
+
+
+STRESSES = 1e6 * np.array([[0.0, 10.0], [20.0, 40.0], [100.0, np.nan]])  # (rows, elements)
 JOINTS = ("hinge", "spherical", "prismatic", "cylindrical", "universal", "constant_velocity", "planar", "point_on_line", "rigid", "screw", "bearing",
           "bushing", "slider", "gear")
 

@@ -24,7 +24,7 @@ class Demo(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             named = re.findall(r"^  (\S+\.\w+)(?:, (\S+\.\w+))?  ", done.stdout, re.MULTILINE)
             names = [name for pair in named for name in pair if name]
-            self.assertEqual(len(names), 7, done.stdout)
+            self.assertEqual(len(names), 8, done.stdout)
             for name in names:
                 self.assertGreater(os.path.getsize(os.path.join(folder, name)), 1000, name)
             with Image.open(os.path.join(folder, "motion.gif")) as movie:

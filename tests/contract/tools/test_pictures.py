@@ -21,10 +21,10 @@ from python_tool import run_python_tool
 from bielle_tools.messages import InputError  # noqa: E402  (box_mesh knows where)
 from bielle_tools.modes import ModeMotion, Modes, ModeScenery  # noqa: E402
 from bielle_tools.pictures.camera import MARGIN  # noqa: E402
-from bielle_tools.pictures.colours import ANCHORS, stress_colours  # noqa: E402
 from bielle_tools.pictures.frames import drawn  # noqa: E402
 from bielle_tools.pictures.shot import Look, Shot  # noqa: E402
 from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.scene.stress_scale import ANCHORS, stress_colours  # noqa: E402
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-animate")
 RED, BLUE = "#ff0000", "#0000ff"
@@ -204,6 +204,34 @@ class Stresses(Pictures):
         grey = stress_colours(np.array([np.nan]))[0]
         self.assertLess(np.ptp(grey.astype(int)), 30)
 
+    def test_the_scale_falls_in_lightness_throughout(self):
+        """CIE 1976 L* of sRGB colours (IEC 61966-2-1): stresses are ordered without colours as well, in steps of similar size."""
+        share = stress_colours(np.linspace(0, 1, 9)) / 255
+        linear = np.where(share > 0.04045, ((share + 0.055) / 1.055) ** 2.4, share / 12.92)
+        luminance = linear @ [0.2126, 0.7152, 0.0722]
+        steps = -np.diff(116 * np.cbrt(luminance) - 16)
+        self.assertGreater(steps.min(), 4)
+        self.assertLess(steps.max(), 16)
+
+    def test_elements_of_beams_have_the_largest_stress_of_their_points(self):
+        shot = self.shot(self.path("run.h5"), 3, size=(400, 300))
+        surfaces = shot.surfaces[0]
+        place, cells, values = surfaces.stressed[0]
+        np.testing.assert_allclose(values, np.tile([1e7, 2e7, 3e7, 4e7], (3, 1)))
+        colours = shot.at(1)[0].colours[place, :3]
+        for element in range(4):  # the scale is that of the body, which has the larger stress
+            np.testing.assert_array_equal(np.unique(colours[cells == element], axis=0), [stress_colours(np.array(1e7 * (element + 1) / shot.highest))])
+        alone = self.shot(self.path("run.h5"), 3, size=(400, 300), hide=["rod"])
+        self.assertEqual(alone.highest, 4e7)
+
+    def test_a_beam_without_bodies_has_a_scale(self):
+        item, records = drawn_results.stressed_beam()
+        shot = self.shot(drawn_results.write_results(self.path("beam.h5"), {"n": drawn_results.resting(3)}, [item], extra=records), 3, size=(400, 300))
+        self.assertEqual(shot.highest, 1e8)
+        place, cells, _ = shot.surfaces[0].stressed[0]
+        np.testing.assert_array_equal(np.unique(shot.at(2)[0].colours[place, :3][cells == 0], axis=0), [ANCHORS[-1]])
+        np.testing.assert_array_equal(np.unique(shot.at(2)[0].colours[place, :3][cells == 1], axis=0), [stress_colours(np.array(np.nan))])
+
     def test_deformation_is_magnified(self):
         plain, large = (self.shot(self.path("run.h5"), 41, size=(400, 300), scale=scale).at(10)[0].points for scale in (1, 101))
         moved = np.linalg.norm(large - plain, axis=1).max()
@@ -217,6 +245,23 @@ class Stresses(Pictures):
         self.refuse("is not the superelement of 'rod': it has 4 coordinates", "run.h5")
         os.remove(self.path("box.h5"))
         self.refuse("--superelement rod=PATH", "run.h5")
+
+
+class CheckedModels(Pictures):
+    def test_marks_and_sentences(self):
+        shots = [self.shot(drawn_results.write_check(self.path("check.h5"), **options), size=(500, 400))
+                 for options in ({}, {"redundant": ["joints/second"]}, {"failure": 20 * "it does not close ", "apart": 0.02})]
+        red = [(shot.at(0)[0].colours[:, 0].astype(int) - shot.at(0)[0].colours[:, 1] > 60).sum() for shot in shots]
+        self.assertEqual(red[0], 0)
+        self.assertGreater(red[1], 100)
+        self.assertEqual(red[1], red[2])
+        self.assertEqual([len(shot.said) for shot in shots[:2]], [1, 2])
+        self.assertGreater(len(shots[2].said), 3)
+        for shot in shots:
+            picture = np.asarray(next(drawn(shot, processes=1))).astype(int)
+            self.assertEqual(picture.shape, (400, 500, 3))
+            self.assertTrue(inked(picture[-shot.paper.line:]).any())
+            self.assertFalse(inked(picture[:, -3:]).any(), "lines end before the edge")
 
 
 class ModePictures(Pictures):

@@ -1,5 +1,6 @@
 """bielle-paraview, bielle-plot, bielle-animate on results whose motion is known in closed form."""
 
+import json
 import os
 import re
 import subprocess
@@ -103,6 +104,17 @@ class ParaView(ResultsTool):
         np.testing.assert_allclose(nodes.point_data["axis_y"], [[-s, c, 0]], atol=1e-12)
         np.testing.assert_allclose(parts["joints"][0][1].point_data["reaction_force"], [[3, 4, 0]])
         np.testing.assert_allclose(parts["joints"][0][1].point_data["drive_force"], [[0, 7]])
+
+    def test_axes_of_sections_at_the_ends_of_beams(self):
+        """Inner nodes have the axes of the section, which are the inertial ones; those of the ends are turned by the drawing's turn."""
+        half = np.sqrt(0.5)
+        item = {"entry": "elements/shaft", "type": "beam", "shape": "beam", "element": "elements/shaft", "turn": [[half, half, 0, 0], [0, 1, 0, 0]]}
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            file["drawing"] = json.dumps({"format": "bielle drawing", "version": 1, "name": "", "items": [item]})
+        self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "2")
+        data = self.parts(self.path("run.pvd"))["beams"][0][1].point_data
+        np.testing.assert_allclose(data["section_y"], [[0, 0, 1], *[[0, 1, 0]] * (synthetic.BEAM_NODES - 2), [0, -1, 0]], atol=1e-12)
+        np.testing.assert_allclose(data["section_z"], [[0, -1, 0], *[[0, 0, 1]] * (synthetic.BEAM_NODES - 2), [0, 0, -1]], atol=1e-12)
 
     def test_a_rigid_body_is_the_ellipsoid_of_its_inertia(self):
         self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "3")

@@ -18,7 +18,7 @@ from bielle_tools.scene.arrows import arrows_of  # noqa: E402
 from bielle_tools.scene.templates import box, cylinder, extruded, lathe, sphere, torus, tube  # noqa: E402
 from bielle_tools.rotations import rotation_matrices  # noqa: E402
 from bielle_tools.scene.transforms import from_axes, from_z, placed, product, rotated  # noqa: E402
-from drawn_results import every_shape, resting, turning, write_results  # noqa: E402
+from drawn_results import every_shape, resting, stressed_beam, turning, write_results  # noqa: E402
 
 
 def volume(mesh):
@@ -132,6 +132,25 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(volume(scene.parts[0].mesh), 0, 12)  # all stations at the origin of their bones
         points = placed(scene.poses(scene.parts[0], [2])[0, scene.parts[0].mesh.bones], scene.parts[0].mesh.points)
         self.assertAlmostEqual(volume(type(scene.parts[0].mesh)(points, scene.parts[0].mesh.triangles, None, None)), 16, 9)
+
+    def test_equal_planes_are_drawn_once_and_others_do_not_overlap(self):
+        def plane(name, x, z=0.0):
+            return {"entry": f"joints/{name}", "type": "wheel", "shape": "plane", "node": "ground", "position": [x, 0, z]}
+        box = {"entry": "elements/box", "type": "rigid_body", "shape": "box", "node": "n", "size": [20, 1, 1]}
+        scene = self.scene({"n": resting(2)}, [box, plane("a", 0), plane("b", 0), plane("c", 1), plane("d", 0, 2)])
+        planes = {part.entry: part for part in scene.parts if part.group == "ground"}
+        self.assertEqual(set(planes), {"joints/a", "joints/c", "joints/d"})
+        widths = {entry: np.ptp(part.mesh.points[:, 0]) for entry, part in planes.items()}
+        np.testing.assert_allclose([widths["joints/a"], widths["joints/c"]], [1, 1])  # 1 m apart
+        self.assertGreater(widths["joints/d"], 2)
+
+    def test_symbols_do_not_cover_thin_beams(self):
+        half, joint = 0.12, {"entry": "joints/j", "type": "hinge", "shape": "joint", "frames": [{"node": "ground"}, {"node": "n"}]}
+        item, records = stressed_beam()  # 2 m long, half as wide as 0.2 m
+        bar = {"entry": "elements/bar", "type": "rigid_body", "shape": "box", "node": "n", "size": [10, 0.1, 0.1]}
+        self.assertAlmostEqual(self.scene({"n": resting(3)}, [bar, joint]).symbol, 0.02 * 10, delta=0.01)
+        with_beam = self.scene({"n": resting(3)}, [bar, joint, item], extra=records).symbol
+        self.assertAlmostEqual(with_beam, half, delta=1e-3)
 
     def test_arrows_of_reactions_and_contacts(self):
         def records(file):

@@ -6,8 +6,9 @@ import numpy as np
 
 import box_mesh  # noqa: F401  (it knows where the tools are)
 from bielle_tools.rotations import rotation_matrices  # noqa: E402
-from bielle_tools.scene.beams import beam_motion  # noqa: E402
-from bielle_tools.scene.transforms import from_axes, product  # noqa: E402
+from bielle_tools.messages import InputError  # noqa: E402
+from bielle_tools.scene.beams import beam_motion, turns_of  # noqa: E402
+from bielle_tools.scene.transforms import conjugate, from_axes, product  # noqa: E402
 
 ROWS = 4
 
@@ -28,9 +29,9 @@ class Recorded:
         return self.values[place].shape
 
 
-def sections(position, rotation):
+def sections(position, rotation, turns=None):
     """(rows,stations,3,3) axes of the sections as they are drawn"""
-    poses, _ = beam_motion(Recorded(position, rotation), "elements/beam")
+    poses, _ = beam_motion(Recorded(position, rotation), "elements/beam", turns)
     return rotation_matrices(poses(np.arange(len(position)))[:, :, 3:7])
 
 
@@ -77,6 +78,19 @@ class Sections(unittest.TestCase):
                 tangent = R @ (np.array(direction) / np.linalg.norm(direction))
                 np.testing.assert_allclose(found[..., 0], np.stack([tangent] * 2, axis=1), atol=1e-12)
                 np.testing.assert_allclose(found @ found.swapaxes(-1, -2), np.broadcast_to(np.eye(3), found.shape), atol=1e-12)
+
+    def test_turns_of_the_drawing_give_the_sections_at_the_ends(self):
+        ends = np.array([[0.5, -0.5, 0.5, 0.5], [0.0, 0.6, 0.0, 0.8]])
+        for stations in (2, 3, 5):
+            x, recorded, section = self.arc(stations, 1.0, ends)
+            turns = turns_of({"entry": "elements/beam", "turn": (3 * product(conjugate(ends), section[0, [0, -1]])).tolist()})  # unit length is not needed
+            self.assertLess(np.abs(sections(x, recorded, turns) - rotation_matrices(section)).max(), 1e-12, stations)
+
+    def test_damaged_turns_are_told(self):
+        self.assertIsNone(turns_of({"entry": "elements/beam"}))
+        for turn in ("x", [[1, 0, 0, 0]], [[1, 0, 0, 0], [0, 0, 0, 0]], [[1, 0, 0, 0], [1, 0, 0]], [[1, 0, 0, 0], [None, 0, 0, 0]], {"a": 1}, 7):
+            with self.assertRaisesRegex(InputError, "'turn' of 'elements/beam' in the drawing is damaged: two quaternions are expected"):
+                turns_of({"entry": "elements/beam", "turn": turn})
 
     def test_rows_that_are_no_numbers_stay_so(self):
         x, recorded, section = self.arc(5, 1.0, np.array([1.0, 0, 0, 0]))

@@ -10,14 +10,16 @@ import unittest
 import h5py
 import numpy as np
 
+import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
-from drawn_results import every_shape, resting, turning, write_results
+from drawn_results import STRESSES, every_shape, resting, stressed_beam, turning, write_check, write_results
 from page_driver import WHY_NOT, Pages
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract"))
 from python_tool import run_python_tool
 
 from bielle_tools.results_file import Results  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
+from bielle_tools.scene.stress_scale import stress_colours  # noqa: E402
 from bielle_tools.scene.transforms import placed  # noqa: E402
 from bielle_tools.superelement_body import SuperelementBody  # noqa: E402
 
@@ -49,6 +51,26 @@ class Command(InFolder):
                             (["--live", "-o", "x.html"], "writes no file")):
             done = view(path, *words)
             self.assertEqual((done.returncode, said in done.stderr), (1, True), done.stderr)
+
+    def test_linear_analyses_alone_have_nothing_to_show(self):
+        for group, says in (("campbell", ": bielle-plot draws its 'campbell'\n"), ("frequency_response", ": bielle-plot draws its 'frequency_response'\n"), ("state_space", "to show\n")):
+            with h5py.File(self.path("linear.h5"), "w") as file:
+                file.attrs.update({"format": "bielle results", "version": 1, "complete": 1})
+                file[f"analysis_1/{group}/numbers"] = [1.0]
+                file["analysis_1"].attrs["type"] = group
+                file[group] = h5py.SoftLink(f"/analysis_1/{group}")
+            done = view(self.path("linear.h5"))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn("holds no motion, state or shapes of modes to show", done.stderr)
+            self.assertTrue(done.stderr.endswith(says), done.stderr)
+            self.assertFalse(os.path.exists(self.path("linear.html")))
+
+    def test_places_that_cannot_be_written(self):
+        path = write_results(self.path("run.h5"), {"n": resting(2)}, [])
+        for target, status, says in ((self.path("nowhere/x.html"), 1, "No such file or directory"), ("/dev/full", 2, "No space left on device"), (self.folder, 1, "Is a directory")):
+            done = view(path, "-o", target)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (status, 1), done.stderr)
+            self.assertIn(says, done.stderr)
 
     def test_the_page_loads_nothing(self):
         path = write_results(self.path("run.h5"), {"n": resting(2)}, [])
@@ -252,6 +274,57 @@ class Viewed(Pages, InFolder):
         np.testing.assert_allclose(flat, body.at(frame, 0 * q)[0][nodes[0]], atol=1e-4)
         self.no_errors()
 
+    def beam(self):
+        """The page of a beam with stresses, seen along z without perspective and symbols."""
+        item, records = stressed_beam()
+        self.page(write_results(self.path("beam.h5"), {"n": resting(3)}, [item], extra=records))
+        self.run_script("bielle.settings.grid = false; bielle.camera.view('z'); bielle.camera.ortho = true; bielle.camera.fit()")
+
+    def elements_colours(self):
+        """Colours of the middles of the two elements as drawn now, (2,3)."""
+        self.settled()
+        return np.array(self.run_script("""bielle.render(); const c = document.getElementById("scene"), o = document.createElement("canvas"), r = c.width / c.clientWidth; o.width = c.width; o.height = c.height;
+            const p = o.getContext("2d"); p.drawImage(c, 0, 0); return [0.5, 1.5].map(x => bielle.camera.pixels([(x - bielle.data.centre[0]) / bielle.data.size, 0, 0.1 / bielle.data.size]))
+            .map(([x, y]) => Array.from(p.getImageData(Math.round(r * x), Math.round(r * y), 1, 1).data.slice(0, 3)))"""))
+
+    def test_elements_of_beams_are_coloured_by_stress(self):
+        self.beam()
+        self.assertEqual(self.run_script("return Array.from(document.querySelectorAll('#options option'), o => o.value)"), ["none", "von_mises", "peak"])
+        plain = self.elements_colours()
+        np.testing.assert_array_equal(plain[0], plain[1])
+        self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(1)")
+        self.assertEqual(self.run_script("return bielle.stressRange()"), [0, np.max(STRESSES[2, :1])])
+        values = "return [0, 1].map(cell => bielle.shown.stresses.at(cell))"
+        np.testing.assert_allclose(self.run_script(values), STRESSES[1], atol=1e8 / 65534)
+        np.testing.assert_allclose(self.run_script("bielle.player.go(0.5);" + values), STRESSES[:2].mean(axis=0), atol=1e8 / 65534)
+        shades = []
+        for row in range(3):
+            self.run_script("bielle.player.go(arguments[0])", row)
+            shades.append(self.elements_colours())
+        # The light is the same everywhere: colours are those of the scale times one factor, apart from the shine, which is equal for all.
+        blue = np.array([stress_colours(share / 1e8) for share in (0.0, 10e6, 20e6, 40e6, 100e6)], float)[:, 2]
+        found = np.array([shades[0][0], shades[0][1], shades[1][0], shades[1][1], shades[2][0]])[:, 2]
+        factor, shine = np.polyfit(blue, found, 1)
+        np.testing.assert_allclose(found, factor * blue + shine, atol=4)
+        self.assertGreater(factor, 0.3)
+        self.assertLess(np.ptp(shades[2][1]), 30, "an element without a stress is grey")
+        self.run_script("bielle.settings.stress = 'peak'; bielle.player.go(0)")
+        np.testing.assert_allclose(self.run_script(values), [1e8, 4e7], atol=1e8 / 65534)
+        self.no_errors()
+
+    def test_bodies_and_beams_share_one_scale(self):
+        synthetic.write_superelement(self.path("box.h5"))
+        synthetic.write_results(self.path("run.h5"), "box.h5")
+        self.page(self.path("run.h5"))
+        largest = synthetic.YOUNG * synthetic.STRAIN  # stress in the body; the beam has 40 MPa
+        self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(20)")
+        np.testing.assert_allclose(self.run_script("return bielle.stressRange()"), [0, largest], rtol=1e-3)
+        self.assertEqual(self.run_script("return [bielle.shown.batch.range.y, bielle.shown.flexible[0].range.y]"), 2 * [self.run_script("return bielle.stressRange()[1]")])
+        np.testing.assert_allclose(self.run_script("return [0, 1, 2, 3].map(cell => bielle.shown.stresses.at(cell))"), [1e7, 2e7, 3e7, 4e7], rtol=1e-3)
+        self.run_script("bielle.settings.stress = 'xx'; bielle.player.go(20)")
+        self.assertEqual(self.run_script("return bielle.shown.stresses.at(0)"), None)
+        self.no_errors()
+
     def test_modes_and_their_decay(self):
         path = self.arm("{type: assembly}, {type: eigen, count: 4}")
         self.page(path)
@@ -269,6 +342,81 @@ class Viewed(Pages, InFolder):
         decay = self.run_script("bielle.settings.decay = true; bielle.settings.amplitude = 1; bielle.player.go(18); return [bielle.amplitude(), bielle.shown.sequence.decay]")
         self.assertAlmostEqual(decay[0], np.exp(decay[1] / 2), 9)
         self.no_errors()
+
+
+@unittest.skipIf(WHY_NOT, WHY_NOT)
+class Checked(Pages, InFolder):
+    """Models that were only checked."""
+    BAR = """gravity: [0, 0, -9.81]
+nodes: {a: {position: [1, 0, 0]}}
+elements: {a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}}
+joints:
+  pin: {type: hinge, nodes: [ground, a], position: [0, 0, 0], axis: [0, 1, 0]}
+"""
+
+    def shown(self, path):
+        done = view(path, "-o", self.path("page.html"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.open(self.path("page.html"))
+        marks = self.run_script("return Object.fromEntries(Array.from(document.querySelectorAll('.entry'), e => [e.title, e.querySelector('.mark').textContent]).filter(pair => pair[1]))")
+        return self.run_script("const box = document.getElementById('verdict'); return [box.className, Array.from(box.children, e => e.textContent)]"), marks
+
+    def colours(self):
+        """{entry: excess of red over green}, shares of 1"""
+        return self.run_script("const d = bielle.shown.batch.looks.data; return Object.fromEntries(bielle.shown.layout.parts.map((part, k) => [part.entry, d[4 * k] - d[4 * k + 1]]))")
+
+    def checked(self, text, status=0):
+        """Results of the program's check of a model."""
+        done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), self.write("model.yaml", text), "--check", "-o", self.path("check.h5")],
+                              capture_output=True, text=True, cwd=self.folder, check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return self.path("check.h5")
+
+    def test_what_was_found_is_said_and_marked(self):
+        (kind, said), marks = self.shown(write_check(self.path("check.h5"), redundant=["joints/second", "nodes/far"]))
+        self.assertEqual((kind, said), ("", ["The model is assembled.", "Constraints are redundant, and set aside: joints/second, nodes/far."]))
+        self.assertEqual(marks, {"joints/second": "redundant"})
+        colours = self.colours()
+        self.assertGreater(colours["joints/second"], 0.3)
+        self.assertLess(colours["joints/first"], 0.05)
+        self.assertEqual(self.run_script("return document.getElementById('moment').textContent"), "")
+        (kind, said), marks = self.shown(write_check(self.path("check.h5"), failure="the loop <b>does not</b> close.", apart=0.02))
+        self.assertEqual((kind, said), ("failed", ["The model cannot be assembled, and is shown as it is drawn: the loop <b>does not</b> close."]))
+        self.assertEqual(marks, {"joints/second": "gap"})
+        self.run_script("bielle.entries.choose('joints/second')")
+        self.assertIn("its frames are up to 0.02 m apart", self.run_script("return document.getElementById('details').textContent"))
+        self.no_errors()
+
+    def test_a_loop_with_redundant_constraints(self):
+        (kind, said), marks = self.shown(self.checked(self.BAR + "  second: {type: hinge, nodes: [ground, a], position: [0, 1, 0], axis: [0, 1, 0]}\n"))
+        self.assertEqual((kind, said[1:], marks), ("", ["Constraints are redundant, and set aside: joints/second."], {"joints/second": "redundant"}))
+        self.no_errors()
+
+    def test_loops_that_cannot_be_closed(self):
+        for second, mark, sentence in (("at: [[50, 0, 0], [0, 0, 0]], axis: [0, 1, 0]", "gap", "its frames are up to 49 m apart"),
+                                       ("position: [0, 1, 0], axis: [[0, 1, 0], [0, 1, 1]]", "tilt", "its axes are up to 45\u00b0 apart")):
+            with self.subTest(mark):
+                (kind, said), marks = self.shown(self.checked(self.BAR + f"  second: {{type: hinge, nodes: [ground, a], {second}}}\n", status=2))
+                self.assertEqual(kind, "failed")
+                self.assertEqual(set(marks), {"joints/second"})
+                self.assertIn(mark, marks["joints/second"])
+                with h5py.File(self.path("check.h5")) as file:
+                    self.assertIn(file["analysis_1"].attrs["failure"].strip(" ."), said[0])
+                self.run_script("bielle.entries.choose('joints/second')")
+                self.assertIn(sentence, self.run_script("return document.getElementById('details').textContent"))
+        self.no_errors()
+
+    def test_pictures_and_tables(self):
+        animate, path = os.path.join(REPOSITORY, "tools", "bielle-animate"), write_check(self.path("check.h5"), failure="it does not close", apart=0.02)
+        done = run_python_tool(animate, [path, "-o", self.path("check.png")])
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for tool, options, says in (("bielle-animate", [], "holds no motion to show: it has one position, which -o FILE.png draws"),
+                                    ("bielle-plot", [], "it has one time only, which bielle-view shows")):
+            done = run_python_tool(os.path.join(REPOSITORY, "tools", tool), [path, *options])
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn(says, done.stderr)
+        done = run_python_tool(os.path.join(REPOSITORY, "tools", "bielle-table"), [path])
+        self.assertEqual((done.returncode, "nodes/n/position" in done.stdout), (0, True), done.stderr)
 
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)

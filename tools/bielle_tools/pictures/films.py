@@ -1,7 +1,6 @@
 """Files of pictures: sheets of stills (PNG, PDF, SVG) and films (GIF, MP4)."""
 
 import base64
-import contextlib
 import io
 import os
 import shutil
@@ -13,6 +12,7 @@ import numpy as np
 from PIL import Image
 
 from ..messages import InputError
+from ..output_file import opened
 from ..results_file import Results, modes_to_show
 from .frames import drawn
 from .page import side_by_side, stacked
@@ -27,7 +27,7 @@ SAMPLES = 4    # pictures from which the colours of a GIF are chosen
 def sheet(results, path, look, pictures=6):
     """Writes about `pictures` moments of the motion side by side. look: a Look"""
     shot = _prepared(results, look, pictures, sheet=True)
-    with _opened(path) as file:
+    with opened(path) as file:
         whole = side_by_side(list(drawn(shot)), COLUMNS)
         if shot.sheet:
             whole = stacked([shot.paper.heading(whole.width, shot.title, ""), whole, *shot.bar(whole.width)])
@@ -44,26 +44,15 @@ def film(results, path, look, pictures=60, seconds=6.0):
     if moving and not shutil.which("ffmpeg"):
         raise InputError(f"'{path}': films in MP4 need the program ffmpeg (Debian package ffmpeg); a GIF does not")
     shot = _prepared(results, look, pictures, sheet=False)
-    with _opened(path) as file:
+    with opened(path) as file:
         (_write_mp4 if moving else _write_gif)(shot, file, seconds)
 
 
 def _prepared(results, look, pictures, sheet):
-    if len(results.time) < 2 and isinstance(results, Results):
-        raise InputError(f"'{results.path}' holds no motion to show" + modes_to_show(results))
+    if isinstance(results, Results) and len(results.time) < (1 if sheet else 2):
+        still = ": it has one position, which -o FILE.png draws" if len(results.time) else ""
+        raise InputError(f"'{results.path}' holds no motion to show" + (modes_to_show(results) or still))
     return Shot(results, look, pictures, sheet)
-
-
-@contextlib.contextmanager
-def _opened(path):
-    """The file to write, before anything is drawn in vain. It is removed if that fails."""
-    with open(path, "wb") as file:
-        try:
-            yield file
-        except BaseException:
-            if os.path.isfile(path):
-                os.unlink(path)
-            raise
 
 
 def _write_gif(shot, file, seconds):

@@ -4,7 +4,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ..messages import InputError
-from .colours import stress_colours
+from ..scene.stress_scale import stress_colours
 
 INK, QUIET = (30, 33, 38), (95, 102, 112)
 
@@ -29,6 +29,29 @@ class Paper:
         draw.text((width - gap, middle), moment, QUIET, self.plain, anchor="rm")
         draw.text((gap, middle), _shortened(draw, title, self.bold, room), INK, self.bold, anchor="lm")
         return strip
+
+    def lines(self, sentences, width):
+        """Sentences as lines that a picture of this width has room for."""
+        _, draw = _strip(1, 1)
+        found = []
+        for sentence in sentences:
+            line = ""
+            for word in sentence.split():
+                if line and draw.textlength(f"{line} {word}", self.plain) > width - 2 * self.size:
+                    found.append(line)
+                    line = ""
+                line = f"{line} {word}".strip()
+            found.append(_shortened(draw, line, self.plain, width - 2 * self.size))
+        return found
+
+    def written(self, width, lines):
+        """A list of one strip with lines, empty without any."""
+        if not lines:
+            return []
+        strip, draw = _strip(width, self.line * len(lines) * 3 // 4)
+        for k, line in enumerate(lines):
+            draw.text((self.size, (k + 0.5) * self.line * 3 / 4), line, INK, self.plain, anchor="lm")
+        return [strip]
 
     def bar(self, width, highest, label):
         """A strip with the colours of stresses from 0 on the left to `highest` [MPa] on the right."""

@@ -4,8 +4,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..checked_model import check_of
 from ..messages import InputError, check_names, note
 from ..scene import make_scene
+from ..scene.marks import marks_of
 from ..scene.transforms import placed
 from .camera import VIEWS, Camera, Extent, view_axes
 from .choice import hidden_parts
@@ -46,7 +48,10 @@ class Shot:
         if not scene.parts and not scene.flexible:
             raise InputError(f"'{results.path}' records no nodes, beams or superelements")
         hidden = hidden_parts(look.hide, [*scene.parts, *scene.flexible])
-        self.surfaces = [Surfaces(scene, self.rows, look.scale, hidden=hidden)]
+        check = check_of(results)
+        self.said = check.sentences if check else []
+        marks = marks_of(scene, self.rows) if len(results.time) == 1 else ()
+        self.surfaces = [Surfaces(scene, self.rows, look.scale, hidden=hidden, marks=marks)]
         if not self.surfaces[0].count:
             raise InputError("--hide leaves nothing to draw")
         if hasattr(results, "at_rest"):
@@ -86,7 +91,8 @@ class Shot:
         width, height = size or (WIDTH, None)
         letters = int(np.clip(min(width, 1.5 * (height or width)) / 52, 8, 28))
         self.paper, self.sheet = Paper(letters), sheet and len(self.rows) > 1
-        strips = self.paper.line * (2 if self.highest and not self.sheet else 1)
+        self.said = self.paper.lines(self.said, width)
+        strips = self.paper.line * (2 if self.highest and not self.sheet else 1) + (self.paper.line * len(self.said) * 3 // 4)
         if height is None:
             height = 2 * round(width * float(np.clip(extent.aspect, *HEIGHTS)) / 2) + strips
         self.camera = Camera(extent, (width, max(height - strips, 8)), flat)
@@ -101,7 +107,7 @@ class Shot:
             names, places = self.anchors
             self.paper.write_labels(picture, names, self.camera.pixels(places[k], self.moved[k]))
         return stacked([self.paper.heading(picture.width, "" if self.sheet else self.title, self.moments[k]), picture,
-                        *([] if self.sheet else self.bar(picture.width))])
+                        *([] if self.sheet else self.bar(picture.width)), *self.paper.written(picture.width, self.said)])
 
     def bar(self, width):
         """A list of the strip with the colours of stresses; empty without stresses."""

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..rotations import rotation_matrices
+from ..scene.stress_scale import stress_colours
+from ..scene.style import marked, muted, shares_of
 from ..scene.transforms import conjugate, placed, rotated
-from .colours import muted, rgb, stress_colours
 from .normals import corner_normals, split_at_edges
 
 
@@ -30,16 +31,21 @@ class Surfaces:
     """Rigid and flexible parts at `rows`. triangles (m,3) and lines (k,2) are numbers of points; translucent (m) tells
     which triangles are; highest: the largest stress over the rows [Pa], None without stresses."""
 
-    def __init__(self, scene, rows, scale=1.0, paint=None, hidden=lambda part: False):
-        """scale: magnifies elastic displacements of bodies; paint: ("#rrggbb", opacity) instead of colours and stresses"""
-        self.scale, self.paint = scale, paint
-        self.muted = not paint and any(part.body.stress is not None for part in scene.flexible if not hidden(part))
+    def __init__(self, scene, rows, scale=1.0, paint=None, hidden=lambda part: False, marks=()):
+        """scale: magnifies elastic displacements of bodies; paint: ("#rrggbb", opacity) instead of colours and stresses; marks: entries whose
+        colours are those of marked ones"""
+        self.scale, self.paint, self.marks = scale, paint, marks
+        shown = [part for part in [*scene.parts, *scene.flexible] if not hidden(part)]
+        self.muted = not paint and any((part.body.stress if hasattr(part, "body") else part.stress) is not None for part in shown)
+        self.stressed = []  # (place of points among all, their cells, stresses (rows,cells)) of beams
         self._points, self._normals, self._colours, self._endless = [], [], [], []
         self._triangles, self._lines, self._bones, self.flexible = [], [], [], []
         self.count, poses, bones = 0, [], 0
         for part in scene.parts:
             if not hidden(part) and len(part.mesh.points):
                 poses.append(np.asarray(scene.poses(part, rows), float))
+                if part.stress and not paint:
+                    self.stressed.append((slice(self.count, self.count + len(part.mesh.points)), part.cells, part.stress(rows)))
                 self._add_rigid(part, poses[-1], bones)
                 bones += poses[-1].shape[1]
         self.poses = np.concatenate(poses, axis=1) if poses else np.zeros((len(rows), 0, 8))
@@ -50,7 +56,8 @@ class Surfaces:
                     shapes[id(part.body)] = FlexibleShape(part.body)
                 self._add_flexible(part, shapes[id(part.body)], rows)
         self._join()
-        self.highest = max((each.highest for each in self.flexible if each.highest > LEAST_STRESS), default=None)
+        largest = [each.highest for each in self.flexible] + [float(np.fmax.reduce(values, axis=None, initial=0)) for _, _, values in self.stressed]
+        self.highest = max((each for each in largest if each > LEAST_STRESS), default=None)
 
     def _add_rigid(self, part, poses, first_bone):
         mesh = part.mesh
@@ -65,8 +72,9 @@ class Surfaces:
 
     def _add(self, points, normals, triangles, lines, part):
         colour, opacity = self.paint or (part.colour, part.opacity)
-        red_green_blue = muted(rgb(colour)) if self.muted else rgb(colour)
-        rgba = np.rint(255 * np.clip([*red_green_blue, opacity], 0, 1)).astype(np.uint8)
+        known = part.entry in self.marks and not self.paint
+        colour = marked(colour) if known else muted(colour) if self.muted else colour
+        rgba = np.array([*shares_of(colour), np.rint(255 * np.clip(opacity, 0, 1))], np.uint8)
         self._endless.append(np.full(len(points), part.group == "ground" and len(lines) > 0))  # planes have no end
         self._points.append(points)
         self._normals.append(normals)
@@ -94,11 +102,14 @@ class Surfaces:
             poses = self.poses[k][self.bones[self.rigid]]
             points[self.rigid] = placed(poses, self.points[self.rigid])
             normals[self.rigid] = rotated(poses[:, 3:7], self.normals[self.rigid])
+        if highest and (self.stressed or self.flexible):
+            colours = colours.copy()
+        for place, cells, values in self.stressed if highest else ():
+            colours[place, :3] = stress_colours(values[k] / highest)[cells]
         for each in self.flexible:
             points[each.place], normals[each.place] = each.at(k, self.scale)
             stress = each.stress(k) if highest else None
             if stress is not None:
-                colours = colours.copy() if colours is self.colours else colours
                 colours[each.place, :3] = stress_colours(stress / highest)
         return Moment(points, normals, colours)
 

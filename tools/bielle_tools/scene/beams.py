@@ -8,24 +8,42 @@ from .parts import Mesh
 from .transforms import conjugate, from_z, pose, product
 
 
-def beam_motion(results, place):
-    """(rows -> (rows, stations, 8), number of stations) of the element at `place`, in axes of its sections."""
+def beam_motion(results, place, turns=None):
+    """(rows -> (rows, stations, 8), number of stations) of the element at `place`, in axes of its sections. turns: as `turns_of` gives them"""
     if not (results.has(f"{place}/position") and results.has(f"{place}/rotation")):
         raise InputError("the results do not record its position and rotation")
     kept = []
 
     def poses(rows):
         if not kept:
-            kept.append((results.rows(f"{place}/position"), _section_rotations(results, place)))
+            kept.append((results.rows(f"{place}/position"), _section_rotations(results, place, turns)))
         x, q = kept[0]
         return pose(x[rows], q[rows])
     return poses, results.shape(f"{place}/position")[1]
 
 
-def _section_rotations(results, place):
-    """(nt, stations, 4) of the sections. Both ends are recorded as the nodes there, whose axes are any: the section that each of them carries
-    is taken from its neighbours in the first known row, as if the curvature was constant."""
+def turns_of(item):
+    """(2,4) rotations from the axes of the first and last node of a beam to those of its sections there, or None. @raises InputError"""
+    if item.get("turn") is None:
+        return None
+    try:
+        turns = np.asarray(item["turn"], float).reshape(2, 4)
+    except (TypeError, ValueError):
+        turns = np.zeros((2, 4))
+    length = np.linalg.norm(turns, axis=1, keepdims=True)
+    if not (np.isfinite(length) & (length > 0)).all():
+        raise InputError(f"'turn' of '{item['entry']}' in the drawing is damaged: two quaternions are expected")
+    return turns / length
+
+
+def _section_rotations(results, place, turns):
+    """(nt, stations, 4) of the sections. Both ends are recorded as the nodes there, whose axes are any. Older drawings have no turns: the section
+    that each node carries is then taken from its neighbours in the first known row, as if the curvature was constant."""
     q = results.rows(f"{place}/rotation")
+    if turns is not None:
+        q = q.copy()
+        q[:, [0, -1]] = product(q[:, [0, -1]], turns)
+        return q
     if q.shape[1] < 3:
         return _along(results.rows(f"{place}/position"), q)
     if hasattr(results, "scenery"):  # a mode: the state about which it is
@@ -51,31 +69,52 @@ def _along(x, q):
     return product(q, product(conjugate(q[known[0]]), across))
 
 
+def beam_stress(results, place):
+    """rows -> (rows, elements) von Mises stress [Pa] of the element at `place`, the largest of the points of the section; not a number where
+    there is none. None if it is not recorded. @raises InputError"""
+    if not results.has(f"{place}/von_mises"):
+        return None
+    shape, stations = results.shape(f"{place}/von_mises"), results.shape(f"{place}/position")[1]
+    if len(shape) != 3 or shape[1] != stations - 1 or not shape[2]:
+        raise InputError("its 'von_mises' does not fit its nodes")
+    kept = []
+
+    def largest(rows):
+        if not kept:
+            kept.append(np.fmax.reduce(results.rows(f"{place}/von_mises"), axis=2))
+        return kept[0][rows]
+    return largest
+
+
 def beam_mesh(stations, sections, thin):
-    """sections: [{at, outer, inner}] as in the drawing. Outlines between sections are interpolated if their numbers of points agree.
-    Without sections: a round bar with radius `thin`."""
+    """(mesh, element of each point). sections: [{at, outer, inner}] as in the drawing. Outlines between sections are interpolated if their
+    numbers of points agree. Without sections: a round bar with radius `thin`. Elements have points of their own, so that each has its colour."""
     sections = sorted(sections, key=lambda section: section["at"]) or [{"at": 0.0, "outer": thin * t.circle(10)}]
     at = np.linspace(0, 1, stations)
     outlines = [np.stack([_outline(sections, s, key) for s in at]) for key in ("outer", "inner") if all(section.get(key) is not None for section in sections)]
-    points, triangles, bones, n = [], [], [], 0
+    points, triangles, bones, elements, n = [], [], [], [], 0
+    rings = np.repeat(np.arange(stations), 2)[1:-1] if stations > 1 else np.zeros(1, int)  # both ends of each element
     for outline, outward in zip(outlines, (True, False)):
         corners = outline.shape[1]
         smooth = corners > 8
         columns = [np.arange(corners)] if smooth else [np.array([k, (k + 1) % corners]) for k in range(corners)]
         for column in columns:
-            ring = t.strip(np.pad(outline[:, column], ((0, 0), (0, 0), (1, 0))), closed=smooth)
+            ring = t.strip(np.pad(outline[rings][:, column], ((0, 0), (0, 0), (1, 0))), closed=smooth)
+            of_elements = ring.triangles[ring.triangles.min(axis=1) // len(column) % 2 == 0]
             # Rings lie in the plane y, z and follow each other along x: anticlockwise about x is outward.
             points.append(ring.points)
-            triangles.append((ring.triangles if outward else ring.triangles[:, ::-1]) + n)
-            bones.append(np.repeat(np.arange(stations), len(column)))
+            triangles.append((of_elements if outward else of_elements[:, ::-1]) + n)
+            bones.append(np.repeat(rings, len(column)))
+            elements.append(np.repeat(np.arange(len(rings)) // 2, len(column)))
             n += len(ring.points)
     for station, sign in ((0, -1), (stations - 1, 1)):
         lid = _lid(outlines, station, sign)
         points.append(lid.points)
         triangles.append(lid.triangles + n)
         bones.append(np.full(len(lid.points), station))
+        elements.append(np.full(len(lid.points), min(station, stations - 2)))
         n += len(lid.points)
-    return Mesh(np.concatenate(points), np.concatenate(triangles), t.NO_LINES, np.concatenate(bones))
+    return Mesh(np.concatenate(points), np.concatenate(triangles), t.NO_LINES, np.concatenate(bones)), np.concatenate(elements)
 
 
 def _lid(outlines, station, sign):

@@ -4,12 +4,13 @@ import numpy as np
 
 from . import symbols
 from . import templates as t
-from .beams import beam_mesh, beam_motion
+from .beams import beam_mesh, beam_motion, beam_stress, turns_of
 from .course import Course
-from .drawing import place_of
-from .links import Ends, bar_mesh, coil_mesh, rope_mesh, telescope
-from .parts import Mesh, Part, on_bones
-from .style import COLOURS, lighter
+from .drawing import place_of, positive
+from .links import Ends, bar_mesh, rope_mesh
+from .parts import Part, on_bones
+from .springs import coil, coil_radius, telescopic
+from .style import COLOURS, lighter, visible
 from .transforms import between, conjugate, from_z, rotated
 
 
@@ -19,7 +20,7 @@ class Builder:
     def __init__(self, motion, drawing, palette, flexible):
         self.motion, self.drawing, self.palette, self.flexible = motion, drawing, palette, flexible
         self.symbol, self.extent, self.centre = 1.0, 1.0, np.zeros(3)
-        self.planes = 1  # their number
+        self.planes = []  # DrawnPlanes
         self.around = 24  # corners of symbols around an axis
         self.attached = {}  # node -> positions in its axes of what is attached to it
 
@@ -43,7 +44,7 @@ class Builder:
     def colour(item, default):
         given = item.get("colour", "")
         try:
-            return given if len(given) == 7 and given[0] == "#" and int(given[1:], 16) >= 0 else default
+            return visible(given) if len(given) == 7 and given[0] == "#" and int(given[1:], 16) >= 0 else default
         except (TypeError, ValueError):
             return default
 
@@ -60,13 +61,6 @@ class Builder:
         return Ends(self.motion, places)
 
 
-def _positive(*numbers):
-    values = [float(number) for number in numbers]
-    if not all(np.isfinite(value) and value > 0 for value in values):
-        raise ValueError("a size is not positive")
-    return values
-
-
 def _body(b, item):
     centre = np.asarray(item.get("centre", [0, 0, 0]), float)
     ends = np.array(b.attached.get(item["node"], [])).reshape(-1, 3)
@@ -77,8 +71,8 @@ def _body(b, item):
 
 
 def _gear(b, item):
-    radius, = _positive(item["radius"])
-    width, = _positive(item.get("width", 0.22 * radius))
+    radius, = positive(item["radius"])
+    width, = positive(item.get("width", 0.22 * radius))
     inner = bool(item.get("inner"))
     body = t.tube(1.18 * radius, radius, width, 48) if inner else \
         t.merged([t.tube(radius, 0.82 * radius, width, 48), t.cylinder(0.82 * radius, 0.55 * width), t.cylinder(0.25 * radius, 1.15 * width)])
@@ -87,7 +81,7 @@ def _gear(b, item):
 
 
 def _pulley(b, item):
-    radius, = _positive(item["radius"])
+    radius, = positive(item["radius"])
     width = float(item.get("width", min(0.4 * radius, 1.2 * b.symbol)))
     h, groove = width / 2, min(0.12 * radius, 0.4 * width)
     rim = t.lathe([(0, -h), (radius + groove, -h), (radius + groove, -0.8 * h), (radius, -0.35 * h), (radius, 0.35 * h),
@@ -97,8 +91,8 @@ def _pulley(b, item):
 
 
 def _tyre(b, item):
-    radius, = _positive(item["radius"])
-    width, = _positive(item.get("width", 0.45 * radius))
+    radius, = positive(item["radius"])
+    width, = positive(item.get("width", 0.45 * radius))
     rim = t.merged([t.tube(0.68 * radius, 0.6 * radius, 0.7 * width, 36), t.cylinder(0.62 * radius, 0.12 * width, 36), t.cylinder(0.16 * radius, 0.5 * width)]
                    + [t.moved(t.box([0.46 * radius, 0.12 * radius, 0.3 * width]), (0.38 * radius * x, 0.38 * radius * y, 0), [[x, -y, 0], [y, x, 0], [0, 0, 1]])
                       for x, y in t.circle(5)])
@@ -112,9 +106,11 @@ def _cam(b, item):
 
 
 def _plane(b, item):
-    place = place_of(item)
-    alone = b.planes < 2
-    size = float(np.max(item["size"])) if "size" in item else (1.15 if alone else 0.15) * b.extent
+    place, own = place_of(item), next((plane for plane in b.planes if plane.item is item), None)
+    if own is None:
+        return []  # another entry has the same plane
+    alone = len(b.planes) < 2
+    size = float(np.max(item["size"])) if "size" in item else 1.15 * b.extent if alone else min([0.15 * b.extent, *own.distances(b.planes, b.extent)])
     shift = np.zeros(3)
     if "size" not in item and alone and place.node == "ground":  # the part of the plane under the machine
         shift = rotated(conjugate(np.array(place.rotation)), b.centre - np.array(place.position)) * [1, 1, 0]
@@ -136,37 +132,6 @@ def _curve(b, item):
     return [b.rigid(item, t.polyline(points, 0.14 * b.symbol), colour=COLOURS["bar"])]
 
 
-def _coil(b, item, radius=0.75):
-    ends = b.ends(item)
-    length = np.nan_to_num(ends.lengths()[1]) or b.symbol
-    radius = min(radius * b.symbol, 0.25 * length) if radius < 1 else radius * b.symbol
-    return b.link(item, coil_mesh(radius, min(0.13 * b.symbol, 0.35 * length / 8), length), COLOURS["spring"])
-
-
-def _telescope(b, item, radius=None):
-    ends = b.ends(item)
-    shortest, longest = ends.lengths()
-    shortest = float(item["stroke"][0]) if item.get("stroke") else shortest
-    shortest, _ = _positive(shortest, longest) if np.isfinite([shortest, longest]).all() and shortest > 0 else (b.symbol, b.symbol)
-    radius = float(item.get("radius", radius or 0.5 * b.symbol))
-    barrel = 0.82 * shortest
-    mesh = telescope(min(radius, 0.3 * shortest), barrel)
-    dark = mesh.bones == 0
-    poses = ends.telescopic(barrel)
-    group = "spring"
-
-    def part(selected, colour):
-        numbers = np.flatnonzero(selected)
-        index = np.full(len(mesh.points), -1)
-        index[numbers] = np.arange(len(numbers))
-        triangles = index[mesh.triangles[selected[mesh.triangles[:, 0]]]]
-        first = mesh.bones[numbers].min()
-        last = mesh.bones[numbers].max() + 1
-        return Part(item["entry"], item["type"], Mesh(mesh.points[numbers], triangles, t.NO_LINES, mesh.bones[numbers] - first),
-                    colour, float(item.get("opacity", 1)), group, lambda rows: poses(rows)[:, first:last])
-    return [part(dark, b.colour(item, COLOURS["damper"])), part(~dark, COLOURS["rod"])]
-
-
 def _course(b, item):
     points = [(place_of(point), float(point.get("radius", 0)), 1 if point.get("side", 1) >= 0 else -1) for point in item["points"]]
     for place, _, _ in points:
@@ -177,9 +142,10 @@ def _course(b, item):
 
 
 def _beam(b, item):
-    poses, stations = beam_motion(b.motion.results, item["element"])
-    mesh = beam_mesh(stations, list(item.get("sections") or []), 0.3 * b.symbol)
-    return [Part(item["entry"], item["type"], mesh, b.colour(item, b.palette.of(item["element"])), float(item.get("opacity", 1)), "beam", poses)]
+    poses, stations = beam_motion(b.motion.results, item["element"], turns_of(item))
+    mesh, elements = beam_mesh(stations, list(item.get("sections") or []), 0.3 * b.symbol)
+    stress = beam_stress(b.motion.results, item["element"])
+    return [Part(item["entry"], item["type"], mesh, b.colour(item, b.palette.of(item["element"])), float(item.get("opacity", 1)), "beam", poses, stress, elements)]
 
 
 def _superelement(b, item):
@@ -235,18 +201,18 @@ def _ellipsoid(b, item):
 
 
 BUILDERS = {
-    "box": lambda b, item: [b.rigid(item, t.box(_positive(*item["size"])))],
-    "cylinder": lambda b, item: [b.rigid(item, t.cylinder(*_positive(item["radius"], item["length"]), 36))],
-    "tube": lambda b, item: [b.rigid(item, t.tube(*_positive(item["radius"], item["inner_radius"], item["length"]), 36))],
-    "cone": lambda b, item: [b.rigid(item, t.cone([float(r) for r in item["radii"]], *_positive(item["length"]), 36))],
-    "sphere": lambda b, item: [b.rigid(item, t.sphere(*_positive(item["radius"]), 16, 32))],
+    "box": lambda b, item: [b.rigid(item, t.box(positive(*item["size"])))],
+    "cylinder": lambda b, item: [b.rigid(item, t.cylinder(*positive(item["radius"], item["length"]), 36))],
+    "tube": lambda b, item: [b.rigid(item, t.tube(*positive(item["radius"], item["inner_radius"], item["length"]), 36))],
+    "cone": lambda b, item: [b.rigid(item, t.cone([float(r) for r in item["radii"]], *positive(item["length"]), 36))],
+    "sphere": lambda b, item: [b.rigid(item, t.sphere(*positive(item["radius"]), 16, 32))],
     "mesh": _mesh, "ellipsoid": _ellipsoid, "gear": _gear, "pulley": _pulley, "tyre": _tyre, "cam": _cam, "plane": _plane, "curve": _curve,
     "body": _body, "support": _support, "joint": _joint, "stiffness": _stiffness, "beam": _beam, "superelement": _superelement, "course": _course,
     "node": lambda b, item: [b.rigid(item, t.sphere(0.28 * b.symbol, b.around // 4, b.around // 2), "node", COLOURS["node"])],
     "bar": lambda b, item: [b.link(item, bar_mesh(float(item.get("radius", 0.3 * b.symbol))), COLOURS["bar"], "body")],
     "rope": lambda b, item: [b.link(item, rope_mesh(0.16 * b.symbol), COLOURS["rope"], "rope")],
-    "coil": lambda b, item: [_coil(b, item)],
-    "damper": _telescope, "jack": _telescope,
-    "coil_damper": lambda b, item: [_coil(b, item, 1.05), *_telescope(b, item, 0.42 * b.symbol)],
+    "coil": lambda b, item: [coil(b, item)],
+    "damper": telescopic, "jack": telescopic,
+    "coil_damper": lambda b, item: [coil(b, item), *telescopic(b, item, 0.5 * coil_radius(b, item))],
     "force": lambda b, item: [b.rigid(item, t.octahedron(0.4 * b.symbol), "force", COLOURS["force"])],
 }

@@ -93,6 +93,14 @@ def places_of(item):
     return [place_of(part) for part in (parts or [item])]
 
 
+def positive(*numbers):
+    """Sizes as a list of positive numbers. @raises ValueError"""
+    values = [float(number) for number in numbers]
+    if not all(np.isfinite(value) and value > 0 for value in values):
+        raise ValueError("a size is not positive")
+    return values
+
+
 def _file_of(results):
     return (results.modes.results if hasattr(results, "modes") else results).file
 

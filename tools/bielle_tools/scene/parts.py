@@ -32,6 +32,8 @@ class Part:
     opacity: float
     group: str
     motion: Callable = field(repr=False)  # rows -> (rows, bones, 8)
+    stress: Callable = field(default=None, repr=False)  # rows -> (rows, cells): von Mises stress [Pa] by which it is coloured, or None
+    cells: Any = None  # (n) cell of each point of the mesh if there is stress
 
 
 @dataclass

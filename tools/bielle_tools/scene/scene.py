@@ -10,6 +10,7 @@ from .drawing import Drawing, places_of
 from .flexible import FlexibleBodies, surface_points
 from .motion import Motion
 from .parts import Anchor, FlexiblePart
+from .planes import drawn_planes
 from .style import Palette, Style
 from .transforms import conjugate, placed, product
 
@@ -98,8 +99,8 @@ class Scene:
             extent_first = extent
         builder.extent = extent or 1.0
         builder.around = 24 if len(self.items) < MANY else 8
-        builder.planes = sum(item["shape"] == "plane" for item in self.items)
-        self.symbol = builder.symbol = style.symbols * _symbol_size(extent_first or extent or 1.0, np.array(joints).reshape(-1, 3), self._radii())
+        builder.planes = drawn_planes(self.items, builder.extent)
+        self.symbol = builder.symbol = style.symbols * _symbol_size(extent_first or extent or 1.0, np.array(joints).reshape(-1, 3), self._radii(), self._half_widths())
 
     def _own_extent(self):
         """Largest dimension of the shapes themselves."""
@@ -118,6 +119,16 @@ class Scene:
         """Radii of wheels [m], which symbols of their bearings should not cover."""
         radii = [item.get("radius") for item in self.items if item["shape"] in ("gear", "pulley", "tyre")]
         return [radius for radius in radii if isinstance(radius, (int, float)) and 0 < radius < LARGEST]
+
+    def _half_widths(self):
+        """Half widths of the sections of beams [m]."""
+        found = []
+        for item in self.items:
+            try:
+                found += [0.5 * float(np.min(np.ptp(np.asarray(section["outer"], float), axis=0))) for section in item["sections"]] if item["shape"] == "beam" else []
+            except (KeyError, TypeError, ValueError, ArithmeticError):
+                continue  # it is told when the item is built
+        return [half for half in found if 0 < half < LARGEST]
 
     def _element_points(self, item):
         place, results = item["element"], self.results
@@ -172,15 +183,16 @@ class Scene:
         return None
 
 
-def _symbol_size(extent, joints, radii):
-    """Two hundredths of the machine, less where neighbours are close or wheels are small."""
-    size = min([0.02 * extent, *([0.35 * float(np.median(radii))] if radii else [])])
+def _symbol_size(extent, joints, radii, half_widths):
+    """Two hundredths of the machine, less where neighbours are close or wheels are small; up to a half less where beams are thin."""
+    size = min([0.02 * extent, *([0.35 * float(np.median(radii))] if radii else []),
+                *([max(0.01 * extent, 1.2 * float(np.median(half_widths)))] if half_widths else [])])
     if len(joints) > 1:
         from scipy.spatial import cKDTree
         joints = np.unique(np.round(joints / extent, 6), axis=0) * extent
         if len(joints) > 1:
             distance = cKDTree(joints).query(joints, k=2)[0][:, 1]
-            size = min(size, 0.3 * float(np.median(distance)))
+            size = min(size, 0.3 * float(np.quantile(distance, 0.3)))
     return max(size, 0.0008 * extent)
 
 

@@ -1,12 +1,7 @@
-"""Facts about entries: their keys in the input file, gaps and redundancy of joints, events."""
+"""Facts about a run: keys of entries in the input file, events."""
 
-import numpy as np
 import yaml
 
-from ..messages import InputError
-from ..scene.drawing import place_of
-
-COINCIDENT = ("hinge", "spherical", "universal", "constant_velocity", "rigid")  # joints whose two frames have one origin
 LONGEST = 160  # characters of a value
 
 
@@ -28,28 +23,6 @@ def _written(value):
     text = "{" + ", ".join(f"{key}: {_written(each)}" for key, each in value.items()) + "}" if isinstance(value, dict) else \
         "[" + ", ".join(map(_written, value)) + "]" if isinstance(value, list) else str(value)
     return text if len(text) <= LONGEST else text[:LONGEST] + ".."
-
-
-def joint_facts(scene, rows):
-    """{entry: {gap: largest distance of frames that should coincide [m], redundant: true}}"""
-    found = {}
-    for item in scene.items:
-        if item["shape"] != "joint":
-            continue
-        facts = {}
-        try:
-            if item["type"] in COINCIDENT:
-                a, b = (scene.motion_of_nodes.position(place_of(frame), rows) for frame in item["frames"])
-                gap = float(np.nanmax(np.linalg.norm(b - a, axis=1), initial=0))
-                if gap > 1e-7 * scene.size:
-                    facts["gap"] = gap
-            if scene.results.has(f"{item['entry']}/reaction_unique") and not np.all(scene.results.array(f"{item['entry']}/reaction_unique")):
-                facts["redundant"] = True
-        except (InputError, KeyError, TypeError, ValueError, AttributeError):
-            continue
-        if facts:
-            found[item["entry"]] = facts
-    return found
 
 
 def events_of(results):

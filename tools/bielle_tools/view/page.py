@@ -9,16 +9,19 @@ import zlib
 
 import numpy as np
 
+from ..checked_model import check_of
 from ..messages import InputError
 from ..scene import make_scene
-from .facts import events_of, joint_facts, keys_of
+from ..scene.marks import marks_of
+from ..scene.stress_scale import ANCHORS, hexadecimal
+from .facts import events_of, keys_of
 from .pack import Pack
 from .quantities import quantities
 from .scene_data import SceneData
 from .sequences import sequences
 
 LIBRARIES = ("/usr/share/javascript/three/three.min.js", "/usr/share/javascript/chart.js/chart.min.js")
-SOURCES = ("data.js", "vectors.js", "shaders.js", "tracks.js", "batch.js", "flexible.js", "arrows.js", "runs.js", "camera.js", "surroundings.js",
+SOURCES = ("data.js", "vectors.js", "shaders.js", "tracks.js", "stresses.js", "batch.js", "flexible.js", "arrows.js", "runs.js", "camera.js", "surroundings.js",
            "entries.js", "player.js", "picking.js", "overlay.js", "traces.js", "tree.js", "details.js", "plot.js", "controls.js", "quality.js", "live.js", "main.js")
 MOST_NOTES = 12  # on the terminal
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page")
@@ -44,7 +47,7 @@ def build_page(paths, frames=500, superelements=None, analysis=None, live=None):
     """The page of one or more results files as text, and its report. superelements: {element: path}; live: token of a growing run.
     @raises InputError"""
     start, pack = time.monotonic(), Pack()
-    data = {"runs": [], "layouts": [], "live": live}
+    data = {"runs": [], "layouts": [], "live": live, "colours": [hexadecimal(colour) for colour in ANCHORS]}
     scenes, opened, notes, layouts = None, [], [], {}
     try:
         for path in paths:
@@ -76,13 +79,15 @@ def _described(sequence, scene, scenes, pack, layouts, listed):
     """A sequence for the page."""
     plain = sequence.kind != "mode"
     drawn = scenes.described(scene, sequence.rows, arrows=plain)  # amplitudes of modes have no scale of force or velocity
+    check = check_of(sequence.motion)
     layout = {key: drawn.pop(key) for key in ("batch", "parts", "anchors")}
     key = json.dumps(layout)
     if key not in layouts:
         layouts[key] = len(listed)
         listed.append(layout)
     return {"title": sequence.title, "kind": sequence.kind, "times": pack.add(sequence.times, "f4"), "rows": len(sequence.rows), "layout": layouts[key],
-            "scene": drawn, "joints": joint_facts(scene, sequence.rows if plain else sequence.rows[-1:]), "events": events_of(sequence.motion) if plain else [],
+            "scene": drawn, "marks": marks_of(scene, sequence.rows if plain else sequence.rows[-1:]),
+            "said": check.sentences if check else [], "failed": bool(check and not check.assembled), "events": events_of(sequence.motion) if plain else [],
             "quantities": quantities(sequence.motion, pack) if plain else {"times": pack.add([], "f4"), "list": [], "left_out": 0}, **sequence.facts}
 
 

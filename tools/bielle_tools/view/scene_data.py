@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..scene.arrows import arrows_of
+from ..scene.style import marked, muted
 from .pack import quantised
 from .tracks import Tracks, in_units
 
@@ -22,6 +23,7 @@ class SceneData:
         tracks = Tracks(len(rows))
         parts = [(part, tracks.add(in_units(scene.poses(part, rows), self.centre, self.size))) for part in scene.parts]
         found = {"batch": self._batch(parts), "parts": [self._part(part, numbers) for part, numbers in parts],
+                 "stressed": [self._stressed(part, rows) for part in scene.parts if part.stress],
                  "flexible": [self._flexible(part, rows, tracks) for part in scene.flexible],
                  "anchors": self._anchors(scene, parts), "arrows": self._arrows(scene, rows) if arrows else []}
         found["tracks"], position, rotation = tracks.stored(self.pack)
@@ -34,30 +36,41 @@ class SceneData:
 
     @staticmethod
     def _part(part, numbers):
-        return {"entry": part.entry, "type": part.type, "colour": part.colour, "opacity": part.opacity, "group": part.group,
+        return {"entry": part.entry, "type": part.type, "colour": part.colour, "marked": marked(part.colour), "muted": muted(part.colour), "opacity": part.opacity, "group": part.group,
                 "track": numbers[0] if numbers else 0, "endless": bool(part.mesh.lines.size)}
 
     def _batch(self, parts):
         """All rigid meshes as one: points, normals, number of track and of part of each point."""
-        points, normals, bones, owners, triangles, lines, start = [], [], [], [], [], [], 0
+        points, normals, bones, owners, cells, triangles, lines, start, first_cell = [], [], [], [], [], [], [], 0, 0
         for number, (part, tracks) in enumerate(parts):
             mesh = part.mesh
             points.append(mesh.points / self.size)
             normals.append(_normals(mesh))
             bones.append(np.asarray(tracks, int)[mesh.bones] if len(mesh.points) else np.zeros(0, int))
             owners.append(np.full(len(mesh.points), number))
+            cells.append(first_cell + np.asarray(part.cells) if part.stress else np.full(len(mesh.points), -1))
+            first_cell += int(np.max(part.cells)) + 1 if part.stress else 0
             triangles.append(mesh.triangles + start)
             lines.append(mesh.lines + start)
             start += len(mesh.points)
         add, join = self.pack.add, lambda pieces, width: np.concatenate(pieces) if pieces else np.zeros((0, width))
         return {"points": add(join(points, 3), "f4"), "normals": add(np.round(127 * join(normals, 3)), "i1"), "bones": add(join(bones, 1), "i4"),
-                "owners": add(join(owners, 1), "i4"), "triangles": add(join(triangles, 3), "i4"), "lines": add(join(lines, 2), "i4")}
+                "owners": add(join(owners, 1), "i4"), "cells": add(join(cells, 1), "i4"), "triangles": add(join(triangles, 3), "i4"), "lines": add(join(lines, 2), "i4")}
+
+    def _stressed(self, part, rows):
+        """Stresses of the cells of a part over the rows [Pa], -1 where there are none."""
+        values = part.stress(rows).T
+        largest = float(np.fmax.reduce(values, axis=None, initial=0))
+        step = largest / 32767
+        whole = np.where(np.isfinite(values), np.round(values / (step or 1)), -1)
+        self._largest(stress=np.fmax.reduce(np.abs(step * whole - values), axis=None, initial=0) / (largest or 1))
+        return {"count": len(values), "values": self.pack.add(whole, "i2", True), "step": step, "largest": largest}
 
     def _flexible(self, part, rows, tracks):
         frame, q = part.frame(rows), part.coordinates(rows)
         pose = np.concatenate([frame, np.ones((len(frame), 1))], axis=1)[:, None]
         number = self._body(part.body, q)
-        return {"entry": part.entry, "type": part.type, "colour": part.colour, "opacity": part.opacity, "group": "body", "body": number,
+        return {"entry": part.entry, "type": part.type, "colour": part.colour, "marked": marked(part.colour), "muted": muted(part.colour), "opacity": part.opacity, "group": "body", "body": number,
                 "track": tracks.add(in_units(pose, self.centre, self.size))[0], "coordinates": self.pack.add(np.nan_to_num(q), "f4"),
                 "missing": [int(row) for row in np.flatnonzero(~np.isfinite(q).all(axis=1))], **self._peaks(part.body, q)}
 

@@ -8,6 +8,7 @@ from ..results_file import Results, open_hdf5, reading
 
 PHASES = 36
 MOST_MODES = 20
+PLOTTED = ("campbell", "frequency_response")  # groups that only figures show
 
 
 class Sequence:
@@ -36,9 +37,11 @@ def sequences(path, frames, superelements, analysis=None):
     if not found and not any(rows or modal for _, rows, modal in groups.values()):
         results = Results(path)
         opened.append(results)
-        found.append(_motion(results, "motion", frames))
+        if len(results.time):
+            found.append(_motion(results, "motion", frames))
     if not found:
-        raise InputError(f"'{path}' holds no motion, state or shapes of modes to show")
+        plotted = [name for name in PLOTTED if any(results.has(name) for results in opened)]
+        raise InputError(f"'{path}' holds no motion, state or shapes of modes to show" + (f": bielle-plot draws its '{plotted[0]}'" if plotted else ""))
     return found, opened
 
 

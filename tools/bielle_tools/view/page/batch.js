@@ -10,17 +10,20 @@ function table(count) {
 }
 
 class Batch {
-  constructor(layout, arrays, tracks) {
+  constructor(layout, arrays, tracks, stresses, scale) {
     const b = layout.batch;
     this.parts = layout.parts;
     this.tracks = tracks;
     this.points = arrays.at(b.points);
     this.owners = arrays.at(b.owners);
     this.boneOf = arrays.at(b.bones);
+    this.cellOf = arrays.at(b.cells);
     this.triangles = arrays.at(b.triangles);
     this.bones = table(2 * tracks.count);
     this.looks = table(this.parts.length);
-    this.uniforms = {bones: {value: this.bones.texture}, boneSize: {value: this.bones.size}, looks: {value: this.looks.texture}, lookSize: {value: this.looks.size}};
+    this.range = new THREE.Vector2();
+    this.uniforms = {bones: {value: this.bones.texture}, boneSize: {value: this.bones.size}, looks: {value: this.looks.texture}, lookSize: {value: this.looks.size},
+                     stresses: {value: stresses.table.texture}, stressSize: {value: stresses.table.size}, scale: {value: scale}, range: {value: this.range}};
     const solid = this.geometry(arrays.at(b.normals), this.triangles), lines = this.geometry(arrays.at(b.normals), arrays.at(b.lines));
     this.group = new THREE.Group();
     for (const clear of [0, 1]) {
@@ -41,6 +44,7 @@ class Batch {
     g.setAttribute("normal", new THREE.BufferAttribute(normals, 3, true));
     g.setAttribute("bone", new THREE.BufferAttribute(Float32Array.from(this.boneOf), 1));
     g.setAttribute("owner", new THREE.BufferAttribute(Float32Array.from(this.owners), 1));
+    g.setAttribute("cell", new THREE.BufferAttribute(Float32Array.from(this.cellOf), 1));
     g.setIndex(new THREE.BufferAttribute(new Uint32Array(index.buffer, index.byteOffset, index.length), 1));
     return g;
   }

@@ -47,7 +47,8 @@ class Controls {
   /// Options that suit the sequence that is shown.
   reset() {
     const {app} = this, s = app.settings, box = document.getElementById("options"), found = [], flexible = app.allShown.flatMap(each => each.flexible);
-    if (flexible.some(f => f.body.stress)) found.push(this.choice("stress", STRESSES, s.stress, value => { s.stress = value;}));
+    const solids = flexible.some(f => f.body.stress), stresses = solids ? Object.keys(STRESSES) : app.allShown.some(each => each.stressed().length) ? EQUIVALENT : [];
+    if (stresses.length) found.push(this.choice("stress", Object.fromEntries(stresses.map(key => [key, STRESSES[key]])), s.stress, value => { s.stress = value; }));
     if (flexible.length) found.push(this.slide("deformation", 0, 3, Math.log10(s.magnify), x => { s.magnify = Number((10 ** x).toPrecision(2)); return `x ${s.magnify}`; }));
     if (app.shown.sequence.kind === "mode") {
       found.push(this.slide("amplitude", -1.5, 1.5, Math.log10(s.amplitude), x => { s.amplitude = Number((10 ** x).toPrecision(2)); return `x ${s.amplitude}`; }));

@@ -14,9 +14,7 @@ class Details {
     const {app} = this, one = app.entries.known.get(entry), point = app.entries.point, close = element("button", {className: "close", textContent: "\u00D7"});
     close.addEventListener("click", () => app.entries.choose(null));
     this.box.replaceChildren(close, element("h2", {textContent: entry}), element("div", {textContent: one ? one.type : ""}), this.actions(entry));
-    const facts = app.shown.sequence.joints[entry] || {};
-    if (facts.gap) this.box.append(element("div", {className: "mark", textContent: `frames are up to ${shown(facts.gap)} m apart`}));
-    if (facts.redundant) this.box.append(element("div", {className: "mark", textContent: "its constraints are redundant: its reaction is one of many"}));
+    for (const said of markSentences(app.shown.sequence.marks[entry] || {})) this.box.append(element("div", {className: "mark", textContent: said}));
     this.table(app.data.runs[0].keys[entry] || []);
     this.values(entry, point);
     this.refresh();
@@ -52,6 +50,7 @@ class Details {
     };
     if (point && point.world && point.shown === app.shown) {
       line("point", () => app.real(app.pointNow(point)).map(x => shown(x)).join(", ") + " m");
+      if (point.cell >= 0) line("stress here", () => { const stress = app.shown.stresses.at(point.cell); return stress === null ? "-" : `${shown(1e-6 * stress)} MPa`; });
       if (point.flexible) line(`mesh node ${point.node}`, () => app.settings.stress !== "none" && point.flexible.body.stress ? `${shown(1e-6 * point.flexible.values[point.corner])} MPa` : "-");
     }
     app.quantities.of(entry).forEach(quantity => quantity.columns.forEach((column, k) => line(

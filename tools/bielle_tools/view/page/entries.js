@@ -1,5 +1,11 @@
 // State of entries: hidden, faint, chosen, isolated; and which groups of parts are shown.
 
+/// Sentences on the marks of an entry.
+function markSentences(marks) {
+  return [...(marks.gap ? [`its frames are up to ${shown(marks.gap)} m apart`] : []), ...(marks.tilt ? [`its axes are up to ${shown(marks.tilt * 180 / Math.PI)}\u00B0 apart`] : []),
+          ...(marks.redundant ? ["its constraints are redundant: its reaction is one of many"] : [])];
+}
+
 class Entries {
   constructor(app) {
     this.app = app;

@@ -1,7 +1,5 @@
 // Flexible bodies: points and stresses as sums of shapes, on the processor. Instances share the shapes of their body.
 
-const STRESSES = {none: "", von_mises: "von Mises", peak: "von Mises, largest over time", largest: "largest principal", least: "least principal",
-                  xx: "normal xx", yy: "normal yy", zz: "normal zz", yz: "shear yz", xz: "shear xz", xy: "shear xy"};
 const COMPONENTS = ["xx", "yy", "zz", "yz", "xz", "xy"];
 
 const INVISIBLE = 2e-7, UNSEEN = 2e-4;  // shares of the size, and of the largest stress, below which a shape is left out
@@ -100,8 +98,7 @@ class Flexible {
     this.coordinates(place, rest, amplitude);
     this.body.place(this.now, magnify, this.points);
     this.geometry.attributes.position.needsUpdate = true;
-    if (!this.body.stress || stress === "none") this.range.set(0, 0);
-    else {
+    if (this.body.stress && stress !== "none") {
       if (stress === "peak") this.values.set(this.peak.map((v, k) => this.body.stressed[k] ? v : -1e30));
       else this.body.stressed_by(this.now, stress, this.values, this.tracks.rows > 1 ? this.part.largest : 0);
       this.geometry.attributes.value.needsUpdate = true;

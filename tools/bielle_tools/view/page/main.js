@@ -10,7 +10,7 @@ class App {
     this.renderer.setClearColor(0x000000, 0);
     this.scene = new THREE.Scene();
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x9099a5, 1.05));
-    this.scaleTexture = scaleTexture();
+    this.scaleTexture = scaleTexture(data.colours);
     this.surroundings = new Surroundings(this);
     this.traces = new Traces(this);
     this.scene.add(this.surroundings.group, this.traces.group);
@@ -65,6 +65,7 @@ class App {
     this.allShown = this.data.runs.filter(run => run.sequences.length > number).map((run, k) => new Shown(this, run, run.sequences[number], k));
     for (const each of this.allShown) this.scene.add(each.group);
     document.getElementById("sequence").value = number;
+    this.verdict();
     this.player.cycles = 0;
     this.player.reset();
     this.ranges = {};
@@ -76,6 +77,14 @@ class App {
     this.details.show(this.entries.chosen);
     this.moved();
     if (!this.camera.touched) this.camera.fit();
+  }
+
+  /// Sentences on a model that was only checked, of all runs.
+  verdict() {
+    const box = document.getElementById("verdict"), several = this.allShown.length > 1;
+    box.replaceChildren(...this.allShown.flatMap(each => each.sequence.said.map(text => element("div", {textContent: several ? `${each.run.name}: ${text}` : text}))));
+    box.className = this.allShown.some(each => each.sequence.failed) ? "failed" : "";
+    box.hidden = !box.children.length;
   }
 
   /// Amplitude of a mode: with its decay since it was started if that is wanted.
@@ -91,7 +100,9 @@ class App {
       if (each.number) place = player.byTime && each.sequence.kind === "time" ? placeAt(each.times, player.time()) : place / (player.last || 1) * (each.sequence.rows - 1);
       each.move(this.placeIn(each, place), this.amplitude());
     }
+    const coloured = Boolean(this.colours);
     this.range();
+    if (coloured !== Boolean(this.colours)) for (const each of this.allShown) each.paint();
     document.getElementById("moment").textContent = player.moment();
     player.slider.value = player.toShare(player.place);
     this.details.refresh();
@@ -104,14 +115,15 @@ class App {
 
   /// Colours of stresses cover the largest von Mises stress over time, or the extremes of the moments that were shown.
   range() {
-    const {stress} = this.settings, all = this.allShown.flatMap(each => each.flexible.filter(f => f.body.stress));
+    const {stress} = this.settings, all = this.allShown.flatMap(each => each.stressed());
     this.colours = null;
+    for (const each of all) each.range.set(0, 0);
     if (stress === "none" || !all.length) return;
     let [low, high] = this.ranges[stress] || [0, 0];
-    if (stress === "von_mises" || stress === "peak") high = Math.max(...all.map(f => f.part.largest || 0));
-    if (!["von_mises", "peak"].includes(stress) || !(high > 0)) for (const f of all) { const [a, b] = f.extremes(); low = Math.min(low, a); high = Math.max(high, b); }
+    if (stress === "von_mises" || stress === "peak") high = Math.max(...all.map(each => each.largest));
+    if (!["von_mises", "peak"].includes(stress) || !(high > 0)) for (const each of all) { const [a, b] = each.extremes(); low = Math.min(low, a); high = Math.max(high, b); }
     this.colours = this.ranges[stress] = [low, high];
-    for (const f of all) f.range.set(low, high);
+    for (const each of all) each.range.set(low, high);
   }
 
   stressRange() { return this.colours; }

@@ -95,7 +95,7 @@ class Overlay {
     if (key === this.legendOf) return;
     this.legendOf = key;
     const bar = element("div", {className: "bar"});
-    bar.style.background = `linear-gradient(to top, ${SCALE.join()})`;
+    bar.style.background = `linear-gradient(to top, ${this.app.data.colours.join()})`;
     const numbers = [1, 0.75, 0.5, 0.25, 0].map(share => element("span", {textContent: shown(1e-6 * (range[0] + share * (range[1] - range[0])), 3)}));
     this.legend.replaceChildren(bar, element("div", {className: "numbers"}, ...numbers), element("div", {}, STRESSES[s.stress], element("br"), "[MPa]"));
   }

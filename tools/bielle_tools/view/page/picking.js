@@ -50,7 +50,7 @@ class Picking {
   rigid(number, ray) {
     const b = this.app.shown.batch, hit = this.nearest(b.triangles, ray, k => b.corner(k), k => b.owners[k] === number);
     const track = hit ? b.boneOf[hit.corner] : b.parts[number].track;
-    return {entry: b.parts[number].entry, type: b.parts[number].type, track, local: hit ? this.local(track, hit.point) : [0, 0, 0], world: hit && hit.point};
+    return {entry: b.parts[number].entry, type: b.parts[number].type, track, local: hit ? this.local(track, hit.point) : [0, 0, 0], world: hit && hit.point, cell: hit ? b.cellOf[hit.corner] : -1};
   }
 
   bent(f, ray) {

@@ -27,6 +27,7 @@ class Player {
     this.byTime = kind === "time";
     this.speed = this.byTime && span > 0 ? SPEEDS.reduce((best, s) => Math.abs(Math.log(span / s / (span > 3 && span < 20 ? span : 8))) < Math.abs(Math.log(span / best / (span > 3 && span < 20 ? span : 8))) ? s : best) : 1;
     document.getElementById("speed").value = this.speed;
+    document.getElementById("player").classList.toggle("away", this.last === 0);
     this.place = Math.min(this.place, this.last);
     const box = document.getElementById("events");
     box.replaceChildren(...events.filter(([t]) => this.byTime && t >= times[0] && t <= times[times.length - 1]).slice(0, 400).map(([t, name]) => {
@@ -91,6 +92,7 @@ class Player {
     const {kind, rows} = this.app.shown.sequence;
     if (kind === "mode") return `${Math.round(360 * this.place / this.last) % 360}\u00B0`;
     if (kind === "load") return `load factor ${shown(this.time())}`;
+    if (this.app.shown.sequence.said.length) return "";  // a model that was only checked
     return rows > 1 ? `t = ${this.time().toFixed(4)} s` : `state at t = ${shown(this.time())} s`;
   }
 }

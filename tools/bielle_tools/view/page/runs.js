@@ -8,7 +8,8 @@ class Shown {
     const arrays = app.arrays, layout = app.data.layouts[sequence.layout], scene = sequence.scene;
     Object.assign(this, {app, run, sequence, number, layout, times: arrays.at(sequence.times)});
     this.tracks = new Tracks(scene.tracks, arrays);
-    this.batch = new Batch(layout, arrays, this.tracks);
+    this.stresses = new BeamStresses(scene.stressed, sequence.rows, arrays);
+    this.batch = new Batch(layout, arrays, this.tracks, this.stresses, app.scaleTexture);
     this.flexible = scene.flexible.map(d => new Flexible(d, app.body(d.body), arrays, this.tracks, app.scaleTexture));
     this.arrows = new Arrows(number ? [] : scene.arrows, arrays);
     this.group = new THREE.Group();
@@ -21,8 +22,15 @@ class Shown {
     this.place = place;
     this.tracks.move(place, this.rest, amplitude);
     this.batch.moved();
+    this.stresses.move(place, s.stress);
     for (const f of this.flexible) f.move(place, this.rest, amplitude, s.magnify, s.stress);
     this.arrows.move(place, s.arrows, s.arrowScale, entry => this.app.entries.hidden(entry));
+  }
+
+  /// All that stresses colour: {largest, extremes(), range}.
+  stressed() {
+    const beams = this.stresses.largest > 0 ? [{largest: this.stresses.largest, extremes: () => this.stresses.extremes(), range: this.batch.range}] : [];
+    return [...beams, ...this.flexible.filter(f => f.body.stress).map(f => ({largest: f.part.largest || 0, extremes: () => f.extremes(), range: f.range}))];
   }
 
   paint() {
@@ -36,12 +44,11 @@ class Shown {
   }
 
   look(part) {
-    const colour = new THREE.Color(part.colour), state = this.app.entries.state(part.entry), s = this.app.settings;
+    const marks = this.sequence.kind === "state" && this.sequence.marks[part.entry];  // of a model that was only assembled
+    const colour = new THREE.Color(marks ? part.marked : this.app.colours ? part.muted : part.colour), state = this.app.entries.state(part.entry), s = this.app.settings;
     let opacity = part.opacity;
     if (this.app.entries.hidden(part.entry) || s.groups[part.group] === false) opacity = 0;
     if (state.faint) opacity *= 0.25;
-    const facts = this.sequence.kind === "state" && this.sequence.joints[part.entry];
-    if (facts) colour.lerp(new THREE.Color("#d3262f"), 0.65);  // gaps and redundant constraints of a model that was only assembled
     if (this.number) { colour.lerp(new THREE.Color(GHOSTS[(this.number - 1) % GHOSTS.length]), 0.75); opacity *= s.ghost; }
     if (this.app.entries.chosen === part.entry) colour.lerp(new THREE.Color("#ffb000"), 0.6);
     return [colour.r, colour.g, colour.b, opacity];
@@ -62,6 +69,7 @@ class Shown {
     this.group.traverse(object => { if (object.geometry) object.geometry.dispose(); if (object.material) object.material.dispose(); });
     this.batch.bones.texture.dispose();
     this.batch.looks.texture.dispose();
+    this.stresses.table.texture.dispose();
   }
 }
 

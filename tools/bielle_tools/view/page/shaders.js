@@ -15,6 +15,15 @@ const TEXEL = `
     return texture2D(table, (vec2(index - row * size.x, row) + 0.5) / size);
   }`;
 
+const STRESSED = `
+  uniform sampler2D scale;
+  uniform vec2 range;
+  varying float vValue;
+  vec3 stressed(vec3 plain) {
+    float share = (vValue - range.x) / max(range.y - range.x, 1e-30);
+    return vValue < -1e29 || range.y <= range.x ? plain : texture2D(scale, vec2(clamp(share, 0.002, 0.998), 0.5)).rgb;
+  }`;
+
 const PLACED = `
   uniform sampler2D bones, looks;
   uniform vec2 boneSize, lookSize;
@@ -27,11 +36,16 @@ const PLACED = `
 const RIGID_VERTEX = `
   ${PLACED}
   uniform float clear;
+  uniform sampler2D stresses;
+  uniform vec2 stressSize;
+  attribute float cell;
+  varying float vValue;
   varying vec3 vNormal;
   varying vec4 vLook;
   void main() {
     vec4 a = stretched(), q = rotation();
     vLook = texel(looks, lookSize, owner);
+    vValue = cell < 0.0 ? -1e30 : texel(stresses, stressSize, cell).r;
     vec3 p = a.xyz + turned(q, vec3(position.xy, position.z * a.w));
     vNormal = normalMatrix * turned(q, vec3(normal.xy * a.w, normal.z));
     bool mine = vLook.a > 0.002 && (vLook.a < 0.995) == (clear > 0.5);
@@ -41,8 +55,9 @@ const RIGID_VERTEX = `
 const RIGID_FRAGMENT = `
   varying vec3 vNormal;
   varying vec4 vLook;
+  ${STRESSED}
   ${LIGHT}
-  void main() { gl_FragColor = vec4(lit(vLook.rgb, vNormal), vLook.a); }`;
+  void main() { gl_FragColor = vec4(lit(stressed(vLook.rgb), vNormal), vLook.a); }`;
 
 const LINE_FRAGMENT = `
   varying vec4 vLook;
@@ -77,29 +92,10 @@ const FLEXIBLE_VERTEX = `
 
 const FLEXIBLE_FRAGMENT = `
   uniform vec4 look;
-  uniform sampler2D scale;
-  uniform vec2 range;
-  varying float vValue;
   varying vec3 vView;
+  ${STRESSED}
   ${LIGHT}
   void main() {
     vec3 n = cross(dFdx(vView), dFdy(vView));
-    float share = (vValue - range.x) / max(range.y - range.x, 1e-30);
-    vec3 base = vValue < -1e29 || range.y <= range.x ? look.rgb : texture2D(scale, vec2(clamp(share, 0.002, 0.998), 0.5)).rgb;
-    gl_FragColor = vec4(lit(base, length(n) > 0.0 ? n : vec3(0.0, 0.0, 1.0)), look.a);
+    gl_FragColor = vec4(lit(stressed(look.rgb), length(n) > 0.0 ? n : vec3(0.0, 0.0, 1.0)), look.a);
   }`;
-
-// Colours of stresses: blue, green, yellow, red, readable in grey from dark to light and back only at the end.
-const SCALE = ["#30123b", "#4662d7", "#36aaf9", "#1ae4b6", "#72fe5e", "#c7ef34", "#faba39", "#f66b19", "#ca2a04", "#7a0403"];
-
-function scaleTexture() {
-  const data = new Uint8Array(4 * 256), stops = SCALE.map(text => new THREE.Color(text));
-  for (let k = 0; k < 256; k++) {
-    const x = k / 255 * (stops.length - 1), i = Math.min(Math.floor(x), stops.length - 2), c = stops[i].clone().lerp(stops[i + 1], x - i);
-    data.set([255 * c.r, 255 * c.g, 255 * c.b, 255], 4 * k);
-  }
-  const texture = new THREE.DataTexture(data, 256, 1, THREE.RGBAFormat);
-  texture.minFilter = texture.magFilter = THREE.LinearFilter;
-  texture.needsUpdate = true;
-  return texture;
-}

@@ -22,8 +22,8 @@ class Tree {
     const swatch = element("span", {className: "swatch"}), eye = element("button", {className: "eye", title: "show or hide", textContent: "\u25C9"});
     swatch.style.background = one.colour;
     const mark = element("span", {className: "mark"}), facts = this.facts(one.entry);
-    mark.textContent = facts.redundant ? "redundant" : facts.gap ? "gap" : "";
-    mark.title = facts.redundant ? "its constraints are redundant" : facts.gap ? `its frames are up to ${shown(facts.gap)} m apart` : "";
+    mark.textContent = [["gap", facts.gap], ["tilt", facts.tilt], ["redundant", facts.redundant]].filter(([, value]) => value).map(([name]) => name).join(", ");
+    mark.title = markSentences(facts).join("\n");
     const line = element("div", {className: "entry", title: one.entry}, swatch, element("span", {className: "name", textContent: one.entry.slice(one.entry.indexOf("/") + 1)}),
                          mark, element("span", {className: "type", textContent: one.type}), eye);
     line.addEventListener("click", () => this.app.entries.choose(one.entry));
@@ -33,7 +33,7 @@ class Tree {
   }
 
   facts(entry) {
-    for (const sequence of this.app.data.runs[0].sequences) if (sequence.joints[entry]) return sequence.joints[entry];
+    for (const sequence of this.app.data.runs[0].sequences) if (sequence.marks[entry]) return sequence.marks[entry];
     return {};
   }
 
