@@ -16,7 +16,9 @@ class FlexibleBodies:
     def __init__(self, results, superelements):
         # A mode is drawn with the superelements of the state about which it is.
         self.results, self.superelements, self._kept = results, superelements or {}, {}
-        self._source = getattr(getattr(results, "scenery", None), "base", None) or results
+        scenery = getattr(results, "scenery", None)
+        self._source = getattr(scenery, "base", None) or results
+        self.has_rows = scenery is None or scenery.base is not None  # a mode without rows of its state has told so
 
     def part(self, name, kind, colour, opacity):
         """The instance that the element `name` is. @raises InputError"""
