@@ -47,7 +47,7 @@ class Columns:
         self.units = units_in(units, shape[-1]) if shape else [units]
         six = bool(shape) and shape[-1] == 6
         self.is_stress = six and ("stress" in field or "strain" in field) and "," not in units
-        along = place.startswith("joints/") and field == "force"  # of a gear: on coordinates, one each
+        along = place.startswith("joints/") and field == "force"  # those of a gear are on coordinates, one each
         if along:
             description = description.rpartition(" on ")[2]
         named = names_in(description, shape[-1]) if shape else ["1"]
