@@ -1,6 +1,7 @@
 """Options that the commands on results files share."""
 
 import argparse
+import math
 
 from .messages import InputError, check_names, did_you_mean
 from .results_file import Results
@@ -38,6 +39,17 @@ def results_parser(name, description, several=False):
     return parser
 
 
+def finite(text):
+    """The number of an option. @raises argparse.ArgumentTypeError"""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"a number is expected, found '{text}'")
+    return value
+
+
 def add_row_options(parser):
     """Options that pick rows of results; `selected_rows` reads them."""
     parser.add_argument("--span", metavar="A:B", help="only the times from A to B [s] (load factors in statics); one of "
@@ -61,9 +73,9 @@ def selected_rows(options):
 
 def add_motion_options(parser):
     """Options of the commands that show a motion."""
-    parser.add_argument("--scale", type=float, default=1.0, help="magnify elastic displacements of superelements (default 1)")
-    parser.add_argument("--from", type=float, dest="begin", metavar="T", help="first time to show [s]")
-    parser.add_argument("--to", type=float, dest="end", metavar="T", help="last time to show [s]")
+    parser.add_argument("--scale", type=finite, default=1.0, help="magnify elastic displacements of superelements (default 1)")
+    parser.add_argument("--from", type=finite, dest="begin", metavar="T", help="first time to show [s]")
+    parser.add_argument("--to", type=finite, dest="end", metavar="T", help="last time to show [s]")
 
 
 def add_mode_options(parser):

@@ -13,6 +13,7 @@ The results name nodes and beams. The shapes of superelements and rigid bodies a
 import copy
 import re
 
+import h5py
 import numpy as np
 import yaml
 
@@ -129,8 +130,10 @@ class ModeScenery:
         """The analysis and the row with the state about which the modes are: the end of an earlier analysis, or the
         start of a later one."""
         own = self.modes.results
-        place = own.root["eigen"].parent.name.strip("/")
-        number = int(place[9:]) if re.fullmatch(r"analysis_\d+", place) else 0
+        link = own.root.get("eigen", getlink=True)  # HDF5 gives a group the name by which it was opened, not its place
+        place = link.path if isinstance(link, h5py.SoftLink) else own.root["eigen"].name
+        found = re.search(r"analysis_(\d+)/eigen$", place)
+        number = int(found[1]) if found else 0
         best = (np.inf, None, 0)
         for other in own.analyses_with_rows():
             base = Results(own.path, other)

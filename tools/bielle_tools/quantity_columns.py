@@ -47,10 +47,14 @@ class Columns:
         self.units = units_in(units, shape[-1]) if shape else [units]
         six = bool(shape) and shape[-1] == 6
         self.is_stress = six and ("stress" in field or "strain" in field) and "," not in units
+        along = place.startswith("joints/") and field == "force"  # those of a gear are on coordinates, one each
+        if along:
+            description = description.rpartition(" on ")[2]
         named = names_in(description, shape[-1]) if shape else ["1"]
         unnamed = all(name.isdigit() for name in named)
         self.is_strain = "strain" in field
-        self.is_vector = six and len(set(self.units)) == 2 or bool(shape) and shape[-1] in (3, 6) and field in VECTORS
+        self.is_vector = six and len(set(self.units)) == 2 or \
+            bool(shape) and shape[-1] in (3, 6) and field in VECTORS and not along
         if shape:
             as_vector = self.is_vector and (unnamed or field in VECTORS)
             self.axes[-1] = list(STRESS) if self.is_stress else VECTOR[:shape[-1]] if as_vector else named

@@ -1,5 +1,5 @@
 """The largest values of a run with their times and places: reactions of joints and supports, contact forces, stresses,
-drives, pressures."""
+drives, springs and actuators, tensions, pressures."""
 
 import dataclasses
 import math
@@ -32,7 +32,7 @@ def peaks(run, select):
                 finder.field(place, finder.node_of_body)
             except InputError as error:
                 note(f"no stress of '{place.split('/')[1]}': {error}")
-    order = ["reaction", "support", "contact", "stress", "drive", "pressure"]
+    order = ["reaction", "support", "contact", "stress", "drive", "force", "pressure"]
     found = sorted(finder.found, key=lambda peak: (order.index(peak.kind), peak.unit, -peak.value, peak.quantity))
     return found + _during_steps(run.results)
 
@@ -58,6 +58,8 @@ class _Finder:
             self.scalar("stress", f"{place}.von_mises", lambda row, column: self.results.text(folder, field))
         elif section == "joints" and field == "drive_force":
             self.scalar("drive", place)
+        elif field == "tension" or section == "elements" and field == "force" and len(self.results.shape(place)) == 1:
+            self.scalar("force", place)
         elif field.startswith("pressure") and section in ("elements", "hydraulics"):
             self.scalar("pressure", place)
 

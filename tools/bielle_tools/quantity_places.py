@@ -36,13 +36,18 @@ class Places:
     def find(self, text):
         """@returns the place of a quantity, the number of its column or None, and the rest of the text, `.x` or `[3]`.
         @raises InputError"""
-        written = text.replace("'", "").strip().strip("/")
-        plain = written.replace("/", ".")
-        ends = [k for k, letter in enumerate(plain) if letter in ".[("] + [len(plain)]
-        for end in sorted(ends, reverse=True):
-            found = self._names().get(plain[:end])
-            if found:
-                return (*self._one(plain[:end], found), written[end:])
+        raw = text.strip().strip("/")
+        paths = set(self.recorded + self.made)
+        for end in _ends(raw):
+            if raw[:end] in paths:  # a path is unique, a name with dots need not be
+                return raw[:end], None, raw[end:]
+        written = raw.replace("'", "").strip().strip("/")
+        for name in (raw, written):  # a name may have an apostrophe of its own
+            plain = name.replace("/", ".")
+            for end in _ends(plain):
+                found = self._names().get(plain[:end])
+                if found:
+                    return (*self._one(plain[:end], found), name[end:])
         raise InputError(f"'{self.results.path}' has no quantity '{text}'{self._nearest(written)}")
 
     def _one(self, name, found):
@@ -91,6 +96,11 @@ class Places:
                 break
         advice = did_you_mean(plain, names)
         return advice if advice.startswith(";") or len(names) <= 12 else ": 'bielle-table --list' shows all of them"
+
+
+def _ends(text):
+    """Lengths of the beginnings of a text that may be a name, the longest first."""
+    return sorted([k for k, letter in enumerate(text) if letter in ".[("] + [len(text)], reverse=True)
 
 
 def _is_section(results, name):

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .cell_integrals import surface_points
+from .continuous_rotations import continuous_quaternions
 from .messages import InputError
 
 IMPEDANCE = 1.204 * 343.2  # [N s/m^3] of air at 20 degrees Celsius and 101325 Pa
@@ -51,7 +52,7 @@ def body_form(body, path):
 def body_velocities(time, frame, q):
     """w (nt, 6 + n), by splines through the rows: of the frame's origin and the angular velocity, body axes, and of q
     (nt,n). frame: (nt,7) position and quaternion; rows that are not numbers have none."""
-    x, p = rates(time, frame[:, :3]), frame[:, 3:]
+    x, p = rates(time, frame[:, :3]), continuous_quaternions(frame[:, 3:])  # recorded signs change at half turns
     dp = rates(time, p)
     size = (p * p).sum(axis=1)
     scalar, vector, ds, dv = p[:, :1], p[:, 1:], dp[:, :1], dp[:, 1:]

@@ -141,6 +141,23 @@ class Whirl(Tools):
         self.refuse("'eigen' cannot be read: it is damaged", "bielle-plot", "whirl.h5", "-o", "p")
 
 
+class EndOfAMotion(InFolder):
+    def test_the_last_row_of_the_analysis_before_is_the_state_without_its_number_being_given(self):
+        self.write("swing.yaml", """\
+gravity: [0, 0, -9.81]
+nodes: {bob: {position: [1, 0, 0]}}
+elements: {bob: {type: rigid_body, node: bob, mass: 1, inertia: [1, 1, 1]}}
+joints: {main: {type: hinge, nodes: [ground, bob], position: [0, 0, 0], axis: [0, 1, 0], stiffness: 20}}
+analysis: [{type: static, steps: 4}, {type: eigen, count: 1}]
+""")
+        subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "swing.yaml", "--quiet"], cwd=self.folder, check=True, timeout=60)
+        for number in (None, 2):
+            with Results(self.path("swing.h5"), number) as results:
+                scenery = ModeScenery(Modes(results))
+                self.assertEqual((scenery.base is not None, scenery.row), (True, 3), number)
+                scenery.base.file.close()
+
+
 class OfThePrograms(Tools):
     @classmethod
     def setUpClass(cls):

@@ -330,6 +330,7 @@ class Files(Pictures):
         self.refuse("there is no node 'sliedr' in the results; did you mean 'slider'?", "boxes.h5", "--follow", "sliedr")
         self.refuse("--frames is a number from 1 on", "boxes.h5", "--frames", "0")
         self.refuse("--seconds is a positive number", "boxes.h5", "--seconds", "nan")
+        self.refuse("a number is expected, found 'nan'", "boxes.h5", "--scale", "nan")
         self.refuse(".gif, .mp4, .png, .pdf or .svg", "boxes.h5", "-o", "run.avi")
         self.refuse("did you mean '--follow'?", "boxes.h5", "--folow", "slider")
         self.assertEqual(sorted(os.listdir(self.folder)), ["boxes.h5"])

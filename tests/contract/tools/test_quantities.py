@@ -164,6 +164,38 @@ class OfRuns(InFolder):
             self.assertEqual(len(Quantities(named).read("analysis_1/time").one), 21)
             self.assertEqual(len(Quantities(named).read("time").one), 11)
 
+    def run_model(self, text):
+        self.write("model.yaml", text)
+        subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "model.yaml", "-o", "run.h5", "--quiet"], cwd=self.folder, check=True, timeout=60)
+        return Results(self.path("run.h5"))
+
+    def test_paths_tell_names_apart_that_differ_by_dots_and_slashes_and_apostrophes_stay(self):
+        nodes, elements = ("\n".join(f'  "{name}": {{{keys.format(name=name, mass=k)}}}' for k, name in enumerate(("a/b", "a.b", "o'brien"), 1))
+                           for keys in ("position: [1, 0, 0], fixed: [rx, ry, rz]", 'type: point_mass, node: "{name}", mass: {mass}'))
+        model = f"nodes:\n{nodes}\nelements:\n{elements}\n" + "gravity: [0, 0, -9]\nanalysis: [{type: dynamic, duration: 1, step: 0.5}]\n"
+        with self.run_model(model) as results:
+            quantities = Quantities(results)
+            for text, mass in (("elements/a/b/momentum.z", 1), ("elements/a.b/momentum.z", 2), ("o'brien.momentum.z", 3), ("elements/o'brien/momentum.z", 3)):
+                with self.subTest(text=text):
+                    self.assertAlmostEqual(quantities.read(text).one[-1], -9 * mass, delta=1e-9)
+            with self.assertRaises(InputError) as caught:
+                quantities.read("a.b.momentum")
+            self.assertIn("say which", str(caught.exception))
+
+    def test_torques_of_a_planetary_set_are_no_vector(self):
+        wheels, factors = ("sun", "ring", "carrier"), (20, 60, -80)
+        lines = {"nodes": "{position: [0, 0, 0]}", "elements": "{{type: rigid_body, node: {0}, mass: 1, inertia: [1, 1, 1]}}",
+                 "joints": "{{type: hinge, nodes: [ground, {0}], axis: [0, 0, 1]}}"}
+        model = "".join(f"{section}:\n" + "".join(f"  {name}: {line.format(name) if '0}' in line else line}\n" for name in wheels) for section, line in lines.items())
+        model += f"  set: {{type: gear, joints: [{', '.join(wheels)}], factors: {list(factors)}}}\ndrives: {{motor: {{joint: sun, torque: 5}}}}\n"
+        with self.run_model(model + "analysis: [{type: dynamic, duration: 0.1, step: 0.01}]\n") as results:
+            torques = Quantities(results).read("set.force")
+            self.assertEqual(torques.labels, [f"set.force.{name}.angle" for name in wheels])
+            np.testing.assert_allclose(torques.values / torques.values[:, :1], np.tile(np.array(factors) / factors[0], (len(torques.time), 1)), rtol=1e-9)
+            with self.assertRaises(InputError) as caught:
+                Quantities(results).read("set.force.norm")
+            self.assertIn("no component 'norm'", str(caught.exception))
+
 
 if __name__ == "__main__":
     unittest.main()

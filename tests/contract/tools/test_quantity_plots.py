@@ -226,7 +226,8 @@ class Command(InFolder):
         self.write("model.yaml", "nodes: {a: {position: [0, 0, 0]}}\n")
         self.write("empty.h5", "")
         for arguments, part in ((("a.h5", "--quantity", "sped"), "did you mean 'speed'?"), (("a.h5", "b.h5"), "drawn over each other by --quantity"),
-                                (("a.h5", "--spectrum"), "--spectrum goes with --quantity"), (("a.h5", "--quantity", "s", "--psd", "--spectrum"), "does not go with"),
+                                (("a.h5", "--spectrum"), "--spectrum goes with --quantity"), (("a.h5", "--csv", ""), "--csv goes with --quantity"),
+                                (("a.h5", "--every", "0"), "--every goes with --quantity"), (("a.h5", "--quantity", "s", "--psd", "--spectrum"), "does not go with"),
                                 (("a.h5", "--quantity", "s", "--orders", "angle"), "an angular speed [rad/s] is expected"), (("a.h5", "--quantity", "s,"), "is missing"),
                                 (("a.h5", "--quantity", "s", "--span", "5:6"), "has no time from 5 to 6 s"), (("a.h5", "--quantity", "s", "--span", "5"), "A:B"),
                                 (("a.h5", "--quantity", "s", "--every", "0"), "from 1 on"), (("a.h5", "--quantity", "s", "--csv", "a.h5"), "is an input"),

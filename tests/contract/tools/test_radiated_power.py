@@ -105,6 +105,8 @@ class OfBoxes(InFolder):
         self.write_motion(time, np.zeros((len(time), 1)), turn=turn)
         power, = self.read("arm.radiated_power")
         np.testing.assert_allclose(power[20:-20], expected, rtol=1e-6)
+        self.write_motion(time, np.zeros((len(time), 1)), turn=np.where(turn[:, :1] < 0, -turn, turn))  # as results record it
+        np.testing.assert_allclose(self.read("arm.radiated_power")[0][20:-20], expected, rtol=1e-6)
         other = np.array([0.3, -0.5, 0.7, 0.2]) / np.linalg.norm([0.3, -0.5, 0.7, 0.2])  # the same, seen from elsewhere
         w, v = other[0], other[1:]
         moved = np.column_stack([w * turn[:, 0] - turn[:, 1:] @ v, w * turn[:, 1:] + turn[:, :1] * v + np.cross(v, turn[:, 1:])])

@@ -101,6 +101,9 @@ class OfSynthetic(TableTool):
             file["supports/hub/reaction"] = np.tile([0, 3.0, 4, 0, 0, 2], (rows, 1))
             force = np.zeros((rows, 2, 3))
             force[5, 1] = [1, 2, 2]
+            for place, tension in (("elements/strut/force", [-6.0, 2]), ("joints/rope/tension", [3.0, 7])):
+                file[place] = np.repeat(tension, (4, rows - 4))
+                file[place].attrs["units"] = "N"
             file["contacts/floor/force"], file["contacts/floor/point"] = force, np.tile([1.0, 2, 3], (rows, 1))
             for name, value in (("value", 4e8), ("time", 0.0123), ("node", 5), ("position", [0.1, 0, 0])):
                 file[f"peaks/rod/all/von_mises/{name}"] = value
@@ -111,6 +114,8 @@ class OfSynthetic(TableTool):
             node = file["recovery/stress_nodes"][11]
         self.assertIn(f"node {node} of the mesh", found["elements/rod/von_mises"][3])
         self.assertEqual(found["supports/hub/reaction.force"][0], 5)
+        self.assertEqual(found["elements/strut/force"], [6.0, "N", 0.0, ""])
+        self.assertEqual(found["joints/rope/tension"], [7.0, "N", self.time[4], ""])
         self.assertEqual(found["contacts/floor/force.norm[2]"], [3.0, "", self.time[5], "shape 2 of 2, smallest gap at (1, 2, 3) m"])
         self.assertEqual(found["peaks/rod/all/von_mises"][:3], [4e8, "Pa", 0.0123])
 
