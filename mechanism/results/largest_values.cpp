@@ -1,5 +1,6 @@
 #include "mechanism/results/largest_values.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -90,9 +91,13 @@ void LargestValues::add(double time, const double* values) {
 }
 
 std::string LargestValues::summary() const {
+  const auto of = [&](Quantity quantity) { return largest_[static_cast<std::size_t>(quantity)].value; };
+  // Moments that are rounding next to the forces, at an arm of 1 m, and the reverse.
+  constexpr double rounding = 1e-13;
+  const double least = rounding * std::max(of(Quantity::joint_force), of(Quantity::joint_moment));
   std::string text;
   for (std::size_t k = 0; k < quantities; ++k)
-    if (const Largest& largest = largest_[k]; largest.value > 0)
+    if (const Largest& largest = largest_[k]; largest.value > (k < 2 ? least : 0))
       text += fmt::format("    {} {:.4g} {}, {}, {} = {:.6g}{}\n", wordings[k].title, largest.value, wordings[k].unit,
                           names_[largest.entry], time_, largest.time, unit_);
   return text.empty() ? text : fmt::format("  largest values of {}\n{}", rows_, text);

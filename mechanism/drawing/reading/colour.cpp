@@ -42,8 +42,8 @@ std::string read_colour(const YamlValue& value) {
   if (found != colour_names().end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, is] : colour_names()) names.push_back(name);
-  value.fail(fmt::format("'{}' is not a colour that is known here (a name of CSS, or \"#rrggbb\"){}", value.text(),
-                         did_you_mean(colour, names)));
+  value.fail(fmt::format("'{}' is none of the names of colours that are known here; any colour is \"#rrggbb\"{}",
+                         value.text(), did_you_mean(colour, names)));
 }
 
 }  // namespace bielle::mechanism

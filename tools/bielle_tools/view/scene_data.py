@@ -16,7 +16,7 @@ class SceneData:
     def __init__(self, pack, centre, size):
         self.pack, self.centre, self.size = pack, centre, size
         self.bodies, self._numbers = [], {}
-        self.errors = {"position": 0.0, "rotation": 0.0, "shape": 0.0, "stress": 0.0}
+        self._errors = {"position": 0.0, "rotation": 0.0, "shape": 0.0, "stress": 0.0, "of stress": 0.0}
 
     def described(self, scene, rows, arrows=True):
         """The scene at these rows, for the page."""
@@ -32,7 +32,13 @@ class SceneData:
 
     def _largest(self, **errors):
         for name, value in errors.items():
-            self.errors[name] = max(self.errors[name], float(value))
+            self._errors[name] = max(self._errors[name], float(value))
+
+    @property
+    def errors(self):
+        """Errors by quantised numbers: {position, shape} in sizes, {rotation} [rad], {stress} relative to the largest of all scenes."""
+        stress, largest = self._errors["stress"], self._errors["of stress"]
+        return {**{name: self._errors[name] for name in ("position", "rotation", "shape")}, "stress": stress / largest if largest > 0 else 0.0}
 
     @staticmethod
     def _part(part, numbers):
@@ -63,7 +69,7 @@ class SceneData:
         largest = float(np.fmax.reduce(values, axis=None, initial=0))
         step = largest / 32767
         whole = np.where(np.isfinite(values), np.round(values / (step or 1)), -1)
-        self._largest(stress=np.fmax.reduce(np.abs(step * whole - values), axis=None, initial=0) / (largest or 1))
+        self._largest(**{"stress": np.fmax.reduce(np.abs(step * whole - values), axis=None, initial=0), "of stress": largest})
         return {"count": len(values), "values": self.pack.add(whole, "i2", True), "step": step, "largest": largest}
 
     def _flexible(self, part, rows, tracks):
@@ -106,8 +112,7 @@ class SceneData:
             whole, scale = self._quantised(shapes)
             exact = np.tensordot(known, shapes, axes=1)
             error = np.abs(np.tensordot(known, whole * scale.astype(float)[:, None, None], axes=1) - exact).max()
-            largest = 1.0 if name == "shape" else np.abs(exact).max(initial=0)
-            self._largest(**{name: error / largest if largest > 0 else 0.0})
+            self._largest(**{name: error, "of stress": np.abs(exact).max(initial=0) if name == "stress" else 0})
 
     def _peaks(self, body, q):
         """Largest von Mises stress of each point over the rows [Pa], and of all."""
