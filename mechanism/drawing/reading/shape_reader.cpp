@@ -89,7 +89,7 @@ const KeyTable& drawn_shape_keys() {
                {"scale", number().positive(), otherwise("1"),
                 "Length of the unit of an STL file in metres: 0.001 for a file in millimetres."}},
               own_frame_keys(),
-              {{"colour", text(), optional, "Colour: a name of CSS such as `steelblue`, or \"#rrggbb\"."},
+              {{"colour", text(), optional, "Colour: \"#rrggbb\", or a usual name such as `steelblue`."},
                {"opacity", number().between(0, 1), otherwise("1"), "Opacity, from 0 (invisible) to 1."}}})};
   return table;
 }
