@@ -81,7 +81,8 @@ class Columns:
         """The words that may follow."""
         names = [name for name in self.axes[-1] if not name.isdigit()] if self.axes else []
         norms = ["norm", "force", "moment"][:3 if len(self.axes[-1]) == 6 else 1] if self.is_vector else []
-        return names + norms + self._invariants() * self.is_stress + list(OVER_ALL)
+        over_all = list(OVER_ALL) if len(set(self.units)) == 1 else []
+        return names + norms + self._invariants() * self.is_stress + over_all
 
     def _invariants(self):
         """Scalars of a symmetric tensor: a strain has no equivalent that all agree on."""
