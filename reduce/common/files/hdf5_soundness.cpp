@@ -123,14 +123,24 @@ std::string walk_dataset(hid_t dataset) {
 
 herr_t pass_over(hid_t, const char*, const H5L_info_t*, void*) { return 0; }
 
+/// Whether the names in a group can be listed as Hdf5File::names_in does. If HDF5 fails half-way, it frees what it has
+/// not set: it may crash in one program, and fail in another.
+bool can_be_listed(hid_t group) {
+  const Hdf5Id creation(H5Gget_create_plist(group), H5Pclose);
+  unsigned order = 0;
+  if (!creation.valid() || H5Pget_link_creation_order(creation, &order) < 0) return false;
+  const H5_index_t index = (order & H5P_CRT_ORDER_TRACKED) != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
+  return H5Literate(group, index, H5_ITER_INC, nullptr, pass_over, nullptr) >= 0;
+}
+
 herr_t walk_object(hid_t root, const char* name, const H5O_info_t*, void* data) {
   const Hdf5Id object(H5Oopen(root, name, H5P_DEFAULT), H5Oclose);
   if (!object.valid()) return 0;
   H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, walk_attribute, data);
   auto& walk = *static_cast<Walk*>(data);
   if (walk.damaged.empty() && H5Iget_type(object) == H5I_DATASET) walk.damaged = walk_dataset(object);
-  if (H5Iget_type(object) == H5I_GROUP)
-    H5Literate(object, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, pass_over, nullptr);
+  if (walk.damaged.empty() && H5Iget_type(object) == H5I_GROUP && !can_be_listed(object))
+    walk.damaged = fmt::format("the names in {} cannot be listed", name_of(object));
   return walk.damaged.empty() ? 0 : -1;
 }
 
