@@ -5,6 +5,8 @@ ASTM E1049-85 (2017), Standard Practices for Cycle Counting in Fatigue Analysis,
 
 import numpy as np
 
+from .stress_invariants import von_mises
+
 
 def reversals(signal):
     """The peaks and valleys of a signal, its ends among them."""
@@ -69,7 +71,7 @@ def stress_signal(stress, component):
         return stress[:, names.index(component)]
     xx, yy, zz, yz, xz, xy = stress.T
     if component == "von_mises":
-        value = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (yz ** 2 + xz ** 2 + xy ** 2))
+        value = von_mises(stress)
         return np.where(xx + yy + zz < 0, -value, value)
     values = np.linalg.eigvalsh(np.stack([xx, xy, xz, xy, yy, yz, xz, yz, zz], axis=-1).reshape(-1, 3, 3))
     return np.where(-values[:, 0] > values[:, 2], values[:, 0], values[:, 2])

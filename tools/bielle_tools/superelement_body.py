@@ -12,6 +12,7 @@ import numpy as np
 from .cells import BY_GMSH, SOLIDS, boundary_faces, permutation, solid_faces
 from .messages import InputError, counted
 from .results_file import LARGEST, open_hdf5, reading
+from .stress_invariants import von_mises
 from .rotations import rotation_matrices
 
 
@@ -68,10 +69,8 @@ class SuperelementBody:
         """(...,p) [Pa], not a number if no stress was kept; None without stress recovery. q: (...,n)."""
         if self.stress is None:
             return None
-        xx, yy, zz, yz, xz, xy = np.moveaxis((q @ self.stress.T).reshape(q.shape[:-1] + (-1, 6)), -1, 0)
         value = np.full(q.shape[:-1] + (len(self.points),), np.nan)
-        value[..., self.stressed] = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2)
-                                            + 3 * (yz ** 2 + xz ** 2 + xy ** 2))
+        value[..., self.stressed] = von_mises((q @ self.stress.T).reshape(q.shape[:-1] + (-1, 6)))
         return value
 
     def blocks(self, rows):

@@ -12,6 +12,7 @@ from ..rotations import rotation_matrices
 from ..scene.stress_scale import stress_colours
 from ..scene.style import marked, muted, shares_of
 from ..scene.transforms import conjugate, placed, rotated
+from ..stress_invariants import von_mises
 from .normals import corner_normals, split_at_edges
 
 
@@ -143,9 +144,8 @@ class FlexibleShape:
 
     def von_mises(self, q):
         """(points of the body) [Pa], not a number if no stress was kept"""
-        xx, yy, zz, yz, xz, xy = (self.stresses @ q.astype(np.float32)).reshape(-1, 6).T.astype(float)
         found = np.full(len(self.body.points), np.nan)
-        found[self.body.stressed] = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (yz**2 + xz**2 + xy**2))
+        found[self.body.stressed] = von_mises((self.stresses @ q.astype(np.float32)).reshape(-1, 6).astype(float))
         return found
 
 

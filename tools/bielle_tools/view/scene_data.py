@@ -4,6 +4,7 @@ import numpy as np
 
 from ..scene.arrows import arrows_of
 from ..scene.style import marked, muted
+from ..stress_invariants import von_mises
 from .pack import quantised
 from .tracks import Tracks, in_units
 
@@ -120,11 +121,7 @@ class SceneData:
             return {}
         peak = np.zeros(len(body.points))
         for block in np.array_split(q[np.isfinite(q).all(axis=1)], max(1, len(q) // 16)):
-            s = np.tensordot(block, body.stress, axes=1)
-            xx, yy, zz, yz, xz, xy = np.moveaxis(s, -1, 0)
-            squares = 0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (yz ** 2 + xz ** 2 + xy ** 2)
-            peak = np.maximum(peak, squares.max(axis=0, initial=0))
-        peak = np.sqrt(peak)
+            peak = np.maximum(peak, von_mises(np.tensordot(block, body.stress, axes=1)).max(axis=0, initial=0))
         whole, low, step = quantised(peak, (0,))
         return {"peak": {"data": self.pack.add(whole, "i2"), "low": float(low[0]), "step": float(step[0])}, "largest": float(peak.max(initial=0))}
 
