@@ -12,6 +12,7 @@
 #include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_frame.hpp"
 #include "mechanism/reading/read_numbers.hpp"
+#include "mechanism/reading/solid_forms.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -72,18 +73,10 @@ DrawnItem read_form(const YamlValue& map, int node) {
 
 const KeyTable& drawn_shape_keys() {
   using namespace keys;
-  const KeyForm length = number("m").positive(), radius = number("m").non_negative();
   static const KeyTable table{
       "a shape", "A shape by which a node or a body is drawn. It changes no result.",
-      joined({{{"box", list_of(3, length), optional, "Edges along x, y and z."},
-               {"sphere", length, optional, "Radius."},
-               {"cylinder", list_of(2, length), optional, "Radius, and length along z."},
-               {"tube", tuple({{length}, {radius}, {length}}), optional,
-                "Outer radius, inner radius, and length along z."},
-               {"cone", tuple({{radius}, {radius}, {length}}), optional,
-                "Radius at the end at -z, radius at the end at +z, and length."},
-               {"ring", list_of(2, length), optional, "Radius of the centre line around z, and radius of the section."},
-               {"stl", file("STL"), optional, "Surface of triangles, binary or text."},
+      joined({solid_form_keys(),
+              {{"stl", file("STL"), optional, "Surface of triangles, binary or text."},
                {"step", file("geometry"), optional,
                 "Geometry (STEP, IGES, BREP), of which bielle-reduce makes triangles."},
                {"scale", number().positive(), otherwise("1"),

@@ -10,6 +10,7 @@
 #include "mechanism/elements/rigid_body/solid_space.hpp"
 #include "mechanism/reading/read_frame.hpp"
 #include "mechanism/reading/read_numbers.hpp"
+#include "mechanism/reading/solid_forms.hpp"
 #include "reduce/superelement/inertia_tensor.hpp"
 
 namespace bielle::mechanism {
@@ -123,18 +124,10 @@ void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& so
 
 const KeyTable& solid_keys() {
   using namespace keys;
-  const KeyForm length = number("m").positive(), radius = number("m").non_negative();
   static const KeyTable table{
       "a solid", "A homogeneous solid, by its shape and its density or mass.",
-      joined({{{"box", list_of(3, length), optional, "Edges along x, y and z."},
-               {"sphere", length, optional, "Radius."},
-               {"cylinder", list_of(2, length), optional, "Radius, and length along z."},
-               {"tube", tuple({{length}, {radius}, {length}}), optional,
-                "Outer radius, inner radius, and length along z."},
-               {"cone", tuple({{radius}, {radius}, {length}}), optional,
-                "Radius at the end at -z, radius at the end at +z, and length."},
-               {"ring", list_of(2, length), optional, "Radius of the centre line around z, and radius of the section."},
-               {"density", number("kg/m^3").positive(), optional, "Density; a solid has either this or a `mass`."},
+      joined({solid_form_keys(),
+              {{"density", number("kg/m^3").positive(), optional, "Density; a solid has either this or a `mass`."},
                {"mass", number("kg").positive(), optional, "Mass, in place of the density."}},
               own_frame_keys(),
               {{"cut", boolean(), otherwise("false"), "Whether the solid is removed from the others."}}})};
