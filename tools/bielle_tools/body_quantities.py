@@ -88,9 +88,9 @@ class Bodies:
                              "there is no chord")
         share = (P - A) @ chord / length ** 2
         a, b = A + q @ u_a.T, B + q @ u_b.T
-        beside = P - A - share * chord  # turns with the chord, by the shortest way
+        offset = P - A - share * chord  # turns with the chord, by the shortest way
         directions = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
-        return P + q @ u.T - a - share * (b - a) - _turned(chord / length, directions, beside)
+        return P + q @ u.T - a - share * (b - a) - _turned(chord / length, directions, offset)
 
     def _point(self, element, word):
         """Place of a point and its displacement (3,n) per coordinate, body axes."""

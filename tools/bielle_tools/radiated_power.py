@@ -4,7 +4,7 @@ v_n is the normal velocity of the surface, Z = rho c the impedance of air for pl
 surface would radiate if each part of it radiated as a plane does: an upper estimate without cancellation between parts
 that move against each other. Its mean over a period is Z v^2 S/2 for an area S that oscillates with the amplitude v. In
 a body that moves as x + R (X + U q), v_n is linear in w = (R^T x', Omega, q'), hence P = w^T F w with a constant matrix
-F; the displacement is neglected beside X in Omega x (X + U q).
+F; the displacement is neglected compared with X in Omega x (X + U q).
 Reference: F. Fahy, P. Gardonio, Sound and Structural Vibration, 2nd ed. 2007, section 3.3 (radiation efficiency 1).
 """
 

@@ -48,8 +48,8 @@ std::vector<std::string> lines_of_file(const std::string& path) {
 
 std::string find_sibling_program(const std::string& name) {
   std::error_code ignored;
-  const auto beside = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
-  if (access(beside.c_str(), X_OK) == 0) return beside.string();
+  const auto sibling = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / name;
+  if (access(sibling.c_str(), X_OK) == 0) return sibling.string();
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');)

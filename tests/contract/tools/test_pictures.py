@@ -197,7 +197,7 @@ class Stresses(Pictures):
         np.testing.assert_array_equal(picture[middle, right - 1], ANCHORS[-1])
         third = left + (right - left) // 3
         np.testing.assert_array_equal(picture[middle, third], stress_colours(np.array([(third - left) / (right - left - 1)]))[0])
-        self.assertGreater(inked(picture[middle - 4:middle + 4, right + 2:]).sum(), 10, "the largest stress is written beside its colour")
+        self.assertGreater(inked(picture[middle - 4:middle + 4, right + 2:]).sum(), 10, "the largest stress is written next to its colour")
 
     def test_colours_are_known_values(self):
         np.testing.assert_array_equal(stress_colours(np.array([0, 0.5, 1, 7, -1])), ANCHORS[[0, 4, 8, 8, 0]])

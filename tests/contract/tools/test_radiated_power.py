@@ -145,7 +145,7 @@ class OfBoxes(InFolder):
         R = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
         self.write_body(lambda points: (points @ R.T - points)[:, :, None])
         self.write_motion(np.arange(2.0), np.array([[0.0], [1.0]]))
-        found, = self.read("arm.deflection(0.15 0.2 0.1, 0 0 0, 0.3 0 0)")  # far beside the chord
+        found, = self.read("arm.deflection(0.15 0.2 0.1, 0 0 0, 0.3 0 0)")  # far from the chord
         np.testing.assert_allclose(found, 0, atol=1e-12)
 
     def test_slips(self):

@@ -71,7 +71,7 @@ class Paper:
         return int(0.45 * width), int(width - 7 * self.size) if width > 20 * self.size else int(0.8 * width)
 
     def write_labels(self, picture, texts, pixels):
-        """Writes texts beside points (n,2) of a picture, those further up first; one that would cover another is left out."""
+        """Writes texts next to points (n,2) of a picture, those further up first; one that would cover another is left out."""
         draw, taken = ImageDraw.Draw(picture), []
         for text, (x, y) in sorted(zip(texts, pixels), key=lambda pair: tuple(pair[1][::-1])):
             if not (np.isfinite([x, y]).all() and 0 <= x < picture.width and 0 <= y < picture.height):

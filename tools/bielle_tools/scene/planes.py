@@ -1,4 +1,4 @@
-"""Planes of a drawing: each is drawn once, and those in one plane beside each other, since overlapping ones darken."""
+"""Planes of a drawing: each is drawn once, and those in one plane next to each other, since overlapping ones darken."""
 
 from dataclasses import dataclass
 

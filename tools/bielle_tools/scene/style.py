@@ -40,7 +40,7 @@ def marked(colour):
 
 
 def muted(colour):
-    """`#rrggbb` of a part beside coloured stresses: nearly grey, so that it is not read as a stress."""
+    """`#rrggbb` of a part next to coloured stresses: nearly grey, so that it is not read as a stress."""
     red, green, blue = shares_of(colour)
     return _mixed((red, green, blue), [0.75 * (0.30 * red + 0.59 * green + 0.11 * blue) + 51] * 3, 0.88)
 

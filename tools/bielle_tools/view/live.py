@@ -47,17 +47,17 @@ def _first(paths, build):
 
 @contextlib.contextmanager
 def copies(paths):
-    """Copies of files of this moment, since a run changes them while they are read; other files beside them are found beside the copies."""
+    """Copies of files of this moment, since a run changes them while they are read; other files next to them are found next to the copies."""
     with tempfile.TemporaryDirectory(prefix="bielle-view-") as folder:
         copied = []
         for number, path in enumerate(paths):
             if not os.path.isfile(path):
                 copied.append(path)  # its absence is told where it is read
                 continue
-            own, beside = os.path.join(folder, str(number)), os.path.dirname(os.path.abspath(path))
+            own, around = os.path.join(folder, str(number)), os.path.dirname(os.path.abspath(path))
             os.mkdir(own)
             copied.append(shutil.copyfile(path, os.path.join(own, os.path.basename(path))))
-            for entry in os.scandir(beside):
+            for entry in os.scandir(around):
                 if entry.name.endswith(".h5") and entry.name != os.path.basename(path):
                     os.symlink(entry.path, os.path.join(own, entry.name))
         yield copied
