@@ -36,7 +36,7 @@ std::vector<std::string> with_kink_at(const System& system, double time) {
 }  // namespace
 
 void PrescribedJumps::add(const System& system, const Jump& jump) {
-  if (!jump.crossed.empty()) return;
+  if (!jump.prescribed) return;
   // A rate that jumps to zero does no work. The velocities of the scheme have a relative error of (omega h)^2/12, which
   // a restart removes.
   constexpr double little = 1e-6, offset = 0.01;

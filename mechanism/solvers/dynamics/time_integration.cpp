@@ -24,6 +24,37 @@ double just_off(double time, double h) {
   return 1e-12 * h + 8 * std::numeric_limits<double>::epsilon() * std::abs(time);
 }
 
+/// Returns the rates that drives and supports prescribe at a time: those of the constraint rows and of the nodes while
+/// everything else is at rest.
+VectorX prescribed_rates(const System& system, const Environment& environment, State state, double time) {
+  state.time = time;
+  system.set_rates(state, VectorX::Zero(system.dofs()), VectorX::Zero(system.dofs()));
+  VectorX rows = VectorX::Zero(system.multipliers()), unused(system.multipliers());
+  system.constraint_rates(state, environment, rows, unused);
+  VectorX rates(rows.size() + 6 * static_cast<Eigen::Index>(state.nodes.size()));
+  rates.head(rows.size()) = rows;
+  for (Eigen::Index i = rows.size(); const NodeState& node : state.nodes) {
+    rates.segment<3>(i) = node.v;
+    rates.segment<3>(i + 3) = node.Omega;
+    i += 6;
+  }
+  return rates;
+}
+
+/// Whether one of them differs just before and just after a time: by more than rounding of its own value, and of the
+/// rates with which the mechanism moves.
+bool prescribed_rates_jump(const System& system, const Environment& environment, const State& state, double off) {
+  const VectorX before = prescribed_rates(system, environment, state, state.time - off);
+  const VectorX after = prescribed_rates(system, environment, state, state.time + off);
+  VectorX v(system.dofs()), a(system.dofs());
+  system.get_rates(state, v, a);
+  const double rounding = 1e-9 * v.lpNorm<Eigen::Infinity>();
+  for (Eigen::Index i = 0; i < before.size(); ++i)
+    if (std::abs(after[i] - before[i]) > std::max(rounding, 1e-6 * std::max(std::abs(before[i]), std::abs(after[i]))))
+      return true;
+  return false;
+}
+
 std::unique_ptr<StepEquations> equations_of(const System& system, ConstraintForm form) {
   if (form == ConstraintForm::stabilised && system.multipliers() > 0)
     return std::make_unique<StabilisedEquations>(system);
@@ -112,6 +143,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.time = state.time;
   jump.crossed = crossed;
   jump.before = system_.energy(state, environment_);
+  jump.prescribed = crossed.empty() && prescribed_rates_jump(system_, environment_, state, just_off(jump.time, h));
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
   const bool balanced = event_function_values_.balance(environment_, state);

@@ -25,7 +25,9 @@ namespace bielle::mechanism {
 struct Jump {
   double time = 0;
   Energy before, after;
-  double work = 0;  ///< work of the drives and supports whose rate jumps [J]
+  double work =
+      0;  ///< work of the drives and supports whose rate jumps, and of the errors that the restart removes [J]
+  bool prescribed = false;  ///< whether the rate of a drive's or a support's prescribed motion jumps
   std::vector<int> crossed;
 };
 
