@@ -10,7 +10,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 REPOSITORY = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOLS = ["keys", "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-loads", "bielle-exchange", "study", "install", "demo",
-         "test", "convert_mesh.py"]
+         "test", "convert_mesh.py", "manual"]
 OTHERS = {"--preset", "--build", "--install", "--prefix",  # options of CMake
           "--hostfile"}  # options of mpirun
 
@@ -19,7 +19,8 @@ def readmes():
     for folder, folders, files in os.walk(REPOSITORY):
         folders[:] = [name for name in folders if name not in ("build", ".git") and not name.startswith(".")]
         for name in files:
-            if name in ("README.md", "CONTRIBUTING.md", "glossary.md", "keys.md"):
+            manual = os.path.join("mechanism", "manual") in folder and name.endswith(".md")
+            if manual or name in ("README.md", "CONTRIBUTING.md", "glossary.md", "keys.md"):
                 yield os.path.join(folder, name)
 
 
@@ -56,7 +57,8 @@ class Readmes(unittest.TestCase):
     def test_links_lead_somewhere(self):
         for path, text in self.texts.items():
             for target in re.findall(r"\]\(([^)\s]+)\)", text):
-                if re.match(r"\w+://", target):
+                made_by_the_page = f" -o {target}" in text
+                if re.match(r"\w+://", target) or made_by_the_page:
                     continue
                 name, _, heading = target.partition("#")
                 file = os.path.normpath(os.path.join(os.path.dirname(path), name)) if name else path

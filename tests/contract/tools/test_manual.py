@@ -1,0 +1,117 @@
+"""The manual: its pages are run and print what they show, its fragments are valid, its links lead somewhere."""
+
+import glob
+import importlib.util
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import jsonschema
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.normpath(os.path.join(HERE, "..", "..", ".."))
+PROGRAMS = os.environ["BIELLE_PROGRAMS"]
+MANUAL = os.path.join(ROOT, "mechanism", "manual")
+sys.path[:0] = [os.path.join(ROOT, "tools"), os.path.join(HERE, "..", "programs")]
+
+from bielle_tools.manual import pages, site  # noqa: E402
+from bielle_tools.messages import InputError  # noqa: E402
+from test_schema import load  # noqa: E402
+
+MOST_WORDS = 1500  # in one page
+
+
+def pages_of_manual():
+    return sorted(glob.glob(os.path.join(MANUAL, "**", "*.md"), recursive=True))
+
+
+class Manual(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def tool(self, *arguments):
+        return subprocess.run([os.path.join(ROOT, "tools", "manual"), *arguments], capture_output=True, text=True, timeout=500,
+                              env={**os.environ, "BIELLE_BIN": PROGRAMS})
+
+    def page(self, text):
+        path = os.path.join(self.folder, "page.md")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def test_getting_started_prints_what_it_shows(self):
+        started = sorted(glob.glob(os.path.join(MANUAL, "getting_started", "*.md")))
+        self.assertGreaterEqual(len(started), 5)
+        done = self.tool(*[word for page in started for word in ("--run", page)])
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_fragments_are_valid(self):
+        done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "--schema"], capture_output=True, text=True, check=True)
+        schema, count = jsonschema.Draft7Validator(json.loads(done.stdout)), 0
+        for path in glob.glob(os.path.join(MANUAL, "how_do_i", "*.md")):
+            for block in pages.blocks(path):
+                if block.language != "yaml":
+                    continue
+                count += 1
+                errors = [error.message[:200] for error in schema.iter_errors(load(block.text))]
+                self.assertEqual(errors, [], f"{path}:{block.line}")
+        self.assertGreater(count, 15)
+
+    def test_pages_are_short(self):
+        found = pages_of_manual()
+        self.assertGreater(len(found), 10)
+        for path in found:
+            with open(path, encoding="utf-8") as file:
+                self.assertLess(len(file.read().split()), MOST_WORDS, path)
+
+    def test_wrong_output_is_found(self):
+        for shown, message in (("a 1.02\n", "does not print 'a 1.02'"), ("b 1\n", "does not print 'b 1'"),
+                               ("c 3\na 1\n", "does not print"), ("a 1\nb\n...\n", "does not print 'b'")):
+            with self.subTest(shown), self.assertRaisesRegex(InputError, r"page.md:6: .*" + re.escape(message)):
+                place = self.page(f"text\n```sh\nprintf 'a 1\\nc 3\\n'\n```\n```text\n{shown}```\n")
+                if "b\n" in shown:
+                    place = self.page(f"```sh\nprintf 'a 1\\nc 3\\n'\n```\n```text\n{shown}```\n")
+                pages.run_page(place, self.folder, os.environ)
+        pages.run_page(self.page("```sh\nprintf 'a 1\\nb\\nc 3\\n'\n```\n```text\na 1.001\n...\nc   3\n```\n"), self.folder, os.environ)
+
+    def test_failing_commands_are_found(self):
+        with self.assertRaisesRegex(InputError, r"page.md:3: 'false' ended with status 1"):
+            pages.run_page(self.page("```sh\ntrue\nfalse\n```\n"), self.folder, os.environ)
+        with self.assertRaisesRegex(InputError, "no command before it"):
+            pages.run_page(self.page("```text\na\n```\n"), self.folder, os.environ)
+
+    def test_sources_of_the_site(self):
+        site.write_sources(ROOT, self.folder)
+        copied = glob.glob(os.path.join(self.folder, "**", "*.md"), recursive=True)
+        self.assertGreater(len(copied), 25)
+        for path in copied:
+            with open(path, encoding="utf-8") as file:
+                text = re.sub(r"```.*?```|`[^`\n]*`", "", file.read(), flags=re.DOTALL)
+            for target in site.LINK.findall(text):
+                target = target.partition("#")[0]
+                if target and ":" not in target and not target.endswith(".png"):
+                    found = os.path.normpath(os.path.join(os.path.dirname(path), target))
+                    original = os.path.normpath(os.path.join(os.path.dirname(os.path.join(ROOT, os.path.relpath(path, self.folder))), target))
+                    self.assertTrue(os.path.exists(found) or os.path.isdir(original), f"{path}: {target}")
+
+    @unittest.skipIf(importlib.util.find_spec("myst_parser") is None, "Sphinx is not installed (tools/install --with-manual)")
+    def test_site_is_built_without_warnings(self):
+        done = self.tool("--no-pictures", "-o", os.path.join(self.folder, "site"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        missing = [line for line in done.stderr.splitlines() if "WARNING" in line and "image file not readable" not in line]
+        self.assertEqual(missing, [])
+        self.assertTrue(os.path.exists(os.path.join(self.folder, "site", "mechanism", "manual", "README.html")))
+
+    def test_wrong_options(self):
+        done = self.tool("--run", os.path.join(self.folder, "none.md"))
+        self.assertEqual((done.returncode, "none.md" in done.stderr), (1, True), done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

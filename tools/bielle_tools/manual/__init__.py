@@ -1,0 +1,1 @@
+"""The manual: its pages are run, and built as a site."""

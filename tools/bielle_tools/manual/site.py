@@ -1,0 +1,86 @@
+"""The manual as a site: all pages of the repository, with a search, by Sphinx (MyST reads the pages, furo is the theme)."""
+
+import glob
+import os
+import re
+import shutil
+import subprocess
+
+from ..messages import InputError
+
+CONTENTS = {  # page that leads a part, and the pages of the part, in order
+    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md"],
+    "Mechanisms": ["mechanism/README.md", "mechanism/language/README.md", "reduce/common/README.md", "mechanism/io/README.md",
+                   "mechanism/python/README.md", "mechanism/glossary.md", "mechanism/keys.md"],
+    "Bodies": ["reduce/README.md", "reduce/matrices/README.md", "reduce/superelement/README.md", "reduce/distributed/README.md", "meshes/README.md",
+               "reduce/keys.md"],
+    "Tools": ["tools/README.md"],
+    "Theory and proof": ["mechanism/solvers/README.md", "reduce/reduction/README.md", "tests/*/README.md"],
+    "Development": ["CONTRIBUTING.md", "CHANGELOG.md"],
+}
+CONFIGURATION = """project = "Bielle"
+extensions = ["myst_parser"]
+html_theme = "furo"
+html_title = "Bielle"
+html_show_copyright = False
+myst_heading_anchors = 4
+suppress_warnings = ["myst.header", "misc.highlighting_failure"]
+"""
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+
+
+def pages_of(repository):
+    """The pages of each part of the site: {title: paths relative to the repository}. @raises InputError if a page is missing"""
+    parts = {}
+    for title, patterns in CONTENTS.items():
+        parts[title] = []
+        for pattern in patterns:
+            found = sorted(glob.glob(os.path.join(repository, pattern)))
+            if not found:
+                raise InputError(f"{os.path.join(repository, pattern)} does not exist")
+            parts[title] += [os.path.relpath(path, repository) for path in found]
+    return parts
+
+
+def write_sources(repository, folder):
+    """Copies the pages, and the files that they link to, into the folder of Sphinx's sources; adds configuration and contents."""
+    parts = pages_of(repository)
+    pages = {page for part in parts.values() for page in part}
+    for page in pages:
+        target = os.path.join(folder, page)
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        with open(os.path.join(repository, page), encoding="utf-8") as file:
+            text = file.read()
+        with open(target, "w", encoding="utf-8") as file:
+            file.write(LINK.sub(lambda match: _link(match, repository, page, pages, folder), text))
+    with open(os.path.join(folder, "conf.py"), "w", encoding="utf-8") as file:
+        file.write(CONFIGURATION)
+    with open(os.path.join(folder, "index.md"), "w", encoding="utf-8") as file:
+        file.write("# Bielle\n\nFlexible mechanisms by finite elements.\n")
+        for title, part in parts.items():
+            lines = "\n".join(page[:-3] for page in part)
+            file.write(f"\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n{lines}\n```\n")
+
+
+def _link(match, repository, page, pages, folder):
+    """A link of a page. One to a file that is no page leads to a copy of the file; one to a folder becomes plain text."""
+    target, _, heading = match.group(1).partition("#")
+    if re.match(r"\w+:", target) or not target:
+        return match.group(0)
+    path = os.path.normpath(os.path.join(os.path.dirname(page), target))
+    source = os.path.join(repository, path)
+    if path in pages or not os.path.isfile(source):
+        return match.group(0)
+    name = path + ".txt" if path.endswith(".md") else path
+    copy = os.path.join(folder, name)
+    os.makedirs(os.path.dirname(copy), exist_ok=True)
+    shutil.copy(source, copy)
+    return f"]({os.path.relpath(name, os.path.dirname(page) or '.')})"
+
+
+def build(sources, target):
+    """Builds the site. @raises InputError with Sphinx's warnings, a link that leads nowhere among them"""
+    done = subprocess.run(["/usr/bin/python3", "-m", "sphinx", "-q", "-j", "auto", "-b", "html", sources, target], capture_output=True, text=True)
+    if done.returncode:
+        raise InputError(f"Sphinx ended with status {done.returncode}: {done.stderr.strip()}")
+    return done.stderr.strip()
