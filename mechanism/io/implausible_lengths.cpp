@@ -19,11 +19,6 @@ constexpr double longest_usual = 10;
 /// Ratio of radius of gyration to the distance of joints: 0.29 for a bar, a thousandth of it in such models.
 constexpr double least_usual = 1.0 / 300;
 
-int carrier_of(const Model& model, int node) {
-  while (const auto above = model.node(node).carrier) node = *above;
-  return node;
-}
-
 /// Returns the points at which joints act on each node, in the inertial frame at the start.
 std::map<int, std::vector<Vector3>> attachments(const Model& model) {
   std::map<int, std::vector<Vector3>> points;
@@ -32,7 +27,7 @@ std::map<int, std::vector<Vector3>> attachments(const Model& model) {
     if (joint == nullptr) continue;
     const JointFrames& frames = joint->frames();
     for (const auto& [node, on_node] : {std::pair{frames.first, frames.on_first}, {frames.second, frames.on_second}})
-      points[carrier_of(model, node)].push_back((model.node(node).frame * on_node).x);
+      points[model.root_carrier(node)].push_back((model.node(node).frame * on_node).x);
   }
   return points;
 }
@@ -54,7 +49,7 @@ void warn_of_lengths(const Model& model, const YamlValue& root) {
   for (const Member& member : model.members()) {
     const auto* body = dynamic_cast<const RigidBody*>(member.component.get());
     if (body == nullptr) continue;
-    const auto found = points.find(carrier_of(model, body->node()));
+    const auto found = points.find(model.root_carrier(body->node()));
     const double trace = body->properties().inertia.trace();
     if (found == points.end() || !(trace > 0)) continue;
     const double between = largest_distance(found->second), radius = std::sqrt(0.5 * trace / body->properties().mass);

@@ -9,6 +9,7 @@
 #include "mechanism/elements/superelement/body_points.hpp"
 #include "mechanism/hydraulics/reading/circuit_reader.hpp"
 #include "mechanism/io/component_table.hpp"
+#include "mechanism/io/idle_joints.hpp"
 #include "mechanism/io/implausible_lengths.hpp"
 #include "mechanism/io/mechanism_keys.hpp"
 #include "mechanism/io/node_reader.hpp"
@@ -100,6 +101,7 @@ MechanismFile read_mechanism(const std::string& text, const std::string& name, c
   file.model.connect();
   add_supports(file.model);
   warn_of_lengths(file.model, root);
+  warn_of_idle_joints(file.model, root);
   if (file.model.members().empty()) root.fail("the mechanism has no elements, joints or loads");
 
   if (const auto analyses = root.find("analysis"))

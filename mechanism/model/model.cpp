@@ -26,6 +26,13 @@ std::optional<int> Model::find_node(const std::string& name) const {
   return found == node_index_.end() ? std::nullopt : std::optional<int>(found->second);
 }
 
+int Model::root_carrier(int node) const {
+  // (Carriers in a circle are reported as an error when all of the model has been read.)
+  for (std::size_t k = 0; nodes_[static_cast<std::size_t>(node)].carrier && k < nodes_.size(); ++k)
+    node = *nodes_[static_cast<std::size_t>(node)].carrier;
+  return node;
+}
+
 Component& Model::add(std::unique_ptr<Component> component, const Entry& entry, Recorded recorded) {
   add_to_index(entry, members_.size());
   members_.push_back({std::move(component), entry, entry, recorded});

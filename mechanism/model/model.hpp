@@ -66,6 +66,8 @@ class Model {
   Node& node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
   const std::vector<Node>& nodes() const { return nodes_; }
   std::optional<int> find_node(const std::string& name) const;
+  /// Returns the node that carries a node rigidly, directly or over other nodes; the node itself if none does.
+  int root_carrier(int node) const;
 
   /// Adds a component that is created from an entry. Several components may be created from one entry (the joint first,
   /// then its springs).

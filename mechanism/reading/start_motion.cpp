@@ -32,10 +32,7 @@ void follow(Model& model, const std::function<void()>& rule, int rounds) {
 }  // namespace
 
 StartMotion start_motion(const Model& model, int node) {
-  int root = node;
-  // (Carriers in a circle are reported as an error later.)
-  for (std::size_t k = 0; model.node(root).carrier && k < model.nodes().size(); ++k) root = *model.node(root).carrier;
-  const StartMotion motion = own_motion(model.node(root));
+  const StartMotion motion = own_motion(model.node(model.root_carrier(node)));
   const Vector3 x = model.node(node).frame.x;
   return {x, motion.at(x), motion.omega};
 }

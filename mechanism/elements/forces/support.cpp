@@ -92,8 +92,7 @@ void add_supports(Model& model) {
   std::map<int, int> held_by;  // for each node that is held, or carried by a held one
   const int count = static_cast<int>(model.nodes().size());
   for (int k = 1; k < count; ++k) {
-    int top = k;
-    while (const auto carrier = model.node(top).carrier) top = *carrier;
+    const int top = model.root_carrier(k);
     const auto& freedom = model.node(top).freedom;
     if (top != 0 && !model.node(top).internal &&
         std::any_of(freedom.begin(), freedom.end(), [](Freedom f) { return f != Freedom::free; }))

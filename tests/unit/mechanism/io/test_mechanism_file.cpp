@@ -95,6 +95,29 @@ TEST_CASE("bodies that carry each other in a circle are refused where they stand
              Contains("model.yaml:8: elements.second.also") && Contains("circle"));
 }
 
+TEST_CASE("a joint between nodes of one rigid part is told, since it holds nothing") {
+  const auto warnings = [](const std::string& nodes) {
+    return read_mechanism_text(
+               "nodes: {crank: {}, pin: {position: [0.1, 0, 0]}, rod: {position: [0.1, 0, 0]}, wall: {fixed: true}}\n"
+               "elements:\n"
+               "  crank: {type: rigid_body, node: crank, mass: 1, inertia: [1, 1, 1], also: [pin]}\n"
+               "  rod: {type: rigid_body, node: rod, mass: 1, inertia: [1, 1, 1]}\n"
+               "joints:\n"
+               "  knuckle: {type: hinge, nodes: [" +
+                   nodes + "], axis: [0, 0, 1]}\n",
+               "model.yaml")
+        .warnings;
+  };
+  for (const std::string nodes : {"crank, pin", "pin, crank"}) {
+    REQUIRE(warnings(nodes).size() == 1);
+    CHECK_THAT(warnings(nodes)[0], Contains("model.yaml:6: joints.knuckle") && Contains("same rigid part"));
+  }
+  REQUIRE(warnings("ground, wall").size() == 1);
+  CHECK_THAT(warnings("ground, wall")[0], Contains("are both held"));
+  CHECK(warnings("pin, rod").empty());
+  CHECK(warnings("ground, crank").empty());
+}
+
 TEST_CASE("velocities of what is held are refused, not forgotten") {
   CHECK_THAT(refusal("  a: {velocity: [0, 1, 0], fixed: [y]}"), Contains("nodes.a.velocity") && Contains("y"));
   CHECK_THAT(refusal("  a: {velocity: [0, 1, 0], fixed: true}"), Contains("nodes.a.velocity"));
