@@ -21,9 +21,9 @@ FIRST = BAR * ARM / 2 + BALL * ARM                    # its first moment [kg m]
 
 
 def turning_inertia(th):
-    """Z and dZ/dth: of both arms, the shaft and the slider about z."""
+    """Z and dZ/dth: inertia of both arms, the shaft and the slider about z."""
     s, c = np.sin(th), np.cos(th)
-    # Of one arm: sum m (e + u sin th)^2 of the axis line, and the thickness across it.
+    # One arm has the sum of m (e + u sin th)^2 of its axis line, and the thickness across it.
     lines = (BAR + BALL) * OFFSET**2 + 2 * OFFSET * FIRST * s + (BAR * ARM**2 / 3 + BALL * ARM**2) * s**2
     thick = BAR * THIN / 12 * (1 + c**2)
     fixed = BAR * THIN / 6 + CUBE * 0.01 / 6

@@ -38,12 +38,14 @@ def entries(folder):
 
 
 def chosen(known, names, quick):
-    """The entries that are asked for, all without names. @raises ValueError"""
+    """The entries that are asked for, all without names; with `quick` those that take little time. @raises ValueError"""
     by_name = {entry.name: entry for entry in known}
     for name in names:
         if name not in by_name:
             near = difflib.get_close_matches(name, by_name, 1)
             raise ValueError(f"there is no problem '{name}'" +
                              (f"; did you mean '{near[0]}'?" if near else "; --list shows them"))
+        if quick and not by_name[name]["quick"]:
+            raise ValueError(f"'{name}' takes longer: leave out --quick")
     found = [by_name[name] for name in dict.fromkeys(names)] if names else known
     return [entry for entry in found if entry["quick"] or not quick]

@@ -33,12 +33,19 @@ def plain(value):
     return [plain(each) for each in value] if isinstance(value, (list, tuple)) else value
 
 
+def figure(study):
+    """The figure of a study; empty if its levels are no refinement. Only others need matplotlib, which is slow to load."""
+    if not study["by"] or len(study["levels"]) < 2:
+        return ""
+    from harness.figures import convergence
+    return convergence(study)
+
+
 def main(path, output):
     """Writes the result, with the figure of each study."""
     result = compute_problem(load(path))
-    from harness.figures import convergence
     for study in result["studies"]:
-        study["figure"] = convergence(study)
+        study["figure"] = figure(study)
     with open(output, "w", encoding="utf-8") as file:
         json.dump(plain(result), file, allow_nan=False)
 

@@ -10,10 +10,8 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 def convergence(study):
     """The figure of a study: errors over the level, and over processor time, each relative to its tolerance.
 
-    @returns SVG text, empty if there is no refinement or no error to draw
+    @returns SVG text, empty if there is no error to draw
     """
-    if not study["by"] or len(study["levels"]) < 2:
-        return ""
     drawn = [(quantity, points(study, quantity)) for quantity in study["quantities"]]
     drawn = [(quantity, found) for quantity, found in drawn if len(found) > 1]
     if not drawn:
@@ -28,6 +26,7 @@ def convergence(study):
         if quantity["expected_order"] is not None:
             slope = quantity["expected_order"] * (1 if study["by"] == "step" else -1)
             left.loglog(levels, [errors[-1] * (level / levels[-1])**slope for level in levels], "--", color=colour, linewidth=0.8)
+    left.set_xticks([level["level"] for level in study["levels"]])
     plain = FuncFormatter(lambda value, _: f"{value:g}")  # exponents as mathematics take most of the time of a figure
     for axes in (left, right):
         for axis in (axes.xaxis, axes.yaxis):

@@ -6,6 +6,8 @@ import time
 
 import numpy as np
 
+from .problem import numbers
+
 
 def processor_time():
     """Processor time of this process and of the programs that it has run [s]."""
@@ -53,7 +55,7 @@ def judge(study, quantity, values):
     return {"name": quantity.name, "meaning": quantity.meaning, "unit": quantity.unit, "error_unit": quantity.error_unit,
             "reference": np.asarray(quantity.reference, dtype=float).tolist(), "source": quantity.source,
             "known_to": quantity.known_to, "tolerance": quantity.tolerance, "reason": quantity.reason,
-            "values": [np.asarray(value, dtype=float).tolist() for value in values], "errors": errors, "order": order,
+            "values": [numbers(value).tolist() for value in values], "errors": errors, "order": order,
             "levels_in_order": used, "expected_order": quantity.order, "order_within": quantity.order_within,
             "order_at_least": quantity.order_at_least, "order_reason": quantity.order_reason,
             "passed": not failures, "failures": failures}

@@ -10,7 +10,7 @@ LIBRARIES = ("openblas", "blas", "lapack", "cholmod", "umfpack", "spqr", "arpack
 
 
 def described(programs, repository):
-    """[(what, text), ..] for the head of the report."""
+    """Pairs of a name and a text for the head of the report."""
     program = os.path.join(programs, "bielle-mechanism")
     facts = [("program", " ".join(filter(None, (_output([program, "--version"]), _commit(repository))))),
              ("date", datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")),

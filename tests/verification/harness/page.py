@@ -4,6 +4,7 @@ import html
 import math
 import re
 
+SUBJECTS = ["Rigid mechanisms", "Beams at rest", "Beams in motion", "Solids and superelements", "Hydraulics and friction", "Integration in time"]
 STYLE = """
 body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 66em; padding: 0 1em; color: #222; }
 table { border-collapse: collapse; margin: 0.6em 0 1em; font-size: 13px; }
@@ -21,6 +22,7 @@ def page(results, facts, quick):
     failed = [result for result in results.values() if not result["passed"]]
     verdict = f"{len(failed)} of {len(results)} problems failed: {', '.join(result['name'] for result in failed)}" if failed else \
         f"All {len(results)} problems passed"
+    results = dict(sorted(results.items(), key=lambda item: (place(item[1]["subject"]), item[1]["title"])))
     subjects = list(dict.fromkeys(result["subject"] for result in results.values()))
     parts = ["<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Bielle: verification</title>", f"<style>{STYLE}</style></head><body>",
              "<h1>Verification of Bielle</h1>", f"<p class='{'failed' if failed else 'passed'}'>{text(verdict)}.</p>",
@@ -33,6 +35,11 @@ def page(results, facts, quick):
         parts.append(f"<h2>{text(subject or 'Problems')}</h2>")
         parts += [section(result) for result in results.values() if result["subject"] == subject]
     return "\n".join(filter(None, parts)) + "\n</body></html>\n"
+
+
+def place(subject):
+    """Place of a subject among the others; unknown ones come last."""
+    return (SUBJECTS.index(subject), "") if subject in SUBJECTS else (len(SUBJECTS), subject)
 
 
 def summary(results):
@@ -71,7 +78,7 @@ def quantities_table(study):
     for quantity in study["quantities"]:
         expected = "-" if quantity["expected_order"] is None else \
             f"{'at least ' if quantity['order_at_least'] else ''}{quantity['expected_order']:g} &plusmn; {quantity['order_within']:g}"
-        order = number(quantity["order"], 3) if quantity["expected_order"] is not None else "-"
+        order = f"{float(quantity['order']):.2f}" if quantity["expected_order"] is not None else "-"
         remark = f"<br><span class='quiet'>{text(quantity['order_reason'])}</span>" if quantity["order_reason"] else ""
         lines.append([f"{text(quantity['meaning'])} [{text(quantity['unit'])}]", values(quantity["reference"]), text(quantity["source"]),
                       f"{number(quantity['tolerance'], 2)} ({text(quantity['error_unit'])}): {text(quantity['reason'])}", order, expected + remark,

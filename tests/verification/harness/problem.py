@@ -7,6 +7,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 
+def numbers(value):
+    """The value as an array of numbers; without any if it holds something else."""
+    try:
+        return np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        return np.zeros(0)
+
+
 @dataclass
 class Quantity:
     """A computed quantity with its reference.
@@ -38,9 +46,9 @@ class Quantity:
     order_reason: str = ""
 
     def __post_init__(self):
-        reference = np.asarray(self.reference, dtype=float)
-        if not np.all(np.isfinite(reference)):
-            raise ValueError(f"'{self.name}': the reference is not finite")
+        reference = numbers(self.reference)
+        if not (reference.size and np.all(np.isfinite(reference))):
+            raise ValueError(f"'{self.name}': the reference is no finite number")
         if not (math.isfinite(self.tolerance) and self.tolerance > 0 and self.reason and self.source):
             raise ValueError(f"'{self.name}': a quantity has a positive tolerance with its reason, and a source")
         scale = np.linalg.norm(reference) if self.relative else 1.0
@@ -51,7 +59,7 @@ class Quantity:
 
     def error(self, value):
         """The error of a computed value; not a number if the value has another shape or is not finite."""
-        reference, value = np.asarray(self.reference, dtype=float), np.asarray(value, dtype=float)
+        reference, value = np.asarray(self.reference, dtype=float), numbers(value)
         if value.shape != reference.shape or not np.all(np.isfinite(value)):
             return math.nan
         return float(np.linalg.norm(value - reference) / (np.linalg.norm(reference) if self.relative else 1.0))

@@ -28,7 +28,7 @@ SECTION = "{rectangle: [0.008, 0.008], young: 2e11, poisson: 0.3, density: 7870,
 EXACT = "geometrically exact rod by a spectral element (tests/references/flexible_crank.py)"
 
 
-TURNING = -74.9957670  # of the line between the rod's ends at the smooth start [rad/s]
+TURNING = -74.9957670  # rate of the line between the rod's ends at the smooth start [rad/s]
 
 
 def parabola(x, middle, end):

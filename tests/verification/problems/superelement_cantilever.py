@@ -22,7 +22,7 @@ def session(path, root, force):
 
 
 def deflection(side):
-    """Of the tip under 0.01 N [m]."""
+    """Deflection of the tip under 0.01 N [m]."""
     young, shear = STEEL["young"], STEEL["young"] / (2 * (1 + STEEL["poisson"]))
     return 0.01 * (1 / (3 * young * side**4 / 12) + 1 / (5 / 6 * shear * side**2))
 
