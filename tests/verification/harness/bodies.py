@@ -35,7 +35,8 @@ def grid(divisions):
 
 
 def reduced(name, geometry, **keys):
-    """Path of the superelement of a steel body. @param geometry  text for gmsh @param keys  of the body file
+    """Path of the superelement of a body, of STEEL unless `materials` has another `steel`.
+    @param geometry  text for gmsh, with the volume `body` @param keys  of the body file
     @raises RuntimeError with the message of bielle-reduce"""
     with open(f"{name}.geo", "w", encoding="utf-8") as file:
         file.write(geometry)
