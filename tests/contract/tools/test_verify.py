@@ -138,6 +138,12 @@ class Judgement(unittest.TestCase):
         self.assertEqual(len(self.failures(lambda h: 1 + h)), 1)
         self.assertEqual(len(self.failures(lambda h: 1 + h**2, (0.2, 0.3), "")), 2)
 
+    def test_the_coarsest_accurate_level_is_found(self):
+        for tolerance, expected in ((1, 0), (3e-3, 1), (7e-4, 2), (1e-4, None)):
+            study = Study("study", lambda h: {"x": 1 + h**2}, [0.1, 0.05, 0.025], [self.quantity(tolerance=tolerance)])
+            found = compute_problem(Problem("title", "subject", "source", "model", [study]))["studies"][0]["kept_from"]
+            self.assertEqual(found, expected, tolerance)
+
     def test_no_number_fails_at_any_level_whatever_its_kind(self):
         for wrong in (math.nan, math.inf, [1.0, 1.0], None):
             for at in (0.1, 0.025):

@@ -38,9 +38,19 @@ def compute_study(study):
         if missing:
             raise KeyError(f"'{study.title}' computes no {', '.join(missing)}")
         values.append(found)
-    return {"title": study.title, "parameter": study.parameter, "by": study.by, "levels": levels,
-            "quantities": [judge(study, quantity, [found[quantity.name] for found in values])
-                           for quantity in study.quantities]}
+    quantities = [judge(study, quantity, [found[quantity.name] for found in values]) for quantity in study.quantities]
+    return {"title": study.title, "parameter": study.parameter, "by": study.by, "levels": levels, "quantities": quantities,
+            "kept_from": kept_from(quantities, len(levels)) if study.by else None}
+
+
+def kept_from(quantities, count):
+    """Number of the coarsest level from which on all quantities keep their tolerances; None if the last does not."""
+    found = None
+    for k in reversed(range(count)):
+        if not all(quantity["errors"][k] <= quantity["tolerance"] for quantity in quantities):
+            break
+        found = k
+    return found
 
 
 def judge(study, quantity, values):

@@ -68,7 +68,7 @@ def section(result):
     if result["failures"]:
         parts.append("<div class='failures'>" + "<br>".join(text(sentence) for sentence in result["failures"]) + "</div>")
     for study in result["studies"]:
-        parts += [f"<h4>{text(study['title'])}</h4>", quantities_table(study), errors_table(study), study.get("figure", "")]
+        parts += [f"<h4>{text(study['title'])}</h4>", quantities_table(study), errors_table(study), precision(study), study.get("figure", "")]
     return "\n".join(filter(None, parts))
 
 
@@ -92,6 +92,14 @@ def errors_table(study):
     lines = [[text(f"{level['level']}"), *(number(quantity["errors"][k], 3) for quantity in study["quantities"]), number(level["processor_time"], 3)]
              for k, level in enumerate(study["levels"])]
     return table([text(head) for head in heads], lines, numbers=range(len(heads)))
+
+
+def precision(study):
+    """The sentence with which a benchmark is submitted: the coarsest level that is accurate enough, and its processor time."""
+    if study["kept_from"] is None or len(study["levels"]) < 2:
+        return ""
+    level = study["levels"][study["kept_from"]]
+    return f"<p class='quiet'>All tolerances are kept from {text(study['parameter'])} = {text(level['level'])} on, with {number(level['processor_time'], 2)} s of processor time.</p>"
 
 
 def table(heads, lines, numbers=()):
