@@ -4,7 +4,7 @@ import io
 import math
 
 from bielle_tools.plot_style import COLOURS, plt
-from matplotlib.ticker import FuncFormatter, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 
 def convergence(study):
@@ -26,13 +26,15 @@ def convergence(study):
         if quantity["expected_order"] is not None:
             slope = quantity["expected_order"] * (1 if study["by"] == "step" else -1)
             left.loglog(levels, [errors[-1] * (level / levels[-1])**slope for level in levels], "--", color=colour, linewidth=0.8)
-    left.set_xticks([level["level"] for level in study["levels"]])
     plain = FuncFormatter(lambda value, _: f"{value:g}")  # exponents as mathematics take most of the time of a figure
     for axes in (left, right):
         for axis in (axes.xaxis, axes.yaxis):
+            low, high = axis.get_data_interval()
+            axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 30 * low else (1,)))
             axis.set_major_formatter(plain)
             axis.set_minor_locator(NullLocator())
         axes.axhline(1.0, color="#888888", linewidth=0.9, linestyle=":")
+    left.set_xticks([level["level"] for level in study["levels"]])
     left.set_xlabel(study["parameter"])
     left.set_ylabel("error / tolerance")
     if study["by"] == "step":

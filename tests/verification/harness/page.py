@@ -80,10 +80,10 @@ def quantities_table(study):
             f"{'at least ' if quantity['order_at_least'] else ''}{quantity['expected_order']:g} &plusmn; {quantity['order_within']:g}"
         order = f"{float(quantity['order']):.2f}" if quantity["expected_order"] is not None else "-"
         remark = f"<br><span class='quiet'>{text(quantity['order_reason'])}</span>" if quantity["order_reason"] else ""
-        lines.append([f"{text(quantity['meaning'])} [{text(quantity['unit'])}]", values(quantity["reference"]), text(quantity["source"]),
+        lines.append([f"{text(quantity['meaning'])} [{text(quantity['unit'])}]", values(quantity["reference"]), values(quantity["values"][-1]), text(quantity["source"]),
                       f"{number(quantity['tolerance'], 2)} ({text(quantity['error_unit'])}): {text(quantity['reason'])}", order, expected + remark,
                       mark(quantity["passed"])])
-    return table(["quantity", "reference", "source of the reference", "tolerance and its reason", "observed order", "expected", ""], lines)
+    return table(["quantity", "reference", f"computed, {text(study['parameter'])} {text(study['levels'][-1]['level'])}", "source of the reference", "tolerance and its reason", "observed order", "expected", ""], lines)
 
 
 def errors_table(study):
@@ -121,10 +121,12 @@ def number(value, digits):
 
 
 def values(reference):
-    """A reference of one or several numbers."""
+    """One or several numbers, as texts or lists of a result."""
     if not isinstance(reference, list):
-        return f"{float(reference):.12g}"
-    return "<br>".join(", ".join(f"{value:.10g}" for value in (line if isinstance(line, list) else [line])) for line in reference)
+        return f"{float(reference):.9g}"
+    if any(isinstance(line, list) for line in reference):
+        return "<br>".join(map(values, reference))
+    return ", ".join(f"{float(value):.9g}" for value in reference) or "no numbers"
 
 
 def text(words):
