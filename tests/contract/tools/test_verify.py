@@ -76,9 +76,11 @@ class Report(InFolder):
             self.write(f"{name}.py", PLAIN.format(body=body, title=f"Sample <{name}>", more=""))
         self.write("no_problem.py", "print('nothing')\n")
         self.write("no_python.py", "PROBLEM = (\n")
-        done = verify("--problems", self.folder, "-o", self.path("page"))
+        self.write("binary.py", "\udcff\udcfe", errors="surrogateescape")
+        os.mkdir(self.path("folder.py"))
+        done = verify("--problems", os.path.relpath(self.folder), "-o", self.path("page"))
         self.assertEqual(done.returncode, 1, done.stderr)
-        failed = {"wrong_reference", "undefined", "crashing", "refused", "incomplete", "no_problem", "no_python"}
+        failed = {"binary", "wrong_reference", "undefined", "crashing", "refused", "incomplete", "no_problem", "no_python"}
         self.assertIn(f"failed: {', '.join(sorted(failed))}", done.stderr)
         with open(self.path("page/results.json"), encoding="utf-8") as file:
             results = json.load(file, parse_constant=lambda word: self.fail(f"{word} is no JSON"))
@@ -88,7 +90,7 @@ class Report(InFolder):
         self.assertIn("bielle-mechanism 0.", results["machine"]["program"])
         for name, sentences in (("wrong_reference", ["the observed order is ", "expected 2 +- 0.1"]), ("undefined", ["the result is not a number"]),
                                 ("crashing", ["crashed: SIGSEGV"]), ("refused", ["did you mean 'position'?"]), ("incomplete", ["computes no x"]),
-                                ("no_problem", ["defines no PROBLEM"]), ("no_python", ["was never closed"])):
+                                ("no_problem", ["defines no PROBLEM"]), ("no_python", ["was never closed"]), ("binary", ["SyntaxError"])):
             said = "\n".join(problems[name]["failures"])
             for sentence in sentences:
                 self.assertIn(sentence, said, name)
@@ -103,7 +105,7 @@ class Report(InFolder):
         """The page holds everything itself, and says what the file for programs says."""
         with open(self.path("page/index.html"), encoding="utf-8") as file:
             page = file.read()
-        self.assertIn(f"7 of {len(problems)} problems failed", page)
+        self.assertIn(f"8 of {len(problems)} problems failed", page)
         self.assertEqual(page.count("<svg"), 2)  # two problems have a refinement that could be computed
         self.assertNotRegex(page, r"(src|href)=[\"'](?!#)")
         self.assertEqual(set(re.findall(r"<h3 id='(\w+)'", page)), set(problems))

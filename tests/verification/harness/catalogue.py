@@ -11,7 +11,7 @@ class Entry:
     """A problem file and the words of its PROBLEM that are needed before it is run."""
 
     def __init__(self, path):
-        self.path = path
+        self.path = os.path.abspath(path)
         self.name = os.path.splitext(os.path.basename(path))[0]
         self.words = {"title": self.name, "subject": "", "source": "", "model": "", "quick": False, "long": False}
         self.words.update(_words(path))
@@ -22,10 +22,10 @@ class Entry:
 
 def _words(path):
     """Literal arguments of the call Problem(..) in a file; none if the file is no Python, which its run reports."""
-    with open(path, encoding="utf-8") as file:
+    with open(path, "rb") as file:
         try:
             tree = ast.parse(file.read())
-        except SyntaxError:
+        except (SyntaxError, ValueError):
             return {}
     calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Problem"]
     return {each.arg: each.value.value for call in calls for each in call.keywords if isinstance(each.value, ast.Constant)}
@@ -33,7 +33,8 @@ def _words(path):
 
 def entries(folder):
     """All problems of a folder by name. @raises OSError"""
-    names = sorted(name for name in os.listdir(folder) if name.endswith(".py") and not name.startswith("_"))
+    names = sorted(name for name in os.listdir(folder)
+                   if name.endswith(".py") and not name.startswith("_") and os.path.isfile(os.path.join(folder, name)))
     return [Entry(os.path.join(folder, name)) for name in names]
 
 
