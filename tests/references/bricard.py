@@ -74,7 +74,8 @@ def fill(rows):
     for t, z in zip(times, states):
         chain = Chain(z[:5], z[5:])
         if np.abs(chain.gap).max() > 1e-8 or abs(chain.energy - start) > 1e-8:
-            raise ArithmeticError(f"at {t} s the chain is open by {np.abs(chain.gap).max():g}, its energy wrong by {chain.energy - start:g} J")
+            raise ArithmeticError(f"at {t} s the chain is open by {np.abs(chain.gap).max():g}, its energy wrong by "
+                                  f"{chain.energy - start:g} J")
         rows.add_vector(f"{t:g}.place", chain.hinges[3], 1e-7, f"hinge of rods 3 and 4 at {t:g} s [m]")
     rows.add("energy", start, 1e-12, "potential energy at the start [J]")
 

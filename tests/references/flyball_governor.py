@@ -52,7 +52,8 @@ def fill(rows):
         return np.array([psidot, thdot, sdot, thddot, -G - 2 * force * by_s / CUBE])
 
     times = [0.1, 1.0, 5.0, 10.0]
-    for t, z in zip(times, motion.integrate(rate, [0.0, start, 0.5, 0.0, 0.0], times, agree=1e-8, rtol=1e-11, atol=1e-13)):
+    for t, z in zip(times, motion.integrate(rate, [0.0, start, 0.5, 0.0, 0.0], times, agree=1e-8, rtol=1e-11,
+                                            atol=1e-13)):
         rows.add(f"{t:g}.s", z[2], 1e-8, f"place of the slider on the shaft at {t:g} s [m]")
         rows.add(f"{t:g}.arm", z[1], 1e-8, f"angle of the arms from the downward vertical at {t:g} s [rad]")
         rows.add(f"{t:g}.turn", z[0], 1e-7, f"angle of the shaft at {t:g} s [rad]")

@@ -17,7 +17,8 @@ LOADS, ANGLES = (4.448, 8.896, 13.345), (15, 30, 45, 60, 75)
 def tip(angle, loads):
     """Places of the tip under loads that ascend, the last one returned. The section's y axis is along its thin side."""
     A, c, s = WIDE * THIN, np.cos(np.radians(angle)), np.sin(np.radians(angle))
-    rod = rods.Space(G * rods.saint_venant(WIDE, THIN), E * A * WIDE**2 / 12, E * A * THIN**2 / 12, E * A, 5 / 6 * G * A, 5 / 6 * G * A)
+    rod = rods.Space(G * rods.saint_venant(WIDE, THIN), E * A * WIDE**2 / 12, E * A * THIN**2 / 12, E * A,
+                     5 / 6 * G * A, 5 / 6 * G * A)
     root = np.array([[1, 0, 0], [0, c, -s], [0, s, c]], float)  # columns: along x, the thin side, the wide side
     moment = np.zeros(3)
 
@@ -32,7 +33,8 @@ def tip(angle, loads):
 def fill(rows):
     for load in LOADS:
         for angle in ANGLES:
-            rows.add_vector(f"{load}.{angle}", tip(angle, np.linspace(0, load, 13)[1:]), 1e-10, f"tip under {load} N at {angle} degrees [m]")
+            rows.add_vector(f"{load}.{angle}", tip(angle, np.linspace(0, load, 13)[1:]), 1e-10,
+                            f"tip under {load} N at {angle} degrees [m]")
 
 
 if __name__ == "__main__":

@@ -36,7 +36,8 @@ PROBLEM = Problem(title="{title}", subject="Samples", source="none", model="none
 
 
 def verify(*arguments):
-    return run_python_tool(os.path.join(REPOSITORY, "tools", "verify"), arguments, environment={**os.environ, "BIELLE_BIN": PROGRAMS})
+    return run_python_tool(os.path.join(REPOSITORY, "tools", "verify"), arguments,
+                           environment={**os.environ, "BIELLE_BIN": PROGRAMS})
 
 
 class Usage(InFolder):
@@ -51,10 +52,14 @@ class Usage(InFolder):
         self.assertTrue(0 < len(quick) < len(files))
 
     def test_wrong_words_are_named(self):
-        for arguments, sentence in ((["simple_pendulun"], "there is no problem 'simple_pendulun'; did you mean 'simple_pendulum'?"),
-                                    (["-j", "0"], "'0': expected a whole number between 1 and 1000"), (["-j", "2.5"], "'2.5': expected a whole number"),
-                                    (["--fast"], "'--fast' is not an option"), (["--problems", self.path("none")], "No such file"),
-                                    (["--problems", self.folder], "has no problem to compute"), (["--quick", "four_bar_loops"], "takes longer")):
+        for arguments, sentence in ((["simple_pendulun"],
+                                     "there is no problem 'simple_pendulun'; did you mean 'simple_pendulum'?"),
+                                    (["-j", "0"], "'0': expected a whole number between 1 and 1000"),
+                                    (["-j", "2.5"], "'2.5': expected a whole number"),
+                                    (["--fast"], "'--fast' is not an option"),
+                                    (["--problems", self.path("none")], "No such file"),
+                                    (["--problems", self.folder], "has no problem to compute"),
+                                    (["--quick", "four_bar_loops"], "takes longer")):
             done = verify(*arguments, "-o", self.path("page"))
             self.assertEqual(done.returncode, 1, (arguments, done.stderr))
             self.assertIn(sentence, done.stderr)
@@ -69,10 +74,13 @@ class Report(InFolder):
         known = '**row("four_bar", "released.crank")'
         self.assertIn(known, four_bar)
         self.write("good.py", four_bar)
-        self.write("wrong_reference.py", four_bar.replace(known, "reference=-4.5615, known_to=1e-9"))  # it ends with 85 and is 2e-5 away
-        for name, body in (("exact", "return {'x': 2.0}"), ("undefined", "return {'x': float('nan') if level == 1 else 2.0}"),
+        self.write("wrong_reference.py",
+                   four_bar.replace(known, "reference=-4.5615, known_to=1e-9"))  # it ends with 85 and is 2e-5 away
+        for name, body in (("exact", "return {'x': 2.0}"), ("undefined",
+                                                            "return {'x': float('nan') if level == 1 else 2.0}"),
                            ("crashing", "os.kill(os.getpid(), signal.SIGSEGV)"),
-                           ("refused", "import bielle; bielle.read('nodes: {a: {positon: [0, 0, 0]}}')"), ("incomplete", "return {'y': 2.0}")):
+                           ("refused", "import bielle; bielle.read('nodes: {a: {positon: [0, 0, 0]}}')"),
+                           ("incomplete", "return {'y': 2.0}")):
             self.write(f"{name}.py", PLAIN.format(body=body, title=f"Sample <{name}>", more=""))
         self.write("no_problem.py", "print('nothing')\n")
         self.write("no_python.py", "PROBLEM = (\n")
@@ -80,7 +88,8 @@ class Report(InFolder):
         os.mkdir(self.path("folder.py"))
         done = verify("--problems", os.path.relpath(self.folder), "-o", self.path("page"))
         self.assertEqual(done.returncode, 1, done.stderr)
-        failed = {"binary", "wrong_reference", "undefined", "crashing", "refused", "incomplete", "no_problem", "no_python"}
+        failed = {"binary", "wrong_reference", "undefined", "crashing", "refused", "incomplete", "no_problem",
+                  "no_python"}
         self.assertIn(f"failed: {', '.join(sorted(failed))}", done.stderr)
         with open(self.path("page/results.json"), encoding="utf-8") as file:
             results = json.load(file, parse_constant=lambda word: self.fail(f"{word} is no JSON"))
@@ -88,9 +97,12 @@ class Report(InFolder):
         self.assertEqual({name for name, problem in problems.items() if not problem["passed"]}, failed)
         self.assertFalse(results["passed"])
         self.assertIn("bielle-mechanism 0.", results["machine"]["program"])
-        for name, sentences in (("wrong_reference", ["the observed order is ", "expected 2 +- 0.1"]), ("undefined", ["the result is not a number"]),
-                                ("crashing", ["crashed: SIGSEGV"]), ("refused", ["did you mean 'position'?"]), ("incomplete", ["computes no x"]),
-                                ("no_problem", ["defines no PROBLEM"]), ("no_python", ["was never closed"]), ("binary", ["SyntaxError"])):
+        for name, sentences in (("wrong_reference", ["the observed order is ", "expected 2 +- 0.1"]),
+                                ("undefined", ["the result is not a number"]),
+                                ("crashing", ["crashed: SIGSEGV"]), ("refused", ["did you mean 'position'?"]),
+                                ("incomplete", ["computes no x"]),
+                                ("no_problem", ["defines no PROBLEM"]), ("no_python", ["was never closed"]),
+                                ("binary", ["SyntaxError"])):
             said = "\n".join(problems[name]["failures"])
             for sentence in sentences:
                 self.assertIn(sentence, said, name)
@@ -116,7 +128,8 @@ class Report(InFolder):
 
 class Judgement(unittest.TestCase):
     def quantity(self, **keys):
-        return Quantity(**{"name": "x", "meaning": "x", "unit": "m", "reference": 1.0, "source": "s", "tolerance": 1e-2, "reason": "r", **keys})
+        return Quantity(**{"name": "x", "meaning": "x", "unit": "m", "reference": 1.0, "source": "s",
+                           "tolerance": 1e-2, "reason": "r", **keys})
 
     def failures(self, compute, levels=(0.1, 0.05, 0.025), by="step", **keys):
         study = Study("study", lambda level: {"x": compute(level)}, list(levels), [self.quantity(**keys)], by=by)
@@ -149,14 +162,17 @@ class Judgement(unittest.TestCase):
     def test_no_number_fails_at_any_level_whatever_its_kind(self):
         for wrong in (math.nan, math.inf, [1.0, 1.0], None):
             for at in (0.1, 0.025):
-                self.assertIn("not a number", self.failures(lambda h, a=at, w=wrong: w if h == a else 1.0)[0], (wrong, at))
+                self.assertIn("not a number", self.failures(lambda h, a=at, w=wrong: w if h == a else 1.0)[0],
+                              (wrong, at))
 
     def test_a_meaningless_description_is_refused(self):
-        for keys in ({"tolerance": 0}, {"tolerance": math.nan}, {"reason": ""}, {"source": ""}, {"reference": math.nan}, {"known_to": 0.02},
+        for keys in ({"tolerance": 0}, {"tolerance": math.nan}, {"reason": ""}, {"source": ""},
+                     {"reference": math.nan}, {"known_to": 0.02},
                      {"reference": 0.0, "relative": True}):
             with self.assertRaises(ValueError, msg=keys):
                 self.quantity(**keys)
-        for levels, by, order in (((0.1, 0.2), "step", None), ((), "step", None), ((1, 2), "", 2), ((2, 1), "elements", None), ((1,), "mesh", None)):
+        for levels, by, order in (((0.1, 0.2), "step", None), ((), "step", None), ((1, 2), "", 2),
+                                  ((2, 1), "elements", None), ((1,), "mesh", None)):
             with self.assertRaises(ValueError, msg=(levels, by)):
                 Study("study", mock.Mock(), list(levels), [self.quantity(order=order)], by=by)
 

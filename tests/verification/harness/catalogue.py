@@ -27,8 +27,10 @@ def _words(path):
             tree = ast.parse(file.read())
         except (SyntaxError, ValueError):
             return {}
-    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Problem"]
-    return {each.arg: each.value.value for call in calls for each in call.keywords if isinstance(each.value, ast.Constant)}
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and getattr(node.func, "id",
+                                                                                       "") == "Problem"]
+    return {each.arg: each.value.value for call in calls for each in call.keywords if isinstance(each.value,
+                                                                                                 ast.Constant)}
 
 
 def entries(folder):

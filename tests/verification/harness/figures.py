@@ -17,7 +17,8 @@ def convergence(study):
     if not drawn:
         return ""
     fig, (left, right) = plt.subplots(1, 2, figsize=(9.0, 2.9), sharey=True, layout="none")
-    fig.subplots_adjust(left=0.08, right=0.68, bottom=0.18, top=0.95, wspace=0.08)  # a layout that is searched takes a second
+    fig.subplots_adjust(left=0.08, right=0.68, bottom=0.18, top=0.95,
+                        wspace=0.08)  # a layout that is searched takes a second
     for k, (quantity, found) in enumerate(drawn):
         colour = COLOURS[k % len(COLOURS)]
         levels, times, errors = zip(*found)
@@ -25,7 +26,8 @@ def convergence(study):
         right.loglog(times, errors, "o-", color=colour, markersize=4)
         if quantity["expected_order"] is not None:
             slope = quantity["expected_order"] * (1 if study["by"] == "step" else -1)
-            left.loglog(levels, [errors[-1] * (level / levels[-1])**slope for level in levels], "--", color=colour, linewidth=0.8)
+            left.loglog(levels, [errors[-1] * (level / levels[-1])**slope for level in levels], "--", color=colour,
+                        linewidth=0.8)
     plain = FuncFormatter(lambda value, _: f"{value:g}")  # exponents as mathematics take most of the time of a figure
     for axes in (left, right):
         for axis in (axes.xaxis, axes.yaxis):

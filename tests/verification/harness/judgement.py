@@ -39,7 +39,8 @@ def compute_study(study):
             raise KeyError(f"'{study.title}' computes no {', '.join(missing)}")
         values.append(found)
     quantities = [judge(study, quantity, [found[quantity.name] for found in values]) for quantity in study.quantities]
-    return {"title": study.title, "parameter": study.parameter, "by": study.by, "levels": levels, "quantities": quantities,
+    return {"title": study.title, "parameter": study.parameter, "by": study.by, "levels": levels,
+            "quantities": quantities,
             "kept_from": kept_from(quantities, len(levels)) if study.by else None}
 
 
@@ -62,7 +63,8 @@ def judge(study, quantity, values):
     failures = list(wrong_values(study, quantity, errors))
     if quantity.order is not None:
         failures += wrong_order(quantity, order, used)
-    return {"name": quantity.name, "meaning": quantity.meaning, "unit": quantity.unit, "error_unit": quantity.error_unit,
+    return {"name": quantity.name, "meaning": quantity.meaning, "unit": quantity.unit,
+            "error_unit": quantity.error_unit,
             "reference": np.asarray(quantity.reference, dtype=float).tolist(), "source": quantity.source,
             "known_to": quantity.known_to, "tolerance": quantity.tolerance, "reason": quantity.reason,
             "values": [numbers(value).tolist() for value in values], "errors": errors, "order": order,
@@ -84,7 +86,8 @@ def wrong_values(study, quantity, errors):
 def wrong_order(quantity, order, used):
     """A list with a sentence if the observed order is not the expected one."""
     if used < 2:
-        return [f"{quantity.meaning}: the order cannot be observed, as errors are within the uncertainty of the reference"]
+        return [f"{quantity.meaning}: the order cannot be observed, as errors are within the uncertainty of the "
+                f"reference"]
     low = order >= quantity.order - quantity.order_within
     high = quantity.order_at_least or order <= quantity.order + quantity.order_within
     if low and high:

@@ -6,7 +6,8 @@ import platform
 import re
 import subprocess
 
-LIBRARIES = ("openblas", "blas", "lapack", "cholmod", "umfpack", "spqr", "arpack", "hdf5", "gmsh", "yaml", "fmt", "stdc++")
+LIBRARIES = ("openblas", "blas", "lapack", "cholmod", "umfpack", "spqr", "arpack", "hdf5", "gmsh", "yaml", "fmt",
+             "stdc++")
 
 
 def described(programs, repository):
@@ -15,9 +16,11 @@ def described(programs, repository):
     facts = [("program", " ".join(filter(None, (_output([program, "--version"]), _commit(repository))))),
              ("date", datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")),
              ("processor", _first(r"^model name\s*:\s*(.*)$", "/proc/cpuinfo") or platform.machine()),
-             ("cores", f"{len(os.sched_getaffinity(0))} available of {os.cpu_count()}; load before the run {os.getloadavg()[0]:.1f}"),
+             ("cores", f"{len(os.sched_getaffinity(0))} available of {os.cpu_count()}; load before the run "
+                       f"{os.getloadavg()[0]:.1f}"),
              ("memory", _memory()),
-             ("system", " ".join(filter(None, (_first(r'^PRETTY_NAME="(.*)"$', "/etc/os-release"), f"Linux {platform.release()}")))),
+             ("system", " ".join(filter(None, (_first(r'^PRETTY_NAME="(.*)"$', "/etc/os-release"),
+                                               f"Linux {platform.release()}")))),
              ("libraries", ", ".join(libraries(program)))]
     return [(what, text) for what, text in facts if text]
 

@@ -4,7 +4,8 @@ import html
 import math
 import re
 
-SUBJECTS = ["Rigid mechanisms", "Beams at rest", "Beams in motion", "Solids and superelements", "Hydraulics and friction", "Integration in time"]
+SUBJECTS = ["Rigid mechanisms", "Beams at rest", "Beams in motion", "Solids and superelements",
+            "Hydraulics and friction", "Integration in time"]
 STYLE = """
 body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 66em; padding: 0 1em; color: #222; }
 table { border-collapse: collapse; margin: 0.6em 0 1em; font-size: 13px; }
@@ -24,13 +25,17 @@ def page(results, facts, quick):
         f"All {len(results)} problems passed"
     results = dict(sorted(results.items(), key=lambda item: (place(item[1]["subject"]), item[1]["title"])))
     subjects = list(dict.fromkeys(result["subject"] for result in results.values()))
-    parts = ["<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Bielle: verification</title>", f"<style>{STYLE}</style></head><body>",
+    parts = ["<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Bielle: verification</title>",
+             f"<style>{STYLE}</style></head><body>",
              "<h1>Verification of Bielle</h1>", f"<p class='{'failed' if failed else 'passed'}'>{text(verdict)}.</p>",
-             "<p>Each problem has an exact or published reference. Models were computed for this page, at several steps or meshes; errors, observed orders and processor times "
-             "are those of this run. A problem passes if the error of the last level is within the stated tolerance and the order is the expected one. "
+             "<p>Each problem has an exact or published reference. Models were computed for this page, at several "
+             "steps or meshes; errors, observed orders and processor times "
+             "are those of this run. A problem passes if the error of the last level is within the stated tolerance "
+             "and the order is the expected one. "
              "No reference comes from Bielle.</p>",
              "<p>Quick selection: run without <code>--quick</code> for all problems.</p>" if quick else "",
-             table(["", ""], [[text(what), text(value)] for what, value in facts]), "<h2>Summary</h2>", summary(results)]
+             table(["", ""], [[text(what), text(value)] for what, value in facts]), "<h2>Summary</h2>",
+             summary(results)]
     for subject in subjects:
         parts.append(f"<h2>{text(subject or 'Problems')}</h2>")
         parts += [section(result) for result in results.values() if result["subject"] == subject]
@@ -51,9 +56,11 @@ def summary(results):
                   if quantity["expected_order"] is not None]
         shares = [float(quantity["errors"][-1]) / quantity["tolerance"] for quantity in quantities]
         worst = math.nan if any(map(math.isnan, shares)) else max(shares, default=math.nan)
-        lines.append([f"<a href='#{text(result['name'])}'>{text(result['title'])}</a>", mark(result["passed"]), number(worst, 2),
+        lines.append([f"<a href='#{text(result['name'])}'>{text(result['title'])}</a>", mark(result["passed"]),
+                      number(worst, 2),
                       text(", ".join(dict.fromkeys(orders)) or "-"), number(processor_time(result), 3)])
-    return table(["problem", "", "largest error / tolerance", "observed order (expected)", "processor time [s]"], lines, numbers=(2, 4))
+    return table(["problem", "", "largest error / tolerance", "observed order (expected)", "processor time [s]"],
+                 lines, numbers=(2, 4))
 
 
 def processor_time(result):
@@ -64,11 +71,13 @@ def processor_time(result):
 def section(result):
     """The part of the page about a problem."""
     parts = [f"<h3 id='{text(result['name'])}'>{text(result['title'])} {mark(result['passed'])}</h3>",
-             f"<p class='quiet'>{text(result['source'])} <br>file <code>{text(result['name'])}.py</code></p>", f"<p>{text(result['model'])}</p>"]
+             f"<p class='quiet'>{text(result['source'])} <br>file <code>{text(result['name'])}.py</code></p>",
+             f"<p>{text(result['model'])}</p>"]
     if result["failures"]:
         parts.append("<div class='failures'>" + "<br>".join(text(sentence) for sentence in result["failures"]) + "</div>")
     for study in result["studies"]:
-        parts += [f"<h4>{text(study['title'])}</h4>", quantities_table(study), errors_table(study), precision(study), study.get("figure", "")]
+        parts += [f"<h4>{text(study['title'])}</h4>", quantities_table(study), errors_table(study), precision(study),
+                  study.get("figure", "")]
     return "\n".join(filter(None, parts))
 
 
@@ -80,16 +89,22 @@ def quantities_table(study):
             f"{'at least ' if quantity['order_at_least'] else ''}{quantity['expected_order']:g} &plusmn; {quantity['order_within']:g}"
         order = f"{float(quantity['order']):.2f}" if quantity["expected_order"] is not None else "-"
         remark = f"<br><span class='quiet'>{text(quantity['order_reason'])}</span>" if quantity["order_reason"] else ""
-        lines.append([f"{text(quantity['meaning'])} [{text(quantity['unit'])}]", values(quantity["reference"]), values(quantity["values"][-1]), text(quantity["source"]),
+        lines.append([f"{text(quantity['meaning'])} [{text(quantity['unit'])}]", values(quantity["reference"]),
+                      values(quantity["values"][-1]), text(quantity["source"]),
                       f"{number(quantity['tolerance'], 2)} ({text(quantity['error_unit'])}): {text(quantity['reason'])}", order, expected + remark,
                       mark(quantity["passed"])])
-    return table(["quantity", "reference", f"computed, {text(study['parameter'])} {text(study['levels'][-1]['level'])}", "source of the reference", "tolerance and its reason", "observed order", "expected", ""], lines)
+    return table(["quantity", "reference",
+                  f"computed, {text(study['parameter'])} {text(study['levels'][-1]['level'])}",
+                  "source of the reference", "tolerance and its reason", "observed order", "expected", ""], lines)
 
 
 def errors_table(study):
     """Errors and processor times of the levels of a study."""
-    heads = [study["parameter"], *(f"error: {quantity['meaning']} [{quantity['error_unit']}]" for quantity in study["quantities"]), "processor time [s]"]
-    lines = [[text(f"{level['level']}"), *(number(quantity["errors"][k], 3) for quantity in study["quantities"]), number(level["processor_time"], 3)]
+    heads = [study["parameter"],
+             *(f"error: {quantity['meaning']} [{quantity['error_unit']}]" for quantity in study["quantities"]),
+             "processor time [s]"]
+    lines = [[text(f"{level['level']}"), *(number(quantity["errors"][k], 3) for quantity in study["quantities"]),
+              number(level["processor_time"], 3)]
              for k, level in enumerate(study["levels"])]
     return table([text(head) for head in heads], lines, numbers=range(len(heads)))
 

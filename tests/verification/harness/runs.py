@@ -53,7 +53,8 @@ def run_one(entry, programs, package, running):
         environment = {**os.environ, "PYTHONPATH": package, "BIELLE_BIN": programs, "TMPDIR": folder,
                        "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive",
                        "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1", "PYTHONDONTWRITEBYTECODE": "1"}
-        child = subprocess.Popen([sys.executable, CHILD, entry.path, output], cwd=folder, env=environment, text=True, errors="replace",
+        child = subprocess.Popen([sys.executable, CHILD, entry.path, output], cwd=folder, env=environment, text=True,
+                                 errors="replace",
                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
         running.add(child)
         try:

@@ -17,7 +17,8 @@ elements:
   m: {{type: point_mass, node: m, mass: 1}}
   s: {{type: spring_damper, nodes: [ground, m], stiffness: {}, length: 0}}
 """
-SCHEMES = {"newmark": {"scheme": "newmark"}, "hht": {"scheme": "hht", "alpha": 0.1 / 1.9}, "rho_0.9": {"rho": 0.9}, "rho_0.5": {"rho": 0.5}}
+SCHEMES = {"newmark": {"scheme": "newmark"}, "hht": {"scheme": "hht", "alpha": 0.1 / 1.9}, "rho_0.9": {"rho": 0.9},
+           "rho_0.5": {"rho": 0.5}}
 X, Y = vector("simple_pendulum", "1.x", "1.y")["reference"]
 PLACE = np.array([-X, Y])  # released from the other side than the table's
 SPEED = np.sqrt(2 * 9.81 * -Y)
@@ -30,20 +31,26 @@ def pendulum(scheme):
         session = moved(PENDULUM, 1, step, constraints="position", **SCHEMES[scheme])
         node = session.node("bob")
         force = np.linalg.norm(session["joints/pivot/reaction"][:3])
-        return {"place": node.position[:2], "velocity": node.velocity[:2], "force": force, "constant": np.linalg.norm(node.position[:2] - PLACE) / step**2}
+        return {"place": node.position[:2], "velocity": node.velocity[:2], "force": force,
+                "constant": np.linalg.norm(node.position[:2] - PLACE) / step**2}
     return compute
 
 
 def orders(scheme, constant):
     """@param constant  error of the place over h^2 of the independent implementation at h = 2.5 ms"""
     return [
-        Quantity("place", "place at 1 s", "m", PLACE, known_to=1e-14, source="Jacobi's elliptic functions (tests/references/simple_pendulum.py)", order=2, order_within=0.05,
-                 tolerance=1.2 * constant * 2.5e-3**2, reason="the error of the independent implementation, and a fifth for the start"),
-        Quantity("velocity", "velocity at 1 s", "m/s", VELOCITY, known_to=1e-13, source="conservation of energy", order=2, order_within=0.05, tolerance=4e-4,
+        Quantity("place", "place at 1 s", "m", PLACE, known_to=1e-14,
+                 source="Jacobi's elliptic functions (tests/references/simple_pendulum.py)", order=2, order_within=0.05,
+                 tolerance=1.2 * constant * 2.5e-3**2,
+                 reason="the error of the independent implementation, and a fifth for the start"),
+        Quantity("velocity", "velocity at 1 s", "m/s", VELOCITY, known_to=1e-13, source="conservation of energy",
+                 order=2, order_within=0.05, tolerance=4e-4,
                  reason="errors of the place times 5 rad/s"),
-        Quantity("force", "force of the rod at 1 s", "N", 3 * 9.81 * -Y, known_to=1e-12, source="3 m g |y|", order=2, order_within=0.15, tolerance=6e-3,
+        Quantity("force", "force of the rod at 1 s", "N", 3 * 9.81 * -Y, known_to=1e-12, source="3 m g |y|", order=2,
+                 order_within=0.15, tolerance=6e-3,
                  reason="errors of the place times 6 m g, and of the scheme's own multipliers"),
-        Quantity("constant", "error of the place over h^2", "m/s^2", constant, known_to=1e-4, relative=True, tolerance=0.02,
+        Quantity("constant", "error of the place over h^2", "m/s^2", constant, known_to=1e-4, relative=True,
+                 tolerance=0.02,
                  source="another implementation, without corrected start values (tests/references/index_three.py)",
                  reason="the corrected start of the acceleration changes the error constant by terms of higher order"),
     ]
@@ -73,7 +80,8 @@ def dominant(states):
 
 def theory(scheme, frequency):
     """Spectral radius of generalised-alpha at w h = frequency, of the amplification matrix of (q, h v, h^2 A)."""
-    alpha_m, alpha_f = {"newmark": (0, 0), "hht": (0, 0.1 / 1.9)}.get(scheme) or [(2 * r - 1) / (r + 1) if k == 0 else r / (r + 1)
+    alpha_m, alpha_f = {"newmark": (0, 0),
+                        "hht": (0, 0.1 / 1.9)}.get(scheme) or [(2 * r - 1) / (r + 1) if k == 0 else r / (r + 1)
                                                                                    for k, r in enumerate([float(scheme[4:])] * 2)]
     gamma = 0.5 + alpha_f - alpha_m
     beta = 0.25 * (0.5 + gamma)**2
@@ -98,20 +106,27 @@ def study(scheme, title):
 PROBLEM = Problem(
     title="Integration schemes",
     subject="Integration in time",
-    source="J. Chung, G. Hulbert, J. Appl. Mech. 60 (1993) 371; M. Arnold, O. Bruls, Convergence of the generalized-alpha scheme for constrained mechanical systems, Multibody Syst. "
+    source="J. Chung, G. Hulbert, J. Appl. Mech. 60 (1993) 371; M. Arnold, O. Bruls, Convergence of the "
+           "generalized-alpha scheme for constrained mechanical systems, Multibody Syst. "
            "Dyn. 18 (2007) 185; A. Cardona, M. Geradin, Comput. Struct. 33 (1989) 801",
-    model="The pendulum of 1 kg and 1 m released from the horizontal, with its constraint of position alone; an oscillator at several w h.",
+    model="The pendulum of 1 kg and 1 m released from the horizontal, with its constraint of position alone; an "
+          "oscillator at several w h.",
     quick=True,
     studies=[
-        study("rho_0.9", "generalised-alpha, rho = 0.9"), study("rho_0.5", "generalised-alpha, rho = 0.5"), study("hht", "HHT, alpha = 0.1/1.9"),
+        study("rho_0.9", "generalised-alpha, rho = 0.9"), study("rho_0.5", "generalised-alpha, rho = 0.5"),
+        study("hht", "HHT, alpha = 0.1/1.9"),
         Study("Spectral radius: generalised-alpha, rho = 0.5", radius("rho_0.5"), [0.3, 1, 3, 10], [
-            Quantity("radius", "decay per step over theory", "-", 1.0, source="eigenvalues of the amplification matrix", tolerance=1e-6, reason="Newton's tolerance and the least squares"),
+            Quantity("radius", "decay per step over theory", "-", 1.0,
+                     source="eigenvalues of the amplification matrix", tolerance=1e-6,
+                     reason="Newton's tolerance and the least squares"),
         ], parameter="w h", by=""),
         Study("Spectral radius: HHT", radius("hht"), [0.3, 1, 3, 10], [
-            Quantity("radius", "decay per step over theory", "-", 1.0, source="eigenvalues of the amplification matrix", tolerance=1e-6, reason="likewise"),
+            Quantity("radius", "decay per step over theory", "-", 1.0,
+                     source="eigenvalues of the amplification matrix", tolerance=1e-6, reason="likewise"),
         ], parameter="w h", by=""),
         Study("Energy of the pendulum over 100 s, without dissipation (rho = 1)", drift, [1e-2, 5e-3, 2.5e-3], [
-            Quantity("drift", "largest drift of the energy", "J", 0.0, source="conservation of energy", tolerance=2e-2, order=2,
+            Quantity("drift", "largest drift of the energy", "J", 0.0, source="conservation of energy", tolerance=2e-2,
+                     order=2,
                      reason="it oscillates by (w h)^2/4 of 20 J, 6e-4, and grows with the phase"),
         ]),
     ])

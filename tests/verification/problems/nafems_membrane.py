@@ -25,10 +25,13 @@ Physical Surface("tip") = Surface In BoundingBox {{9.99, -1, -1, 10.01, 1, 1}};
 
 def membrane(along):
     """The first frequencies of modes in the plane: the tip moves in it and stays level."""
-    path = reduced("membrane", geometry(along, along // 2), mesh={"order": 2, "cells": "hexahedra", "size": 5}, modes={"count": 60},
+    path = reduced("membrane", geometry(along, along // 2), mesh={"order": 2, "cells": "hexahedra", "size": 5},
+                   modes={"count": 60},
                    materials={"steel": {"young": 200e9, "poisson": 0.3, "density": 8000}},
                    interfaces={"root": {"surface": "root"}}, points={"tip": {"group": "tip"}})
-    results = bielle.read({"nodes": {"root": {"fixed": True}}, "elements": {"membrane": {"type": "superelement", "file": path, "nodes": {"root": "root"}}},
+    results = bielle.read({"nodes": {"root": {"fixed": True}}, "elements": {"membrane": {"type": "superelement",
+                                                                                         "file": path,
+                                                                                         "nodes": {"root": "root"}}},
                            "points": {"tip": {"element": "membrane", "point": "tip"}}}).session().modes(count=60)
     tip = list(results["eigen/nodes"]).index("tip")
     moves = np.abs(results["eigen/displacement"][:, tip] @ [1, 1j])
@@ -41,11 +44,17 @@ def membrane(along):
 PROBLEM = Problem(
     title="NAFEMS FV32: tapered membrane",
     subject="Solids and superelements",
-    source="NAFEMS, The Standard NAFEMS Benchmarks (1990), test FV32; NAFEMS R0015, Selected benchmarks for natural frequency analysis",
-    model="A cantilevered membrane of 10 m, 5 m wide at the root and 1 m at the tip, E = 200 GPa, nu = 0.3, 8000 kg/m^3, vibrates in its plane. Here it is a plate 0.2 m thick of "
-          "quadratic bricks, reduced by bielle-reduce to a superelement with its root and 60 modes, of which those in the plane are taken.",
+    source="NAFEMS, The Standard NAFEMS Benchmarks (1990), test FV32; NAFEMS R0015, Selected benchmarks for natural "
+           "frequency analysis",
+    model="A cantilevered membrane of 10 m, 5 m wide at the root and 1 m at the tip, E = 200 GPa, nu = 0.3, 8000 "
+          "kg/m^3, vibrates in its plane. Here it is a plate 0.2 m thick of "
+          "quadratic bricks, reduced by bielle-reduce to a superelement with its root and 60 modes, of which those in "
+          "the plane are taken.",
     studies=[Study("Six lowest frequencies in the plane", membrane, [8, 16], [
-        Quantity("frequencies", "in the plane", "Hz", PUBLISHED, source="NAFEMS FV32, restated in the verification manual of OptiStruct", relative=True, known_to=5e-3, tolerance=2e-3,
-                 reason="the published values are those of a fine mesh to five digits; a plate of this thickness is in plane stress to (pi 0.2/10)^2/12 = 3e-4, and the root holds "
+        Quantity("frequencies", "in the plane", "Hz", PUBLISHED,
+                 source="NAFEMS FV32, restated in the verification manual of OptiStruct", relative=True, known_to=5e-3,
+                 tolerance=2e-3,
+                 reason="the published values are those of a fine mesh to five digits; a plate of this thickness is "
+                        "in plane stress to (pi 0.2/10)^2/12 = 3e-4, and the root holds "
                         "the thickness as well"),
     ], parameter="bricks along the membrane", by="elements")])

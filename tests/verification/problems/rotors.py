@@ -20,7 +20,8 @@ joints:
     found = 2 * np.pi * np.array(results["eigen/damped_frequency"])
     forward, backward = whirl(speed)
     # The other modes are translations: each tilting mode is the one next to its exact value.
-    return {"whirl": [found[np.argmin(abs(found - forward))] / forward, found[np.argmin(abs(found - backward))] / backward]}
+    return {"whirl": [found[np.argmin(abs(found - forward))] / forward,
+                      found[np.argmin(abs(found - backward))] / backward]}
 
 
 def whirl(speed):
@@ -54,14 +55,18 @@ PROBLEM = Problem(
     title="Whirl and critical speeds",
     subject="Beams in motion",
     source="G. Genta, Dynamics of Rotating Systems (2005), ch. 4; H. H. Jeffcott, Phil. Mag. 37 (1919) 304",
-    model="A rigid disc on an axle whose elastic bearing lets it tilt, at 30, 100 and 1000 rad/s: modes of the spinning disc. A disc of 5 kg in the middle of a light steel shaft of 1 m "
+    model="A rigid disc on an axle whose elastic bearing lets it tilt, at 30, 100 and 1000 rad/s: modes of the "
+          "spinning disc. A disc of 5 kg in the middle of a light steel shaft of 1 m "
           "and 20 mm diameter on two pins: Campbell diagram of the rotor as a whole.",
     quick=True,
     studies=[
         Study("Tilting of a spinning disc", disc, SPEEDS, [
-            Quantity("whirl", "forward and backward frequency over the closed form", "-", [1, 1], source="Jt w^2 -+ Jp Omega w - k = 0", tolerance=1e-9, reason="rounding")],
+            Quantity("whirl", "forward and backward frequency over the closed form", "-", [1, 1],
+                     source="Jt w^2 -+ Jp Omega w - k = 0", tolerance=1e-9, reason="rounding")],
               parameter="speed [rad/s]", by=""),
         Study("Jeffcott's rotor", jeffcott, [2, 4], [
-            Quantity("critical", "critical speed over sqrt(48 EI/(m L^3))", "-", 1.0, source="beam under a force in its middle", tolerance=1e-5,
-                     reason="static bending is exact; the shaft's mass and the search of the crossing")], parameter="elements of each half", by="elements"),
+            Quantity("critical", "critical speed over sqrt(48 EI/(m L^3))", "-", 1.0,
+                     source="beam under a force in its middle", tolerance=1e-5,
+                     reason="static bending is exact; the shaft's mass and the search of the crossing")],
+              parameter="elements of each half", by="elements"),
     ])

@@ -63,26 +63,35 @@ def screw(step):
 PROBLEM = Problem(
     title="A06 Universal joint, gear pair, screw",
     subject="Rigid mechanisms",
-    source="H. C. Seherr-Thoss et al., Universal Joints and Driveshafts, 2nd ed. (2006), 1.2; G. Niemann, H. Winter, Maschinenelemente 2 (2003), ch. 21",
-    model="Two flywheels on shafts bent by 30 degrees with a universal joint, free from 10 rad/s; two spur wheels with 20 and 50 teeth of module 2 mm under torques "
-          "of 1 and 1.5 N m; a nut of 2 kg that runs down a vertical screw without friction, 0.1 m per turn. Rigid bodies with these joints, rho = 0.8.",
+    source="H. C. Seherr-Thoss et al., Universal Joints and Driveshafts, 2nd ed. (2006), 1.2; G. Niemann, H. Winter, "
+           "Maschinenelemente 2 (2003), ch. 21",
+    model="Two flywheels on shafts bent by 30 degrees with a universal joint, free from 10 rad/s; two spur wheels "
+          "with 20 and 50 teeth of module 2 mm under torques "
+          "of 1 and 1.5 N m; a nut of 2 kg that runs down a vertical screw without friction, 0.1 m per turn. Rigid "
+          "bodies with these joints, rho = 0.8.",
     quick=True,
     studies=[
         Study("Universal joint, 2 s", cardan, [8e-3, 4e-3, 2e-3, 1e-3], [
             Quantity("shafts", "angle and rate of the first shaft, rate of the second", "rad, rad/s",
                      **vector("universal_joint", "angle", "first_rate", "second_rate"), tolerance=1e-3, order=2,
-                     source="energy J1 w1^2 + J2 w2^2 and w2/w1 = cos b/(1 - sin^2 b cos^2 th1) (tests/references/universal_joint.py)",
+                     source="energy J1 w1^2 + J2 w2^2 and w2/w1 = cos b/(1 - sin^2 b cos^2 th1) "
+                            "(tests/references/universal_joint.py)",
                      reason="(2 w h)^2/12 of 22 rad at h = 1 ms: 7e-4"),
         ]),
         Study("Gear pair, 1 s", gears, [0.02, 0.01], [
-            Quantity("angles", "angles of the wheels", "rad", [ALPHA / 2, -ALPHA / 5], source="closed form", tolerance=1e-7, reason=CONSTANT),
-            Quantity("tooth", "normal force of the teeth", "N", TANGENTIAL / np.cos(np.pi / 9), source="closed form", tolerance=1e-7, reason=CONSTANT),
-            Quantity("bearing", "force on the second bearing", "N", [-TANGENTIAL * np.tan(np.pi / 9), -TANGENTIAL], source="closed form", tolerance=1e-7,
+            Quantity("angles", "angles of the wheels", "rad", [ALPHA / 2, -ALPHA / 5], source="closed form",
+                     tolerance=1e-7, reason=CONSTANT),
+            Quantity("tooth", "normal force of the teeth", "N", TANGENTIAL / np.cos(np.pi / 9), source="closed form",
+                     tolerance=1e-7, reason=CONSTANT),
+            Quantity("bearing", "force on the second bearing", "N", [-TANGENTIAL * np.tan(np.pi / 9), -TANGENTIAL],
+                     source="closed form", tolerance=1e-7,
                      reason=CONSTANT),
         ]),
         Study("Screw, 1 s", screw, [0.02, 0.01], [
-            Quantity("way", "displacement and angle of the nut", "m, rad", [-NUT * PITCH / 2, -NUT / 2], source="closed form", tolerance=1e-8, reason=CONSTANT),
-            Quantity("force", "axial force and couple of the thread", "N, N m", [2 * (9.81 - NUT * PITCH), -0.01 * NUT], source="closed form", tolerance=1e-6,
+            Quantity("way", "displacement and angle of the nut", "m, rad", [-NUT * PITCH / 2, -NUT / 2],
+                     source="closed form", tolerance=1e-8, reason=CONSTANT),
+            Quantity("force", "axial force and couple of the thread", "N, N m",
+                     [2 * (9.81 - NUT * PITCH), -0.01 * NUT], source="closed form", tolerance=1e-6,
                      reason=CONSTANT),
         ]),
     ])

@@ -32,7 +32,8 @@ def exact(t):
     t = (t - first) % (slips + sticks)
     if t > slips:
         return np.array([2 * x_k - x_s + BELT * (t - slips), BELT])
-    return np.array([x_k + (x_s - x_k) * np.cos(w * t) + BELT / w * np.sin(w * t), -(x_s - x_k) * w * np.sin(w * t) + BELT * np.cos(w * t)])
+    return np.array([x_k + (x_s - x_k) * np.cos(w * t) + BELT / w * np.sin(w * t),
+                     -(x_s - x_k) * w * np.sin(w * t) + BELT * np.cos(w * t)])
 
 
 def slide(step):
@@ -49,12 +50,17 @@ def slide(step):
 PROBLEM = Problem(
     title="Stick-slip on a belt",
     subject="Hydraulics and friction",
-    source="J. P. Den Hartog, Mechanical Vibrations (1956), 7.4; closed form with different coefficients at rest and in sliding",
-    model="A mass of 1 kg on a belt of 0.1 m/s, held by a spring of 100 N/m, mu = 0.25, at rest 0.4: it moves with the belt until the spring pulls it off, five times within 4.4 s. "
+    source="J. P. Den Hartog, Mechanical Vibrations (1956), 7.4; closed form with different coefficients at rest and "
+           "in sliding",
+    model="A mass of 1 kg on a belt of 0.1 m/s, held by a spring of 100 N/m, mu = 0.25, at rest 0.4: it moves with "
+          "the belt until the spring pulls it off, five times within 4.4 s. "
           "A prismatic joint with exact stick-slip friction, whose transitions are events; rho = 0.8.",
     quick=True,
     studies=[Study("Five periods", slide, [8e-3, 4e-3, 2e-3, 1e-3], [
-        Quantity("place", "largest error of the place", "m", 0.0, source="closed form: harmonic while it slips, straight while it sticks", tolerance=2e-5, order=2, order_within=0.15,
+        Quantity("place", "largest error of the place", "m", 0.0,
+                 source="closed form: harmonic while it slips, straight while it sticks", tolerance=2e-5, order=2,
+                 order_within=0.15,
                  reason="5e-4 of the amplitude 0.04 m at h = 1 ms"),
-        Quantity("velocity", "largest error of the velocity", "m/s", 0.0, source="likewise", tolerance=2e-4, order=2, order_within=0.15, reason="w = 10 rad/s times the error of the place"),
+        Quantity("velocity", "largest error of the velocity", "m/s", 0.0, source="likewise", tolerance=2e-4, order=2,
+                 order_within=0.15, reason="w = 10 rad/s times the error of the place"),
     ])])

@@ -35,18 +35,24 @@ PROBLEM = Problem(
     title="A07 Free body about its intermediate axis (Dzhanibekov)",
     subject="Rigid mechanisms",
     source="L. Poinsot (1834); L. D. Landau, E. M. Lifshitz, Mechanics, section 37",
-    model="A free rigid body, J = diag(1, 2, 3) kg m^2, spins with (0.01, 5, 0.01) rad/s about its intermediate axis and turns over every 5.03 s. "
-          "One rigid body without a joint; the instability magnifies errors by e^(Omega t/sqrt 3). Generalised-alpha, rho = 0.9.",
+    model="A free rigid body, J = diag(1, 2, 3) kg m^2, spins with (0.01, 5, 0.01) rad/s about its intermediate axis "
+          "and turns over every 5.03 s. "
+          "One rigid body without a joint; the instability magnifies errors by e^(Omega t/sqrt 3). Generalised-alpha, "
+          "rho = 0.9.",
     quick=True,
     studies=[
         Study("State at 10 s, after two flips", tumble, [4e-3, 2e-3, 1e-3, 5e-4], [
-            Quantity("Omega", "angular velocity", "rad/s", **vector("torque_free_body", "10.Omega", components="xyz"), source=EXACT, tolerance=1e-5, order=2,
-                     reason="2e-6 of 5 rad/s; at 10 s the axis is nearly at rest in the body, and errors of time hardly count"),
-            Quantity("momentum", "angular momentum in space", "N m s", [0.01, 10, 0.03], source="it is constant", tolerance=2e-4, order=2,
+            Quantity("Omega", "angular velocity", "rad/s", **vector("torque_free_body", "10.Omega", components="xyz"),
+                     source=EXACT, tolerance=1e-5, order=2,
+                     reason="2e-6 of 5 rad/s; at 10 s the axis is nearly at rest in the body, and errors of time "
+                            "hardly count"),
+            Quantity("momentum", "angular momentum in space", "N m s", [0.01, 10, 0.03], source="it is constant",
+                     tolerance=2e-4, order=2,
                      reason="2e-5 of 10 N m s"),
         ]),
         Study("Times of the flips", flips, [8e-3, 4e-3, 2e-3, 1e-3], [
-            Quantity("flips", "first flip, and from it to the second", "s", **vector("torque_free_body", "first_flip", "between_flips"), source=EXACT,
+            Quantity("flips", "first flip, and from it to the second", "s",
+                     **vector("torque_free_body", "first_flip", "between_flips"), source=EXACT,
                      tolerance=1e-4, order=2, reason="a tenth of a step"),
         ]),
     ])
