@@ -1,10 +1,10 @@
-"""Bricard's mechanism of the IFToMM library (A04): five rods and the ground, six hinges, one degree of freedom although the
-constraints are redundant.
+"""Bricard's mechanism of the IFToMM library (A04): five rods and the ground, six hinges, one degree of freedom
+although the constraints are redundant.
 
-The rods lie along edges of a cube at the start: from the origin along x, -y, z, -x, y to (0, 0, 1); the hinges turn about
-y, z, x, y, z, x. Rods of 1 m and 1 kg, 0.1 m square, gravity 9.81 m/s^2 along -y, at rest. The chain of five rods has the
-relative angles q; its end closes on the ground by five equations B qdot = 0 of rank four. The motion along their null
-vector n follows from n^T (M qddot + h) = 0.
+The rods lie along edges of a cube at the start: from the origin along x, -y, z, -x, y to (0, 0, 1); the hinges turn
+about y, z, x, y, z, x. Rods of 1 m and 1 kg, 0.1 m square, gravity 9.81 m/s^2 along -y, at rest. The chain of five
+rods has the relative angles q; its end closes on the ground by five equations B qdot = 0 of rank four. The motion
+along their null vector n follows from n^T (M qddot + h) = 0.
 """
 import numpy as np
 

@@ -1,12 +1,14 @@
 """The stiff flyball governor of the IFToMM library (A05).
 
-A shaft of 1 m turns about z. At its top, 0.05 m from the axis, two arms of 1 m with balls of 5 kg at their ends swing in the
-plane of the shaft. The middle of each arm is connected to a slider on the shaft, 0.05 m from its axis, by a stiff spring and
-damper. Bars of 0.01 x 0.01 m, the slider is a cube of 0.1 m, density 3000 kg/m^3. At the start the arms are 30 degrees below
-the level, the slider at s = 0.5 m, and everything turns with 2 pi rad/s about z; springs are free.
+A shaft of 1 m turns about z. At its top, 0.05 m from the axis, two arms of 1 m with balls of 5 kg at their ends swing
+in the plane of the shaft. The middle of each arm is connected to a slider on the shaft, 0.05 m from its axis, by a
+stiff spring and damper. Bars of 0.01 x 0.01 m, the slider is a cube of 0.1 m, density 3000 kg/m^3. At the start the
+arms are 30 degrees below the level, the slider at s = 0.5 m, and everything turns with 2 pi rad/s about z; springs are
+free.
 
-Coordinates: psi (turn), th (angle of both arms from the downward vertical), s. With r(u) = e + u sin th the distance of a
-point of an arm from the axis, the kinetic energy is psidot^2 Z(th)/2 + thdot^2 A + M sdot^2/2, so that Z psidot is constant.
+Coordinates: psi (turn), th (angle of both arms from the downward vertical), s. With r(u) = e + u sin th the distance
+of a point of an arm from the axis, the kinetic energy is psidot^2 Z(th)/2 + thdot^2 A + M sdot^2/2, so that Z psidot
+is constant.
 """
 import numpy as np
 

@@ -1,8 +1,10 @@
-"""The beam of the Princeton experiments (E. Dowell, J. Traybar, AMS Report 1194, Princeton University (1975)), by shooting.
+"""The beam of the Princeton experiments (E. Dowell, J. Traybar, AMS Report 1194, Princeton University (1975)), by
+shooting.
 
-A cantilever of aluminium along x, 0.508 m, section 12.377 x 3.2024 mm, E = 71.7 GPa, nu = 0.31, dead load downwards (-z) at the
-tip. At the angle 0 the wide side of the section is vertical; at another one the section is turned about x by it. Data as in O.
-Bauchau et al., Multibody Syst. Dyn. 37 (2016) 29. Torsion by Saint-Venant's series, shear factor 5/6.
+A cantilever of aluminium along x, 0.508 m, section 12.377 x 3.2024 mm, E = 71.7 GPa, nu = 0.31, dead load downwards
+(-z) at the tip. At the angle 0 the wide side of the section is vertical; at another one the section is turned about x
+by it. Data as in O. Bauchau et al., Multibody Syst. Dyn. 37 (2016) 29. Torsion by Saint-Venant's series, shear factor
+5/6.
 """
 import numpy as np
 

@@ -31,7 +31,8 @@ def compute(level):
     {body}
 
 PROBLEM = Problem(title="{title}", subject="Samples", source="none", model="none", {more}studies=[
-    Study("study", compute, [1, 2], [Quantity("x", "the value", "m", 2.0, source="none", tolerance=1e-3, reason="none")], parameter="run", by="")])
+    Study("study", compute, [1, 2], [
+        Quantity("x", "the value", "m", 2.0, source="none", tolerance=1e-3, reason="none")], parameter="run", by="")])
 """
 
 

@@ -41,7 +41,8 @@ def entries(folder):
 
 
 def chosen(known, names, quick):
-    """The entries that are asked for, all without names; with `quick` those that take little time. @raises ValueError"""
+    """The entries that are asked for, all without names; with `quick` those that take little time. @raises
+    ValueError"""
     by_name = {entry.name: entry for entry in known}
     for name in names:
         if name not in by_name:

@@ -34,7 +34,8 @@ def plain(value):
 
 
 def figure(study):
-    """The figure of a study; empty if its levels are no refinement. Only others need matplotlib, which is slow to load."""
+    """The figure of a study; empty if its levels are no refinement. Only others need matplotlib, which is slow to
+    load."""
     if not study["by"] or len(study["levels"]) < 2:
         return ""
     from harness.figures import convergence

@@ -80,7 +80,8 @@ def wrong_values(study, quantity, errors):
         if not math.isfinite(error):
             yield f"{at}: the result is not a number, or has another size than the reference"
         elif error > quantity.tolerance and (not study.by or k + 1 == len(errors)):
-            yield f"{at}: the error {error:.3g} ({quantity.error_unit}) is larger than the tolerance {quantity.tolerance:.3g}"
+            yield (f"{at}: the error {error:.3g} ({quantity.error_unit}) is larger than the tolerance "
+                   f"{quantity.tolerance:.3g}")
 
 
 def wrong_order(quantity, order, used):

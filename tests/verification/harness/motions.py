@@ -5,8 +5,8 @@ import numpy as np
 
 
 def moved(text, duration, step, look=None, **keys):
-    """The session of a model at the end of a motion. @param text  model file or dictionary
-    @param look  called with the session at the start and after each step @param keys  those of the analysis `dynamic`"""
+    """The session of a model at the end of a motion. @param text model file or dictionary @param look called with the
+    session at the start and after each step @param keys those of the analysis `dynamic`"""
     session = bielle.read(text).session()
     motion = session.dynamics(duration=duration, step=step, **keys)
     if look is None:
@@ -19,7 +19,8 @@ def moved(text, duration, step, look=None, **keys):
 
 
 class EnergyDrift:
-    """The largest deviation of kinetic, elastic and potential energy from that of the start [J]; a `look` of `moved`."""
+    """The largest deviation of kinetic, elastic and potential energy from that of the start [J]; a `look` of
+    `moved`."""
 
     def __init__(self):
         self.first, self.largest = None, 0.0

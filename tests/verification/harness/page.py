@@ -21,8 +21,10 @@ svg { max-width: 100%; height: auto; } a { color: #0b5394; }
 def page(results, facts, quick):
     """The text of the page. @param results  of runs.run_all @param facts  of machine.described"""
     failed = [result for result in results.values() if not result["passed"]]
-    verdict = f"{len(failed)} of {len(results)} problems failed: {', '.join(result['name'] for result in failed)}" if failed else \
-        f"All {len(results)} problems passed"
+    names = ", ".join(result["name"] for result in failed)
+    verdict = f"All {len(results)} problems passed"
+    if failed:
+        verdict = f"{len(failed)} of {len(results)} problems failed: {names}"
     results = dict(sorted(results.items(), key=lambda item: (place(item[1]["subject"]), item[1]["title"])))
     subjects = list(dict.fromkeys(result["subject"] for result in results.values()))
     parts = ["<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Bielle: verification</title>",
@@ -74,7 +76,7 @@ def section(result):
              f"<p class='quiet'>{text(result['source'])} <br>file <code>{text(result['name'])}.py</code></p>",
              f"<p>{text(result['model'])}</p>"]
     if result["failures"]:
-        parts.append("<div class='failures'>" + "<br>".join(text(sentence) for sentence in result["failures"]) + "</div>")
+        parts.append(f"<div class='failures'>{'<br>'.join(map(text, result['failures']))}</div>")
     for study in result["studies"]:
         parts += [f"<h4>{text(study['title'])}</h4>", quantities_table(study), errors_table(study), precision(study),
                   study.get("figure", "")]
@@ -85,14 +87,16 @@ def quantities_table(study):
     """References, tolerances and orders of the quantities of a study."""
     lines = []
     for quantity in study["quantities"]:
-        expected = "-" if quantity["expected_order"] is None else \
-            f"{'at least ' if quantity['order_at_least'] else ''}{quantity['expected_order']:g} &plusmn; {quantity['order_within']:g}"
-        order = f"{float(quantity['order']):.2f}" if quantity["expected_order"] is not None else "-"
+        order = expected = "-"
+        if quantity["expected_order"] is not None:
+            order = f"{float(quantity['order']):.2f}"
+            least = "at least " if quantity["order_at_least"] else ""
+            expected = f"{least}{quantity['expected_order']:g} &plusmn; {quantity['order_within']:g}"
+        tolerance = f"{number(quantity['tolerance'], 2)} ({text(quantity['error_unit'])}): {text(quantity['reason'])}"
         remark = f"<br><span class='quiet'>{text(quantity['order_reason'])}</span>" if quantity["order_reason"] else ""
         lines.append([f"{text(quantity['meaning'])} [{text(quantity['unit'])}]", values(quantity["reference"]),
                       values(quantity["values"][-1]), text(quantity["source"]),
-                      f"{number(quantity['tolerance'], 2)} ({text(quantity['error_unit'])}): {text(quantity['reason'])}", order, expected + remark,
-                      mark(quantity["passed"])])
+                      tolerance, order, expected + remark, mark(quantity["passed"])])
     return table(["quantity", "reference",
                   f"computed, {text(study['parameter'])} {text(study['levels'][-1]['level'])}",
                   "source of the reference", "tolerance and its reason", "observed order", "expected", ""], lines)
@@ -110,11 +114,13 @@ def errors_table(study):
 
 
 def precision(study):
-    """The sentence with which a benchmark is submitted: the coarsest level that is accurate enough, and its processor time."""
+    """The sentence with which a benchmark is submitted: the coarsest level that is accurate enough, and its processor
+    time."""
     if study["kept_from"] is None or len(study["levels"]) < 2:
         return ""
     level = study["levels"][study["kept_from"]]
-    return f"<p class='quiet'>All tolerances are kept from {text(study['parameter'])} = {text(level['level'])} on, with {number(level['processor_time'], 2)} s of processor time.</p>"
+    return (f"<p class='quiet'>All tolerances are kept from {text(study['parameter'])} = {text(level['level'])} on, "
+            f"with {number(level['processor_time'], 2)} s of processor time.</p>")
 
 
 def table(heads, lines, numbers=()):

@@ -1,4 +1,5 @@
-"""The description of a problem: models that are computed at several steps or meshes, and the values that they should have."""
+"""The description of a problem: models that are computed at several steps or meshes, and the values that they should
+have."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -20,15 +21,15 @@ class Quantity:
     """A computed quantity with its reference.
 
     name: key of the quantity in the dictionary that Study.compute returns, a number or an array.
-    reference: its exact or published value; error: the norm of the difference, in `unit`, or relative to the norm of the
-    reference.
+    reference: its exact or published value; error: the norm of the difference, in `unit`, or relative to the norm of
+    the reference.
     source: origin of the reference, a closed form, a publication or a script of tests/references.
     tolerance: largest accepted error at the last level; reason: grounds for it.
-    known_to: uncertainty of the reference, in its unit. Levels whose error is below three times this are left out of the fit
-    of the order.
+    known_to: uncertainty of the reference, in its unit. Levels whose error is below three times this are left out of
+    the fit of the order.
     order: expected order of convergence, None if there is none to observe; order_within: accepted deviation;
-    order_at_least: larger orders are accepted as well; order_reason: grounds for another order than that of the scheme, or
-    for a wider interval.
+    order_at_least: larger orders are accepted as well; order_reason: grounds for another order than that of the
+    scheme, or for a wider interval.
     """
 
     name: str
@@ -77,8 +78,8 @@ class Study:
     compute: takes a level and returns the values of the quantities by name. Its processor time is reported.
     levels: steps [s], or numbers of elements, or the names of single runs.
     parameter: name and unit of the level, such as "step [s]".
-    by: "step" if the errors fall with the level, "elements" if they fall with its inverse, "" if levels are not a refinement:
-    each level is then held to the tolerance.
+    by: "step" if the errors fall with the level, "elements" if they fall with its inverse, "" if levels are not a
+    refinement: each level is then held to the tolerance.
     """
 
     title: str

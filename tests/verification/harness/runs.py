@@ -45,8 +45,8 @@ def kill(child):
 
 
 def run_one(entry, programs, package, running):
-    """The result of a problem; one that crashes or does not end has failed, with its message. @param running  the children, while
-    they run"""
+    """The result of a problem; one that crashes or does not end has failed, with its message. @param running the
+    children, while they run"""
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="verify.") as folder:
         output = os.path.join(folder, "result.json")

@@ -20,12 +20,15 @@ nodes:
   load: {{position: [0, 5, 0]}}
   right: {{position: [50, 0, 0], fixed: [x, y, z, rx, ry]}}
 elements:
-  a: {{type: beam, nodes: [left, load], arc_through: ['-252.5*sin(0.1)', '252.5*cos(0.1) - 247.5', 0], elements: {0}, orientation: [0, 1, 0], section: {1}}}
-  b: {{type: beam, nodes: [load, right], arc_through: ['252.5*sin(0.1)', '252.5*cos(0.1) - 247.5', 0], elements: {0}, orientation: [0, 1, 0], section: {1}}}
+  a: {{type: beam, nodes: [left, load], arc_through: ['-252.5*sin(0.1)', '252.5*cos(0.1) - 247.5', 0], elements: {0},
+       orientation: [0, 1, 0], section: {1}}}
+  b: {{type: beam, nodes: [load, right], arc_through: ['252.5*sin(0.1)', '252.5*cos(0.1) - 247.5', 0], elements: {0},
+       orientation: [0, 1, 0], section: {1}}}
 loads: {{p: {{node: load, force: [0, -80, 0]}}}}
 """
 DEEP_SECTION = "{EA: 1e8, GAy: 5e7, GAz: 5e7, GJ: 1e6, EIy: 1e6, EIz: 1e6}"
-SHALLOW_SECTION = "{EA: 1e6, GAy: 1e6*5/6/2.6, GAz: 1e6*5/6/2.6, GJ: 1e8, EIy: 1e8, EIz: 1e6/12}"  # stiff out of the plane, where it would buckle first
+# It is stiff out of the plane, where it would buckle first.
+SHALLOW_SECTION = "{EA: 1e6, GAy: 1e6*5/6/2.6, GAz: 1e6*5/6/2.6, GJ: 1e8, EIy: 1e8, EIz: 1e6/12}"
 SHOOTING = "Reissner's rod by shooting (tests/references/frames_and_arches.py)"
 
 

@@ -13,7 +13,8 @@ def bend(section, bending, load):
     def compute(elements):
         session = bielle.read(f"""
 nodes: {{root: {{position: [0, 0, 0], fixed: true}}, tip: {{position: ['100 - 50*sqrt(2)', '50*sqrt(2)', 0]}}}}
-elements: {{arc: {{type: beam, nodes: [root, tip], arc_centre: [100, 0, 0], bending: {bending}, elements: {elements}, section: {SECTIONS[section]}}}}}
+elements: {{arc: {{type: beam, nodes: [root, tip], arc_centre: [100, 0, 0], bending: {bending},
+                  elements: {elements}, section: {SECTIONS[section]}}}}}
 loads: {{p: {{node: tip, force: [0, 0, {load}]}}}}
 """).session()
         session.statics(steps=4, record=False)

@@ -33,7 +33,8 @@ def swing(duration):
     return compute
 
 
-EXACT = "chain of relative angles, projected on the one motion that the closing equations leave, DOP853 (tests/references/bricard.py)"
+EXACT = ("chain of relative angles, projected on the one motion that the closing equations leave, DOP853 "
+         "(tests/references/bricard.py)")
 
 
 def quantities(name, tolerance, reason):

@@ -17,7 +17,8 @@ def tip(elements, load, section, moment=0.0):
 
 
 REISSNER = {"EA": 1200, "GAy": 1000 / 2.6, "GAz": 1, "GJ": 1, "EIy": 1, "EIz": 1}
-SHOOTING = "Reissner's rod by shooting (tests/references/elastica.py); its inextensible limit is K. Mattiasson, IJNME 17 (1981) 145"
+SHOOTING = ("Reissner's rod by shooting (tests/references/elastica.py); its inextensible limit is K. Mattiasson, "
+            "IJNME 17 (1981) 145")
 
 
 def bent(load):

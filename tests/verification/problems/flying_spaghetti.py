@@ -55,7 +55,8 @@ PROBLEM = Problem(
                      reason="bending waves of 10 rad/s: (w h)^2/12 of a way of 20 m at h = 5 ms"),
             Quantity("energy", "energy after the loads have gone", "J", **row("flying_spaghetti", "plane_100.energy"),
                      source=EXACT, tolerance=1e-3, relative=True,
-                     reason="1e-3: the scheme removes energy of high modes, and the loads do work at the end's velocity"),
+                     reason="1e-3: the scheme removes energy of high modes, and the loads do work at the end's "
+                            "velocity"),
         ], parameter="elements (step 0.32 s/elements)", by="elements"),
         Study("In space, 5 s", space, [16, 32, 64], [
             Quantity("ends", "x, y, z of both ends", "m", **rows("space.5", "xyz"), source=EXACT, tolerance=2e-2,

@@ -5,7 +5,8 @@ from harness import Problem, Quantity, Study, vector
 from harness.motions import moved
 
 GRAVITY, MASS = 9.81, 500
-EXACT = "m dv/dt = A1 p1 - A2 p2 - c v, V dp/dt = B (Q - A v), Q = Cd A sqrt(2 |dp|/rho), by DOP853 and Radau (tests/references/hydraulic_cylinder.py)"
+EXACT = ("m dv/dt = A1 p1 - A2 p2 - c v, V dp/dt = B (Q - A v), Q = Cd A sqrt(2 |dp|/rho), by DOP853 and Radau "
+         "(tests/references/hydraulic_cylinder.py)")
 
 
 def model(actuator, gravity=0.0, velocity=0.0):
@@ -40,12 +41,13 @@ FILLING = {"hydraulics": {"ambient_pressure": 0, "fluid": {"bulk_modulus": 1.4e9
                           "lines": {"hole": {"from": "pump", "to": "a",
                                              "orifice": {"coefficient": 0.62, "diameter": 2e-3,
                                                          "transition_pressure": 1}}}}}
-CONDUCTANCE = 0.62 * np.pi * 1e-6 * np.sqrt(2 / 850)     # of the orifice, K in Q = K sqrt(dp)
+CONDUCTANCE = 0.62 * np.pi * 1e-6 * np.sqrt(2 / 850)     # K in Q = K sqrt(dp)
 FULL = 2 * 1e-3 * np.sqrt(10e6) / (1.4e9 * CONDUCTANCE)  # time to fill the volume [s]
 
 
 def blocked(steps):
-    """Turning points of the mass on trapped oil, and the period between the first and the third. @param steps  per period"""
+    """Turning points of the mass on trapped oil, and the period between the first and the third. @param steps per
+    period"""
     places, turns, last = [], [], [0.0, 0.0]
 
     def look(session):

@@ -26,11 +26,13 @@ def timoshenko(n):
     A, I, q = 4, 16 / 12, (n * np.pi / 10)**2
     kGA = COWPER * SHEAR * A
     b = DENSITY * A * (YOUNG * I * q + kGA) + DENSITY * I * kGA * q
-    return np.sqrt((b - np.sqrt(b * b - 4 * DENSITY * A * DENSITY * I * YOUNG * I * kGA * q * q)) / (2 * DENSITY * A * DENSITY * I)) / (2 * np.pi)
+    a = DENSITY * A * DENSITY * I
+    return np.sqrt((b - np.sqrt(b * b - 4 * a * YOUNG * I * kGA * q * q)) / (2 * a)) / (2 * np.pi)
 
 
 def double_cross(elements):
-    """FV2: eight arms of 5 m in a plane, pinned at their ends; out of the plane everything but the pins' rotation is stiff."""
+    """FV2: eight arms of 5 m in a plane, pinned at their ends; out of the plane everything but the pins' rotation is
+    stiff."""
     section = {**without_shear(0.125**2, 0.125**4 / 12, 1e-4), "GJ": 1e12, "EIy": 1e12}
     nodes, arms = {"middle": {"position": [0, 0, 0]}}, {}
     for k in range(8):

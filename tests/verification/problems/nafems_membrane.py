@@ -12,10 +12,12 @@ THICKNESS = 0.2
 def geometry(along, across):
     """A trapezoid, 5 m wide at the root and 1 m at the tip, 10 m long, one brick thick."""
     return f"""SetFactory("OpenCASCADE");
-Point(1) = {{0, -2.5, {-THICKNESS / 2}}}; Point(2) = {{10, -0.5, {-THICKNESS / 2}}}; Point(3) = {{10, 0.5, {-THICKNESS / 2}}}; Point(4) = {{0, 2.5, {-THICKNESS / 2}}};
+Point(1) = {{0, -2.5, {-THICKNESS / 2}}}; Point(2) = {{10, -0.5, {-THICKNESS / 2}}};
+Point(3) = {{10, 0.5, {-THICKNESS / 2}}}; Point(4) = {{0, 2.5, {-THICKNESS / 2}}};
 Line(1) = {{1, 2}}; Line(2) = {{2, 3}}; Line(3) = {{3, 4}}; Line(4) = {{4, 1}};
 Curve Loop(1) = {{1, 2, 3, 4}}; Plane Surface(1) = {{1}};
-Transfinite Curve {{1, 3}} = {along + 1}; Transfinite Curve {{2, 4}} = {across + 1}; Transfinite Surface {{1}}; Recombine Surface {{1}};
+Transfinite Curve {{1, 3}} = {along + 1}; Transfinite Curve {{2, 4}} = {across + 1};
+Transfinite Surface {{1}}; Recombine Surface {{1}};
 out[] = Extrude {{0, 0, {THICKNESS}}} {{ Surface{{1}}; Layers{{1}}; Recombine; }};
 Physical Volume("body") = {{out[1]}};
 Physical Surface("root") = Surface In BoundingBox {{-0.01, -3, -1, 0.01, 3, 1}};

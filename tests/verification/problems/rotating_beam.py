@@ -8,7 +8,8 @@ SPEEDS = (1, 3, 6, 12)
 
 
 def frequencies(elements):
-    """First and second frequency across the plane of rotation at each speed, L = m = EI = 1, and the first one in the plane."""
+    """First and second frequency across the plane of rotation at each speed, L = m = EI = 1, and the first one in the
+    plane."""
     across, along = [], []
     for speed in SPEEDS:
         results = bielle.read({

@@ -34,6 +34,7 @@ def whirl(speed):
 def jeffcott(elements):
     """A disc in the middle of a light shaft of steel on two pins: the critical speed sqrt(48 EI/(m L^3))."""
     young, radius, length = 2.1e11, 0.01, 1.0
+    section = f"{{circle: {radius}, young: {young}, poisson: 0.3, density: 0.01, shear_factors: [1e6, 1e6]}}"
     results = bielle.read(f"""
 parameters: {{speed: 100}}
 nodes:
@@ -41,8 +42,8 @@ nodes:
   disc: {{position: [0, 0, 0.5]}}
   right: {{position: [0, 0, 1], fixed: [x, y]}}
 elements:
-  a: {{type: beam, nodes: [left, disc], elements: {elements}, section: {{circle: {radius}, young: {young}, poisson: 0.3, density: 0.01, shear_factors: [1e6, 1e6]}}}}
-  b: {{type: beam, nodes: [disc, right], elements: {elements}, section: {{circle: {radius}, young: {young}, poisson: 0.3, density: 0.01, shear_factors: [1e6, 1e6]}}}}
+  a: {{type: beam, nodes: [left, disc], elements: {elements}, section: {section}}}
+  b: {{type: beam, nodes: [disc, right], elements: {elements}, section: {section}}}
   disc: {{type: rigid_body, node: disc, mass: 5, inertia: [0.02, 0.02, 0.03]}}
 joints: {{pin: {{type: spherical, nodes: [ground, left], position: [0, 0, 0]}}}}
 """).session().campbell({"from": 20, "to": 200, "count": 10}, rotation={"axis": [0, 0, 1]}, modes=2)

@@ -24,7 +24,8 @@ def model(arm):
 
 
 def spin(name):
-    """Study.compute: deflections across the turning root at 5 and 10 s, and the largest one, by a parabola through three steps."""
+    """Study.compute: deflections across the turning root at 5 and 10 s, and the largest one, by a parabola through
+    three steps."""
     def compute(step):
         deflection, times = [], []
 

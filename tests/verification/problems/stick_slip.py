@@ -16,13 +16,15 @@ elements:
   spring: {type: spring_damper, nodes: [anchor, block], stiffness: 100}
 joints:
   rail: {type: prismatic, nodes: [ground, belt], axis: [1, 0, 0]}
-  contact: {type: prismatic, nodes: [belt, block], axis: [1, 0, 0], friction: {model: stick_slip, coefficient: 0.25, static: 0.4}}
+  contact: {type: prismatic, nodes: [belt, block], axis: [1, 0, 0],
+            friction: {model: stick_slip, coefficient: 0.25, static: 0.4}}
 drives: {belt: {joint: rail, displacement: "0.1*t"}}
 """
 
 
 def exact(t):
-    """Place and velocity at a time. It sticks until k x = mu_s m g, then swings about mu_k m g/k until it has the belt's velocity again."""
+    """Place and velocity at a time. It sticks until k x = mu_s m g, then swings about mu_k m g/k until it has the
+    belt's velocity again."""
     w = np.sqrt(STIFFNESS / MASS)
     x_s, x_k = STATIC * MASS * GRAVITY / STIFFNESS, KINETIC * MASS * GRAVITY / STIFFNESS
     first = x_s / BELT

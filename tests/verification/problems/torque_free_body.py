@@ -8,7 +8,8 @@ MODEL = """
 nodes: {body: {angular_velocity: [0.01, 5, 0.01]}}
 elements: {body: {type: rigid_body, node: body, mass: 1, inertia: [1, 2, 3]}}
 """
-EXACT = "Jacobi's elliptic functions with 40 digits (tests/references/torque_free_body.py); L. D. Landau, E. M. Lifshitz, Mechanics, section 37"
+EXACT = ("Jacobi's elliptic functions with 40 digits (tests/references/torque_free_body.py); L. D. Landau, E. M. "
+         "Lifshitz, Mechanics, section 37")
 
 
 def tumble(step):

@@ -42,6 +42,7 @@ PROBLEM = Problem(
         Study("Published targets", beam, [16], [
             Quantity("own", "deflections along the loads y, z", "in", [5.424e-3, 1.754e-3], source=PUBLISHED,
                      tolerance=1.5e-3, relative=True, known_to=5e-6,
-                     reason="the targets are those of a beam model, exact ones are 5.4293e-3 and 1.7496e-3, 1.2e-3 away"),
+                     reason="the targets are those of a beam model, exact ones are 5.4293e-3 and 1.7496e-3, "
+                            "1.2e-3 away"),
         ], parameter="elements", by=""),
     ])
