@@ -33,6 +33,9 @@ class Tables(unittest.TestCase):
         for path in glob.glob(os.path.join(FOLDER, "..", "**", "*.?pp"), recursive=True):
             with open(path, encoding="utf-8") as file:
                 read |= set(re.findall(r'ReferenceTable(?:\s+\w+)?[({]"(\w+)"', file.read()))
+        for path in glob.glob(os.path.join(FOLDER, "..", "verification", "problems", "*.py")):
+            with open(path, encoding="utf-8") as file:
+                read |= set(re.findall(r'\b(?:row|vector)\("(\w+)"', file.read()))
         self.assertEqual(read, stems("*.csv"))
 
     def test_values_are_written_with_two_digits_more_than_are_claimed(self):

@@ -1,0 +1,154 @@
+"""The report as one HTML page."""
+
+import html
+import math
+import re
+
+SUBJECTS = ["Rigid mechanisms", "Beams at rest", "Beams in motion", "Solids and superelements",
+            "Hydraulics and friction", "Integration in time"]
+STYLE = """
+body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 66em; padding: 0 1em; color: #222; }
+table { border-collapse: collapse; margin: 0.6em 0 1em; font-size: 13px; }
+th, td { border-bottom: 1px solid #ddd; padding: 0.2em 0.7em; text-align: left; vertical-align: top; }
+th { background: #f2f4f6; } td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+h2 { margin-top: 2em; border-bottom: 2px solid #345; } h3 { margin-bottom: 0.2em; } h4 { margin: 1em 0 0.2em; }
+.passed { color: #00693e; font-weight: bold; } .failed { color: #b00020; font-weight: bold; }
+.failures { background: #fdecee; padding: 0.4em 1em; } .quiet { color: #666; font-size: 13px; }
+svg { max-width: 100%; height: auto; } a { color: #0b5394; }
+"""
+
+
+def page(results, facts, quick):
+    """The text of the page. @param results  of runs.run_all @param facts  of machine.described"""
+    failed = [result for result in results.values() if not result["passed"]]
+    names = ", ".join(result["name"] for result in failed)
+    verdict = f"All {len(results)} problems passed"
+    if failed:
+        verdict = f"{len(failed)} of {len(results)} problems failed: {names}"
+    results = dict(sorted(results.items(), key=lambda item: (place(item[1]["subject"]), item[1]["title"])))
+    subjects = list(dict.fromkeys(result["subject"] for result in results.values()))
+    parts = ["<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Bielle: verification</title>",
+             f"<style>{STYLE}</style></head><body>",
+             "<h1>Verification of Bielle</h1>", f"<p class='{'failed' if failed else 'passed'}'>{text(verdict)}.</p>",
+             "<p>Each problem has an exact or published reference. Models were computed for this page, at several "
+             "steps or meshes; errors, observed orders and processor times "
+             "are those of this run. A problem passes if the error of the last level is within the stated tolerance "
+             "and the order is the expected one. "
+             "No reference comes from Bielle.</p>",
+             "<p>Quick selection: run without <code>--quick</code> for all problems.</p>" if quick else "",
+             table(["", ""], [[text(what), text(value)] for what, value in facts]), "<h2>Summary</h2>",
+             summary(results)]
+    for subject in subjects:
+        parts.append(f"<h2>{text(subject or 'Problems')}</h2>")
+        parts += [section(result) for result in results.values() if result["subject"] == subject]
+    return "\n".join(filter(None, parts)) + "\n</body></html>\n"
+
+
+def place(subject):
+    """Place of a subject among the others; unknown ones come last."""
+    return (SUBJECTS.index(subject), "") if subject in SUBJECTS else (len(SUBJECTS), subject)
+
+
+def summary(results):
+    """The table on top: a line for each problem."""
+    lines = []
+    for result in results.values():
+        quantities = [quantity for study in result["studies"] for quantity in study["quantities"]]
+        orders = [f"{float(quantity['order']):.2f} ({quantity['expected_order']:g})" for quantity in quantities
+                  if quantity["expected_order"] is not None]
+        shares = [float(quantity["errors"][-1]) / quantity["tolerance"] for quantity in quantities]
+        worst = math.nan if any(map(math.isnan, shares)) else max(shares, default=math.nan)
+        lines.append([f"<a href='#{text(result['name'])}'>{text(result['title'])}</a>", mark(result["passed"]),
+                      number(worst, 2),
+                      text(", ".join(dict.fromkeys(orders)) or "-"), number(processor_time(result), 3)])
+    return table(["problem", "", "largest error / tolerance", "observed order (expected)", "processor time [s]"],
+                 lines, numbers=(2, 4))
+
+
+def processor_time(result):
+    """Processor time of all levels of a problem [s]."""
+    return sum(level["processor_time"] for study in result["studies"] for level in study["levels"])
+
+
+def section(result):
+    """The part of the page about a problem."""
+    parts = [f"<h3 id='{text(result['name'])}'>{text(result['title'])} {mark(result['passed'])}</h3>",
+             f"<p class='quiet'>{text(result['source'])} <br>file <code>{text(result['name'])}.py</code></p>",
+             f"<p>{text(result['model'])}</p>"]
+    if result["failures"]:
+        parts.append(f"<div class='failures'>{'<br>'.join(map(text, result['failures']))}</div>")
+    for study in result["studies"]:
+        parts += [f"<h4>{text(study['title'])}</h4>", quantities_table(study), errors_table(study), precision(study),
+                  study.get("figure", "")]
+    return "\n".join(filter(None, parts))
+
+
+def quantities_table(study):
+    """References, tolerances and orders of the quantities of a study."""
+    lines = []
+    for quantity in study["quantities"]:
+        order = expected = "-"
+        if quantity["expected_order"] is not None:
+            order = f"{float(quantity['order']):.2f}"
+            least = "at least " if quantity["order_at_least"] else ""
+            expected = f"{least}{quantity['expected_order']:g} &plusmn; {quantity['order_within']:g}"
+        tolerance = f"{number(quantity['tolerance'], 2)} ({text(quantity['error_unit'])}): {text(quantity['reason'])}"
+        remark = f"<br><span class='quiet'>{text(quantity['order_reason'])}</span>" if quantity["order_reason"] else ""
+        lines.append([f"{text(quantity['meaning'])} [{text(quantity['unit'])}]", values(quantity["reference"]),
+                      values(quantity["values"][-1]), text(quantity["source"]),
+                      tolerance, order, expected + remark, mark(quantity["passed"])])
+    return table(["quantity", "reference",
+                  f"computed, {text(study['parameter'])} {text(study['levels'][-1]['level'])}",
+                  "source of the reference", "tolerance and its reason", "observed order", "expected", ""], lines)
+
+
+def errors_table(study):
+    """Errors and processor times of the levels of a study."""
+    heads = [study["parameter"],
+             *(f"error: {quantity['meaning']} [{quantity['error_unit']}]" for quantity in study["quantities"]),
+             "processor time [s]"]
+    lines = [[text(f"{level['level']}"), *(number(quantity["errors"][k], 3) for quantity in study["quantities"]),
+              number(level["processor_time"], 3)]
+             for k, level in enumerate(study["levels"])]
+    return table([text(head) for head in heads], lines, numbers=range(len(heads)))
+
+
+def precision(study):
+    """The sentence with which a benchmark is submitted: the coarsest level that is accurate enough, and its processor
+    time."""
+    if study["kept_from"] is None or len(study["levels"]) < 2:
+        return ""
+    level = study["levels"][study["kept_from"]]
+    return (f"<p class='quiet'>All tolerances are kept from {text(study['parameter'])} = {text(level['level'])} on, "
+            f"with {number(level['processor_time'], 2)} s of processor time.</p>")
+
+
+def table(heads, lines, numbers=()):
+    """A table of HTML cells. @param numbers  columns that are aligned to the right"""
+    head = "<tr>" + "".join(f"<th>{each}</th>" for each in heads) + "</tr>" if any(heads) else ""
+    kinds = [" class='number'" if k in numbers else "" for k in range(len(heads))]
+    rows = ["<tr>" + "".join(f"<td{kind}>{cell}</td>" for kind, cell in zip(kinds, line)) + "</tr>" for line in lines]
+    return f"<table>{head}{''.join(rows)}</table>"
+
+
+def mark(passed):
+    return "<span class='passed'>passed</span>" if passed else "<span class='failed'>FAILED</span>"
+
+
+def number(value, digits):
+    """A number for people; infinite and undefined ones as texts."""
+    value = float(value)
+    return re.sub(r"e([+-])0*(\d+)$", lambda match: f"e{match[1].strip('+')}{match[2]}", f"{value:.{digits}g}")
+
+
+def values(reference):
+    """One or several numbers, as texts or lists of a result."""
+    if not isinstance(reference, list):
+        return f"{float(reference):.9g}"
+    if any(isinstance(line, list) for line in reference):
+        return "<br>".join(map(values, reference))
+    return ", ".join(f"{float(value):.9g}" for value in reference) or "no numbers"
+
+
+def text(words):
+    return html.escape(str(words))
