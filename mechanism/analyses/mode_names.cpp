@@ -114,7 +114,8 @@ std::vector<std::string> mode_names(const System& system, const ModesReport& rep
     std::string name = most->name() + " ";
     name += behind ? direction_behind_joint(*most, shapes, report.turning_axis, model_extent(state))
                    : direction_of(motions_of(*most, shapes), model_extent(state));
-    if (const double whirl = report.turning_whirl(system, k); !std::isnan(whirl))
+    const bool oscillates = report.found.modes[k].s.imag() > 0;
+    if (const double whirl = report.turning_whirl(system, k); oscillates && !std::isnan(whirl))
       name += fmt::format(", {}", whirl_name(whirl));
     names.push_back(std::move(name));
   }

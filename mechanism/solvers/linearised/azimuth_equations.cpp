@@ -166,8 +166,8 @@ class TurnedEquations {
     ResidualScale scale;
     VectorX unused(system_.size());
     forces_.residual(turned, unused, &scale);
-    constexpr double balanced = 1e-6;  // of the largest force: equilibria are found to 1e-9
-    // Where all forces of a kind are rounding, those of the other kind are their measure.
+    constexpr double balanced = 1e-6;  // relative to the largest force: equilibria are found to 1e-9
+    // If all forces of a kind are rounding, those of the other kind are their measure.
     const double length = model_length(turned);
     scale[Kind::rotation] = std::max(scale[Kind::rotation], length * scale[Kind::translation]);
     scale[Kind::translation] = std::max(scale[Kind::translation], scale[Kind::rotation] / length);

@@ -25,7 +25,7 @@ using HarmonicMatrix = std::vector<LinearisedEquations::Sparse>;
 class PeriodicEquations {
  public:
   /// @param azimuths  equations at equidistant azimuths (azimuth_equations.hpp), an even number
-  /// @param rate  of the azimuth [rad/s] @throws ComputationError if more azimuths are necessary
+  /// @param rate  rate of the azimuth [rad/s] @throws ComputationError if more azimuths are necessary
   PeriodicEquations(const std::vector<LinearisedEquations>& azimuths, double rate);
 
   double rate() const { return rate_; }
