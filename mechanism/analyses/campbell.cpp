@@ -20,6 +20,14 @@ class CampbellStates {
   /// Axes and setting are those of the last value: if any motion is steady in the axes, this one is.
   void begin(Campbell& found) {
     const double last = options_.values.back();
+    unsteady_ = &found.unsteady;
+    if (!options_.joint.empty()) {
+      found.gathered = with_modes(last, options_.modes, [&](const System& /*system*/, const ModesReport& report) {
+        static_cast<LinearisedSetting&>(found) = report;
+        if (report.turning->rate != 0) harmonics_ = report.turning->harmonics;
+      });
+      return;
+    }
     found.gathered = with_modes(last, 1, [&](const System& /*system*/, const ModesReport& report) {
       // Frequencies of whirl are taken in inertial axes if the motion is steady in these to a thousandth.
       const bool inertial = report.steadiness && report.steadiness->steady_in(ModeAxes::inertial);
@@ -30,18 +38,23 @@ class CampbellStates {
       found.axes = *axes_;
     });
     found.axis = axis_;
-    unsteady_ = &found.unsteady;
   }
 
   SweepSample sample(double value, int count) {
     SweepSample sample;
     with_modes(value, count, [&](const System& system, const ModesReport& report) {
       const State& state = report.about.state;
-      sample.speed = speed(state);
+      sample.speed = report.turning ? report.turning->rate : speed(state);
       sample.modes.M = report.equations->M;
       sample.modes.all = report.found.all;
-      for (const Mode& mode : report.found.modes) {
+      for (std::size_t k = 0; k < report.found.modes.size(); ++k) {
+        const Mode& mode = report.found.modes[k];
         if (!(mode.s.imag() > 0)) continue;
+        if (report.turning) {
+          sample.modes.modes.push_back(mode);
+          sample.modes.whirl.push_back(report.turning_whirl(system, k));
+          continue;
+        }
         const auto whirl = whirl_of(system, state, sample.modes.M, mode, axis_);
         sample.modes.modes.push_back(mode);
         // Forward whirl has the sense of the speed; without rotation there is neither forward nor backward whirl.
@@ -61,14 +74,15 @@ class CampbellStates {
     ModesOptions options;
     options.search.count = count;
     options.axes = axes_;
+    options.harmonics = harmonics_;
     options.energies = false;
     if (options_.parameter.empty()) {
-      set_rotation(value, options);
+      set_rotation(session_.model(), value, options);
       use(session_.system(), compute_modes(session_, options));
       return {};
     }
     Model model = made(value);
-    if (options_.rotation) set_rotation(rate_of(model), options);
+    if (options_.rotation) set_rotation(model, rate_of(model), options);
     try {
       Session other(std::move(model));
       other.begin_analysis("campbell");
@@ -87,7 +101,13 @@ class CampbellStates {
     }
   }
 
-  void set_rotation(double rate, ModesOptions& options) const {
+  void set_rotation(const Model& model, double rate, ModesOptions& options) const {
+    if (!options_.joint.empty()) {
+      options.rotation = SteadyRotation{};
+      options.rotation->joint = model.members_of({Section::joints, options_.joint}).front();
+      options.rotation->rate = rate;
+      return;
+    }
     if (rate != 0) options.rotation = SteadyRotation{rate * options_.axis, options_.through};
   }
 
@@ -137,6 +157,7 @@ class CampbellStates {
   Session& session_;
   const CampbellOptions& options_;
   std::optional<ModeAxes> axes_;
+  std::optional<int> harmonics_;  ///< for all values, those of the last one
   Vector3 axis_ = Vector3::Zero();
   std::vector<double>* unsteady_ = nullptr;
 };
@@ -159,6 +180,7 @@ Campbell compute_campbell(Session& session, const CampbellOptions& options) {
       options.values, options.modes, options.orders);
   session.forget_stop();
   found.swept = sweep.run([&] { return session.stopping(); });
+  if (!found.unsteady.empty()) found.swept.critical.clear();  // frequencies of a moment are no frequencies of forces
   return found;
 }
 

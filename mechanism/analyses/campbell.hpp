@@ -18,6 +18,7 @@ struct CampbellOptions {
   std::string parameter;
   ModelMaker maker;                   ///< creates these models
   bool rotation = false;              ///< whether everything is brought into steady rotation; true without a parameter
+  std::string joint;                  ///< joint behind which a part turns; empty: everything turns
   Vector3 axis = Vector3::Zero();     ///< unit vector; zero: axis of the fastest node at the last value
   Vector3 through = Vector3::Zero();  ///< a point of the axis [m]
   std::string rate;                   ///< rate of rotation [rad/s], a formula of the parameters; empty: the parameter
@@ -29,9 +30,9 @@ struct CampbellOptions {
 
 struct Campbell : LinearisedSetting {  ///< the setting is that of the last value
   SweptModes swept;
-  Vector3 axis = Vector3::Zero();
-  std::vector<double> unsteady;  ///< values at which the motion was not steady in these axes
-  std::string gathered;          ///< summary of the step recorders of another model, for the last value
+  Vector3 axis = Vector3::Zero();  ///< zero for a rotation behind a joint
+  std::vector<double> unsteady;    ///< values at which the motion was not steady in these axes
+  std::string gathered;            ///< summary of the step recorders of another model, for the last value
 };
 
 /// Computes the modes over a speed, tracked, with critical speeds; the present state of the session is kept. If the

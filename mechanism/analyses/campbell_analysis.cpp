@@ -8,6 +8,7 @@
 
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/campbell_arrays.hpp"
+#include "mechanism/analyses/rotation_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
 #include "mechanism/reading/names.hpp"
 #include "reduce/common/counted.hpp"
@@ -32,6 +33,19 @@ const KeyTable& values_keys() {
   return table;
 }
 
+Key swept_rate_key() {
+  using namespace keys;
+  return {"rate", number("rad/s"), computed("the parameter, or the `speeds` themselves"),
+          "Angular velocity about the axis, or rate of the joint's angle: a formula of the parameters."};
+}
+
+const KeyTable& swept_joint_keys() {
+  static const KeyTable table{"`rotation` of a sweep behind a joint",
+                              "Steady rotation of the part behind a joint at each value; the rest stands still.",
+                              {turning_joint_key(), swept_rate_key()}};
+  return table;
+}
+
 const KeyTable& swept_rotation_keys() {
   using namespace keys;
   static const KeyTable table{
@@ -39,8 +53,8 @@ const KeyTable& swept_rotation_keys() {
       "Steady rotation of all free parts about an axis, into which the mechanism is brought at each value.",
       {{"axis", direction().as_axial().in_inertial_axes(), required, "Direction of the axis, in inertial components."},
        {"position", vector3("m").as_point().in_inertial_axes(), otherwise("[0, 0, 0]"), "A point of the axis."},
-       {"rate", number("rad/s"), computed("the parameter, or the `speeds` themselves"),
-        "Angular velocity about the axis, a formula of the parameters."}}};
+       swept_rate_key()},
+      {{"joint", "", swept_joint_keys}}};
   return table;
 }
 
@@ -50,7 +64,8 @@ std::vector<Key> sweep_keys(const char* unit, const KeyTable& (*range)()) {
   return {analysis_type_key("campbell"),
           {"parameter", name_of("parameter"), optional,
            "Parameter of the model that the `speeds` are values of; without it they are rates of the `rotation`."},
-          {"rotation", nested(swept_rotation_keys), optional, "Steady rotation of everything free at each value."},
+          {"rotation", nested(swept_rotation_keys), optional,
+           "Steady rotation of everything free, or of the part behind a joint, at each value."},
           {"speeds",
            {list_of(number(unit)).items_at_least(2), nested(range)},
            required,
@@ -96,10 +111,14 @@ std::string read_swept_parameter(const YamlValue& entry, const Model& model) {
 }
 
 /// Reads `{axis: [0, 0, 1], position: [0, 0, 0], rate: "rpm*pi/30"}`.
-void read_swept_rotation(const YamlValue& entry, CampbellOptions& options) {
+void read_swept_rotation(const YamlValue& entry, const Model& model, CampbellOptions& options) {
   options.rotation = true;
-  options.axis = Vector3(entry.at("axis").direction());
-  options.through = entry.at("position").vector3();
+  if (const auto joint = entry.find("joint")) {
+    options.joint = read_turning_joint(*joint, model);
+  } else {
+    options.axis = Vector3(entry.at("axis").direction());
+    options.through = entry.at("position").vector3();
+  }
   const auto rate = entry.find("rate");
   if (!rate) return;
   if (options.parameter.empty())
@@ -137,11 +156,13 @@ std::string CampbellAnalysis::at(double value, double speed) const {
 std::string CampbellAnalysis::format(const Campbell& found) const {
   const SweptModes& swept = found.swept;
   std::string text = format_setting(found, "modes");
-  if (found.steadiness && found.unsteady.empty() && found.axes == ModeAxes::turning)
+  if (!found.turning && found.steadiness && found.unsteady.empty() && found.axes == ModeAxes::turning)
     text += "  frequencies and senses of whirl are those seen from what turns\n";
   if (!found.unsteady.empty())
-    text += fmt::format("  the motion is not steady at {} of the values, the first {:.6g}\n", found.unsteady.size(),
-                        *std::min_element(found.unsteady.begin(), found.unsteady.end()));
+    text += fmt::format(
+        "  the motion is not steady at {} of the values, the first {:.6g}: critical speeds are not sought (`rotation: "
+        "{{joint: ..}}` brings what is behind a joint into steady rotation, with its centrifugal forces)\n",
+        found.unsteady.size(), *std::min_element(found.unsteady.begin(), found.unsteady.end()));
   if (swept.points.front().tracks.empty())
     return text + "  nothing oscillates at the first value: there is nothing to track\n";
   text += format_mode_lines(swept);
@@ -149,7 +170,7 @@ std::string CampbellAnalysis::format(const Campbell& found) const {
     text += fmt::format("  critical at {}: mode {}, {:.6g} Hz = {:g} x speed{}{}\n", at(each.value, each.speed),
                         each.mode + 1, each.frequency, each.order, std::isnan(each.whirl) ? "" : ", ",
                         whirl_name(each.whirl));
-  if (swept.critical.empty()) text += "  no critical speeds\n";
+  if (swept.critical.empty() && found.unsteady.empty()) text += "  no critical speeds\n";
   for (const ModeMeeting& each : swept.meetings)
     text += each.veering ? fmt::format(
                                "  modes {} and {} veer around {}, {:.6g} Hz: they come within {:.3g} Hz, turn away and "
@@ -190,7 +211,7 @@ const KeyTable& campbell_keys() {
 std::unique_ptr<Analysis> read_campbell(const YamlValue& entry, const Model& model) {
   CampbellOptions options;
   if (const auto parameter = entry.find("parameter")) options.parameter = read_swept_parameter(*parameter, model);
-  if (const auto rotation = entry.find("rotation")) read_swept_rotation(*rotation, options);
+  if (const auto rotation = entry.find("rotation")) read_swept_rotation(*rotation, model, options);
   if (options.parameter.empty() && !options.rotation)
     entry.fail(
         "expected the `parameter` whose values are swept, or a `rotation` about an axis in which everything free "
@@ -199,7 +220,11 @@ std::unique_ptr<Analysis> read_campbell(const YamlValue& entry, const Model& mod
   options.modes = entry.at("modes").integer();
   options.orders.clear();
   for (const YamlValue& item : entry.at("orders").items()) options.orders.push_back(item.number());
-  if (const auto node = entry.find("node")) options.node = node_named_by(*node, model);
+  if (const auto node = entry.find("node")) {
+    if (!options.joint.empty())
+      node->fail("the speed is the rate of the joint that `rotation` names: leave `node` out");
+    options.node = node_named_by(*node, model);
+  }
   return std::make_unique<CampbellAnalysis>(std::move(options));
 }
 

@@ -10,6 +10,7 @@
 
 #include "mechanism/analyses/analysis_table.hpp"
 #include "mechanism/analyses/mode_arrays.hpp"
+#include "mechanism/analyses/mode_names.hpp"
 #include "mechanism/analyses/rotation_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
 #include "reduce/common/counted.hpp"
@@ -66,13 +67,13 @@ std::string format_uncertain(const ModesReport& report) {
   return text;
 }
 
-std::string format_table(const ModesReport& report, const ModeParts& parts) {
+std::string format_table(const ModesReport& report, const ModeParts& parts, const std::vector<std::string>& names) {
   std::string text =
-      fmt::format("  {:>4}  {:>13}  {:>11}  {:<11}  {}\n", "mode", "frequency", "damping", "kind", "energy in");
+      fmt::format("  {:>4}  {:>13}  {:>11}  {:<11}  {}\n", "mode", "frequency", "damping", "kind", "motion; energy in");
   const std::vector<Mode>& modes = report.found.modes;
   for (std::size_t k = 0; k < std::min(most_listed, modes.size()); ++k)
-    text += fmt::format("  {:>4}  {:>10.6g} Hz  {:>11.4g}  {:<11}  {}\n", k + 1, modes[k].frequency(),
-                        shown_damping(modes[k]), mode_kind_name(modes[k].kind),
+    text += fmt::format("  {:>4}  {:>10.6g} Hz  {:>11.4g}  {:<11}  {}{}{}\n", k + 1, modes[k].frequency(),
+                        shown_damping(modes[k]), mode_kind_name(modes[k].kind), names[k], names[k].empty() ? "" : "; ",
                         main_parts(parts, static_cast<Eigen::Index>(k)));
   if (modes.size() > most_listed) text += fmt::format("  and {} more\n", modes.size() - most_listed);
   return text;
@@ -127,7 +128,7 @@ const KeyTable& eigen_keys() {
   return table;
 }
 
-std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& /*model*/) {
+std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& model) {
   ModesOptions all;
   ModeOptions& options = all.search;
   options.count = entry.at("count").integer();
@@ -138,7 +139,7 @@ std::unique_ptr<Analysis> read_eigen(const YamlValue& entry, const Model& /*mode
     if (entry.has("count")) below->fail("all modes below a frequency are found, however many: leave `count` out");
     options.below = below->number();
   }
-  if (const auto rotation = entry.find("rotation")) all.rotation = read_rotation(*rotation);
+  if (const auto rotation = entry.find("rotation")) all.rotation = read_rotation(*rotation, model);
   return std::make_unique<EigenAnalysis>(std::move(all), entry.at("shapes").boolean());
 }
 
@@ -158,7 +159,11 @@ void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {
       "eigen, {} about the state at t = {:.6g} s{}\n", counted(modes.size(), "mode"), report.about.state.time,
       environment.load_factor == 1 ? "" : fmt::format(", load factor {:.6g}", environment.load_factor));
   summary.text += format_start(report.about.start);
-  if (!modes.empty()) summary.text += format_table(report, parts);
+  if (!modes.empty()) {
+    const std::vector<std::string> names = mode_names(session.system(), report, parts);
+    session.write(ResultNames{"eigen/name", names});
+    summary.text += format_table(report, parts, names);
+  }
   if (report.found.all)
     summary.text += modes.empty() ? "  nothing can move\n" : "  these are all modes of the mechanism\n";
   summary.text += format_remarks(report);

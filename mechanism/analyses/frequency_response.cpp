@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "mechanism/analyses/modal_response.hpp"
 #include "mechanism/analyses/standing_state.hpp"
+#include "mechanism/analyses/turning_equations.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -134,13 +137,67 @@ class SuperposedResponse {
 
 }  // namespace
 
+namespace {
+
+/// Responses of a mechanism of which a part turns behind a joint, with equations that are periodic: the part of each
+/// output with the frequency of the input, without those at other harmonics of the rotation.
+FrequencyResponse harmonic_response(const System& system, const FrequencyResponseOptions& options,
+                                    const StandingState& about, const TurningEquations& turning) {
+  if (options.modes > 0)
+    throw InputError("`modes`: responses of periodic equations are found directly: leave the key out");
+  const auto check = [&](const std::string& name, int node) {
+    if (node < 0 || turning.part.turns(node))
+      throw InputError(
+          fmt::format("'{}': the equations are periodic; forces on nodes that stand still, and their motions, alone "
+                      "have responses at one frequency",
+                      name));
+  };
+  for (const ResponseInput& input : options.inputs) check(input.name, input.node);
+  for (const ResponseOutput& output : options.outputs) check(output.name, output.node);
+  FrequencyResponse result;
+  ModeOptions slow;
+  slow.count = 10;
+  const HarmonicModes modes = turning.search().find(slow);
+  static_cast<LinearisedSetting&>(result) = turning.setting(modes);
+  const LinearResponse response(system, about, turning.periodic.first());
+  for (const ResponseOutput& output : options.outputs) result.output_units.push_back(response.units(output));
+  const LinearisedEquations& whole = modes.equations;
+  const int n = turning.periodic.first().unknowns(), h = modes.harmonics;
+  const std::vector<VectorX> rights = response.right_sides(options.inputs, options.outputs);
+  for (const double frequency : options.frequencies) {
+    const Complex s(0, 2 * std::numbers::pi * frequency);
+    const ShiftedOperator D(whole, s);
+    if (!D.regular()) throw_no_response(frequency);
+    Eigen::MatrixXcd H(options.outputs.size(), options.inputs.size());
+    for (std::size_t j = 0; j < rights.size(); ++j) {
+      Eigen::VectorXcd right = Eigen::VectorXcd::Zero(whole.unknowns() + whole.constraints());
+      for (int i = 0; i < n; ++i) right[turning.periodic.index(0, i, h)] = -rights[j][i];
+      const Eigen::VectorXcd found = D.solve(right);
+      Eigen::VectorXcd solution = Eigen::VectorXcd::Zero(rights[j].size());
+      for (int i = 0; i < n; ++i) solution[i] = found[turning.periodic.index(0, i, h)];
+      const Variation variation = response.motion(s, solution);
+      for (std::size_t i = 0; i < options.outputs.size(); ++i)
+        H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = response.value(options.outputs[i], variation);
+    }
+    result.response.push_back(H);
+  }
+  return result;
+}
+
+}  // namespace
+
 FrequencyResponse compute_frequency_response(Session& session, const FrequencyResponseOptions& options) {
   const System& system = session.system();
   check_response_names(session.model(), options.inputs, options.outputs);
   const StandingState about = standing_state(session, options.rotation);
   FrequencyResponse result;
-  static_cast<LinearisedSetting&>(result) = linearised_setting(system, about.environment, about.state);
-  const LinearisedEquations equations = linearised_equations(system, about.environment, about.state, result.axes);
+  std::optional<TurningEquations> turning;
+  if (options.rotation && options.rotation->joint) turning.emplace(system, about, *options.rotation);
+  if (turning && !turning->periodic.constant()) return harmonic_response(system, options, about, *turning);
+  static_cast<LinearisedSetting&>(result) =
+      turning ? turning->setting({}) : linearised_setting(system, about.environment, about.state);
+  const LinearisedEquations equations =
+      turning ? turning->periodic.first() : linearised_equations(system, about.environment, about.state, result.axes);
   const LinearResponse response(system, about, equations);
   for (const ResponseOutput& output : options.outputs) result.output_units.push_back(response.units(output));
   if (options.modes > 0) {

@@ -71,7 +71,7 @@ std::unique_ptr<Analysis> read_frequency_response(const YamlValue& entry, const 
   options.inputs = read_response_inputs(entry, model);
   options.outputs = read_response_outputs(entry, model);
   options.frequencies = read_frequencies(entry.at("frequencies"));
-  if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation);
+  if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation, model);
   if (const auto modes = entry.find("modes")) {
     options.modes = modes->integer();
     if (std::all_of(options.frequencies.begin(), options.frequencies.end(), [](double f) { return f == 0; }))

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mechanism/solvers/linearised/equations.hpp"
+#include "mechanism/solvers/linearised/harmonic_modes.hpp"
 #include "mechanism/solvers/linearised/steadiness.hpp"
 
 namespace bielle::mechanism {
@@ -14,6 +15,15 @@ struct LinearisedSetting {
   std::optional<Steadiness> steadiness;  ///< empty at rest
   double unbalance = 0;                  ///< at rest: largest residual force relative to the largest acting force
   std::string unbalanced;                ///< equation of this residual force: "force y at node 'pin'"
+  /// In steady rotation behind a joint: dependence of the equations on the azimuth; the fields above are not set.
+  struct Turning {
+    std::string joint;  ///< its description: "joint 'shaft'"
+    double rate = 0;    ///< [rad/s]
+    Periodicity periodicity = Periodicity::constant;
+    int harmonics = 0;
+    double change = 0;  ///< relative change of the exponents by the last harmonic
+  };
+  std::optional<Turning> turning;
 };
 
 LinearisedSetting linearised_setting(const System& system, const Environment& environment, const State& state);

@@ -1,8 +1,12 @@
 #include "mechanism/analyses/modes.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include "mechanism/analyses/turning_equations.hpp"
 #include "mechanism/solvers/linearised/growing_motions.hpp"
+#include "mechanism/solvers/linearised/whirl.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -21,10 +25,78 @@ namespace {
                   what));
 }
 
+[[noreturn]] void throw_singular() {
+  throw ComputationError(
+      "there are no modes: some unknown is not determined whatever the frequency (`eigen` of the mechanism at rest "
+      "tells which)");
+}
+
 std::optional<int> outweighed(const System& system, const ModesReport& report, double rate) {
   if (report.axes == ModeAxes::turning) return count_outweighed(*report.equations, rate);
   return count_outweighed(linearised_equations(system, report.about.environment, report.about.state, ModeAxes::turning),
                           rate);
+}
+
+void scale_to_unit(const System& system, const State& state, std::vector<Mode>& modes) {
+  for (Mode& mode : modes) {
+    const std::complex<double> factor = unit_factor(system, state, mode);
+    mode.u *= factor;
+    mode.w *= factor;
+  }
+}
+
+/// Adds up the energies of the harmonics of modes: means over a period and over a turn.
+MemberEnergies energies_of_harmonics(const System& system, const ModesReport& report, double rate) {
+  const HarmonicModes& harmonic = *report.harmonic;
+  MemberEnergies sum;
+  for (int k = -harmonic.harmonics; k <= harmonic.harmonics; ++k) {
+    std::vector<Mode> modes = report.found.modes;
+    for (std::size_t j = 0; j < modes.size(); ++j) {
+      modes[j].u = harmonic.u[j].col(k + harmonic.harmonics);
+      modes[j].w = harmonic.w[j].col(k + harmonic.harmonics);
+      modes[j].s += std::complex<double>(0, k * rate);
+    }
+    const MemberEnergies part = member_energies(system, report.about.environment, report.about.state, modes);
+    sum.kinetic = sum.kinetic.size() > 0 ? MatrixX(sum.kinetic + part.kinetic) : part.kinetic;
+    sum.potential = sum.potential.size() > 0 ? MatrixX(sum.potential + part.potential) : part.potential;
+  }
+  return sum;
+}
+
+/// Finds the modes of a mechanism of which a part turns behind a joint.
+void find_turning_modes(const System& system, const ModesOptions& options, ModesReport& report) {
+  const SteadyRotation& rotation = *options.rotation;
+  const State& state = report.about.state;
+  const TurningEquations equations(system, report.about, rotation);
+  report.equations = std::make_shared<const LinearisedEquations>(equations.periodic.first());
+  report.turning_axis = equations.part.axis(state);
+  for (std::size_t k = 0; k < state.nodes.size(); ++k)
+    report.turning_nodes.push_back(equations.part.turns(static_cast<int>(k)) ? 1 : 0);
+  if (rotation.rate == 0) {
+    static_cast<LinearisedSetting&>(report) = equations.setting({});
+    report.found = find_modes(*report.equations, options.search);
+    scale_to_unit(system, state, report.found.modes);
+    if (options.energies)
+      report.energies = member_energies(system, report.about.environment, state, report.found.modes);
+    return;
+  }
+  const HarmonicSearch search = equations.search();
+  auto harmonic = std::make_shared<HarmonicModes>(
+      options.harmonics ? search.find_with(options.search, *options.harmonics) : search.find(options.search));
+  static_cast<LinearisedSetting&>(report) = equations.setting(*harmonic);
+  report.found = harmonic->found;
+  for (std::size_t k = 0; k < report.found.modes.size(); ++k) {
+    Mode& mode = report.found.modes[k];
+    mode.u = harmonic->u[k].rowwise().sum();
+    mode.w = harmonic->w[k].rowwise().sum();
+    const std::complex<double> factor = unit_factor(system, state, mode);
+    mode.u *= factor;
+    mode.w *= factor;
+    harmonic->u[k] *= factor;
+    harmonic->w[k] *= factor;
+  }
+  report.harmonic = harmonic;
+  if (options.energies) report.energies = energies_of_harmonics(system, report, rotation.rate);
 }
 
 }  // namespace
@@ -35,6 +107,14 @@ ModesReport compute_modes(Session& session, const ModesOptions& options) {
   report.about = standing_state(session, options.rotation);
   const State& state = report.about.state;
   const Environment& environment = report.about.environment;
+  if (options.rotation && options.rotation->joint) {
+    try {
+      find_turning_modes(system, options, report);
+    } catch (const SingularEquations&) {
+      throw_singular();
+    }
+    return report;
+  }
   static_cast<LinearisedSetting&>(report) = linearised_setting(system, environment, state);
   if (options.axes) report.axes = *options.axes;
   report.equations =
@@ -51,13 +131,16 @@ ModesReport compute_modes(Session& session, const ModesOptions& options) {
   } catch (const SingularEquations& singular) {
     throw_undetermined(system, equations, singular.at());
   }
-  for (Mode& mode : report.found.modes) {
-    const std::complex<double> factor = unit_factor(system, state, mode);
-    mode.u *= factor;
-    mode.w *= factor;
-  }
+  scale_to_unit(system, state, report.found.modes);
   if (options.energies) report.energies = member_energies(system, environment, state, report.found.modes);
   return report;
+}
+
+double ModesReport::turning_whirl(const System& system, std::size_t mode) const {
+  if (!turning || turning->rate == 0) return NAN;
+  if (harmonic && harmonic->harmonics > 0) return harmonic->whirl[mode];
+  const auto whirl = whirl_of(system, about.state, equations->M, found.modes[mode], turning_axis);
+  return whirl ? std::copysign(1, turning->rate) * *whirl : NAN;
 }
 
 }  // namespace bielle::mechanism

@@ -16,6 +16,8 @@ struct ModesOptions {
   std::optional<SteadyRotation> rotation = {};  ///< modes about the steady rotation that begins at the state
   std::optional<ModeAxes> axes = {};            ///< axes of the modes; empty: those that suit the motion
   bool energies = true;                         ///< whether energies are computed
+  /// Number of harmonics of periodic equations; empty: as many as they need.
+  std::optional<int> harmonics = {};
 };
 
 struct ModesReport : LinearisedSetting {
@@ -25,6 +27,13 @@ struct ModesReport : LinearisedSetting {
   std::shared_ptr<const LinearisedEquations> equations;  ///< the linearised equations of the modes
   /// In steady rotation: number of motions for which centrifugal forces exceed the stiffness (count_outweighed).
   std::optional<int> outweighed;
+  /// In steady rotation behind a joint: the harmonics of the modes. `found` has the shapes at azimuth 0 then, and
+  /// `equations` are those at azimuth 0. Empty at rest.
+  std::shared_ptr<const HarmonicModes> harmonic;
+  /// In steady rotation behind a joint: sense of whirl of a mode, 1 forwards, -1 backwards; NaN without one.
+  double turning_whirl(const System& system, std::size_t mode) const;
+  Vector3 turning_axis = Vector3::Zero();  ///< unit vector of its axis, inertial
+  std::vector<char> turning_nodes;         ///< for each node, whether it turns; empty without such a rotation
 };
 
 /// The state of the session is kept. @throws ComputationError

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "mechanism/analyses/linear_response.hpp"
 #include "mechanism/analyses/standing_state.hpp"
+#include "mechanism/analyses/turning_equations.hpp"
 #include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
 #include "reduce/common/error.hpp"
@@ -136,8 +138,16 @@ StateSpace compute_state_space(Session& session, const StateSpaceOptions& option
   const System& system = session.system();
   check_response_names(session.model(), options.inputs, options.outputs);
   const StandingState about = standing_state(session, options.rotation);
-  const LinearisedSetting setting = linearised_setting(system, about.environment, about.state);
-  const LinearisedEquations equations = linearised_equations(system, about.environment, about.state, setting.axes);
+  std::optional<TurningEquations> turning;
+  if (options.rotation && options.rotation->joint) turning.emplace(system, about, *options.rotation);
+  if (turning && !turning->periodic.constant())
+    throw ComputationError(
+        "there is no state space with constant matrices: the equations are periodic in axes that turn with what is "
+        "behind the joint (`eigen` and `frequency_response` are possible)");
+  const LinearisedSetting setting =
+      turning ? turning->setting({}) : linearised_setting(system, about.environment, about.state);
+  const LinearisedEquations equations =
+      turning ? turning->periodic.first() : linearised_equations(system, about.environment, about.state, setting.axes);
   constexpr int most = 4000;  // largest number of states, because the matrices are dense
   if (equations.states() > most)
     throw ComputationError(fmt::format(

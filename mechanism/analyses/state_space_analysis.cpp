@@ -36,7 +36,7 @@ std::unique_ptr<Analysis> read_state_space_analysis(const YamlValue& entry, cons
   StateSpaceOptions options;
   options.inputs = read_response_inputs(entry, model);
   options.outputs = read_response_outputs(entry, model);
-  if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation);
+  if (const auto rotation = entry.find("rotation")) options.rotation = read_rotation(*rotation, model);
   return std::make_unique<StateSpaceAnalysis>(std::move(options));
 }
 

@@ -163,7 +163,32 @@ std::string format_steps(long steps, long iterations, long records) {
                      static_cast<double>(iterations) / static_cast<double>(steps), counted(records, "row"));
 }
 
+namespace {
+
+std::string format_turning(const LinearisedSetting::Turning& turning) {
+  std::string text =
+      fmt::format("  what is behind {} turns at {:.6g} rad/s, the rest stands still\n", turning.joint, turning.rate);
+  if (turning.rate == 0) return text;
+  switch (turning.periodicity) {
+    case Periodicity::constant:
+      return text + "  the equations are constant in axes that turn with it: frequencies are those seen from there\n";
+    case Periodicity::multiblade:
+      return text +
+             "  the equations are constant in multiblade coordinates (the rotor is the same in all directions): "
+             "frequencies are those seen from what stands still\n";
+    default:
+      return text + fmt::format(
+                        "  the equations are periodic in any axes: Floquet exponents by {} harmonics of the rotation, "
+                        "the last of which changes them by {:.1g}; frequencies are those of the largest harmonic of "
+                        "what stands still\n",
+                        turning.harmonics, turning.change);
+  }
+}
+
+}  // namespace
+
 std::string format_setting(const LinearisedSetting& setting, const char* what) {
+  if (setting.turning) return format_turning(*setting.turning);
   constexpr double balanced = 1e-6;  // fraction of the largest force: equilibria are found to 1e-9
   if (!setting.steadiness)
     return setting.unbalance <= balanced

@@ -73,10 +73,9 @@ void number_groups(const System& system, LinearisedEquations& equations) {
 }
 
 /// Returns the residual, and the effect of rounding of positions, rotations and amplitudes on forces.
-VectorX left_over(const System& system, const Environment& environment, const State& state, const Sparse& K) {
+VectorX left_over(const System& system, const State& state, const Sparse& K, const VectorX& residual) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  VectorX residual(system.size()), sizes = VectorX::Zero(K.cols());
-  system.residual(state, environment, residual);
+  VectorX sizes = VectorX::Zero(K.cols());
   const double length = model_length(state);
   const int scalars = system.kinematics().unknowns();
   for (int i = 0; i < scalars; ++i) sizes[i] = system.kind(i) == Kind::translation ? length : 1;
@@ -90,7 +89,13 @@ VectorX left_over(const System& system, const Environment& environment, const St
 
 LinearisedEquations linearised_equations(const System& system, const Environment& environment, const State& state,
                                          ModeAxes axes) {
-  SystemMatrices matrices = linearise(system, environment, state);
+  VectorX residual(system.size());
+  system.residual(state, environment, residual);
+  return linearised_equations(system, state, axes, linearise(system, environment, state), residual);
+}
+
+LinearisedEquations linearised_equations(const System& system, const State& state, ModeAxes axes,
+                                         SystemMatrices matrices, const VectorX& residual) {
   LinearisedEquations equations;
   equations.dofs = system.dofs();
   const auto n = matrices.K.rows();
@@ -112,7 +117,7 @@ LinearisedEquations linearised_equations(const System& system, const Environment
   equations.M = std::move(matrices.M);
   equations.C = Sparse(matrices.C + equations.M * Z);
   number_groups(system, equations);
-  equations.left_over = left_over(system, environment, state, equations.K);
+  equations.left_over = left_over(system, state, equations.K, residual);
   return equations;
 }
 

@@ -46,5 +46,8 @@ struct LinearisedEquations {
 /// @param environment  environment of the state
 LinearisedEquations linearised_equations(const System& system, const Environment& environment, const State& state,
                                          ModeAxes axes);
+/// The same from given matrices. @param residual  (System::size) of the equations at the state
+LinearisedEquations linearised_equations(const System& system, const State& state, ModeAxes axes,
+                                         SystemMatrices matrices, const VectorX& residual);
 
 }  // namespace bielle::mechanism

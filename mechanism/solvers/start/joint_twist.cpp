@@ -201,4 +201,19 @@ RigidVelocity JointTwist::of(std::size_t joint, int moving, int base, const Star
   return sum_of_motions(carried, {place, length_ * twist.head<3>(), twist.tail<3>()});
 }
 
+RigidVelocity JointTwist::of_unit_rate(std::size_t joint, int moving, int base, std::size_t coordinate) {
+  const NodeState base_before = state_.nodes[static_cast<std::size_t>(base)];
+  const Vector3 place = state_.nodes[static_cast<std::size_t>(moving)].x;
+  const RigidVelocity still{place, Vector3::Zero(), Vector3::Zero()};
+  set_rigid_velocity(state_.nodes[static_cast<std::size_t>(base)], still);
+  const VectorX rest = all_rates(joint, {}, moving, still);
+  const std::size_t count = system_.model().members()[joint].component->start_coordinates().size();
+  TwistRates all{MatrixX(rest.size(), 6), -rest};
+  for (int k = 0; k < 6; ++k) all.A.col(k) = all_rates(joint, {}, moving, unit_motion(k, place, length_)) - rest;
+  all.b[rest.size() - static_cast<Eigen::Index>(count - coordinate)] += 1;
+  state_.nodes[static_cast<std::size_t>(base)] = base_before;
+  const Vector6 twist = least_solution(all);
+  return {place, length_ * twist.head<3>(), twist.tail<3>()};
+}
+
 }  // namespace bielle::mechanism

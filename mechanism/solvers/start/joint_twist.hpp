@@ -25,6 +25,9 @@ class JointTwist {
   /// @param joint   member with two nodes @param moving,base  its nodes @param conditions  start rates
   /// @throws ComputationError if a start rate contradicts the joint, its drives or its locks
   RigidVelocity of(std::size_t joint, int moving, int base, const StartConditions& conditions);
+  /// Returns the motion of the moving side relative to the other one that the joint's constraints permit if one
+  /// coordinate has the rate 1 and its other coordinates stand still; drives and locks are ignored.
+  RigidVelocity of_unit_rate(std::size_t joint, int moving, int base, std::size_t coordinate);
   /// Whether the constraints of a member of two nodes permit this motion of one node while the other does not change.
   bool allows(std::size_t member, const RigidVelocity& motion);
   /// Sets other velocities of nodes.

@@ -75,11 +75,25 @@ analysis: [{type: eigen}]
             x=0, z=-1, analysis="[{type: eigen, rotation: {rate: 3, axis: [0, 0, 1]}}]"))
         self.expect_refusal(2, "model.yaml", says=("cannot turn as a whole", "joint 'pivot'"))
 
+    def test_a_rotation_behind_a_joint_is_told_with_its_axes(self):
+        text = self.summary(PENDULUM.format(x=0, z=-1, analysis="[{type: eigen, rotation: {joint: pivot, rate: 3}}]"))
+        self.assertIn("what is behind joint 'pivot' turns at 3 rad/s, the rest stands still", text)
+        self.assertIn("constant in axes that turn with it", text)
+        with h5py.File(os.path.join(self.folder, "model.h5")) as file:
+            self.assertEqual([name.decode() for name in file["/eigen/name"]], ["rod across the axis"])
+
     def test_wrong_keys_are_refused(self):
         for analysis, says in (("{type: eigen, cuont: 3}", ("'cuont'", "did you mean 'count'")),
                                ("{type: eigen, near: -3}", ("analysis[1].near",)),
                                ("{type: eigen, near: 3, below: 4}", ("either `near`",)),
-                               ("{type: eigen, rotation: 3}", ("rotation",))):
+                               ("{type: eigen, rotation: 3}", ("rotation",)),
+                               ("{type: eigen, rotation: {joint: pivto, rate: 3}}", ("'pivto'", "did you mean 'pivot'")),
+                               ("{type: eigen, rotation: {joint: pivot}}", ("rate",)),
+                               ("{type: eigen, rotation: {joint: pivot, rate: 0}}", ("other than 0",)),
+                               ("{type: eigen, rotation: {joint: pivot, rate: .nan}}", ("rate",)),
+                               ("{type: eigen, rotation: {joint: pivot, rate: 3, axis: [0, 0, 1]}}", ("'axis'",)),
+                               ("{type: campbell, rotation: {joint: pivot}, speeds: {to: 3}, node: rod}",
+                                ("leave `node` out",))):
             self.write("model.yaml", PENDULUM.format(x=0, z=-1, analysis=f"[{analysis}]"))
             self.expect_refusal(1, "model.yaml", says=("model.yaml:5", *says))
 

@@ -1,0 +1,223 @@
+// A part that turns steadily behind a joint, on supports that stand still.
+#include "tests/benchmarks/linearised/turning_models.hpp"
+#include "tests/support/reference_table.hpp"
+
+using namespace bielle::mechanism;
+using namespace bielle::test;
+
+namespace test_turning_part {
+namespace {
+
+using Complex = std::complex<double>;
+
+SteadyRotation behind(const Model& model, const char* joint, double rate) {
+  SteadyRotation rotation;
+  rotation.joint = model.members_of({Section::joints, joint}).front();
+  rotation.rate = rate;
+  return rotation;
+}
+
+struct Turning {
+  ModesOf model;
+  ModesReport report;
+  Turning(const std::string& text, const char* joint, double rate, int count = 20, std::optional<int> harmonics = {})
+      : model(text), report(found(model, joint, rate, count, harmonics)) {}
+  static ModesReport found(const ModesOf& model, const char* joint, double rate, int count,
+                           std::optional<int> harmonics) {
+    ModesOptions options;
+    options.search.count = count;
+    options.rotation = behind(model.file.model, joint, rate);
+    options.harmonics = harmonics;
+    return compute_modes(model.session, options);
+  }
+  const NodeState& node(const char* name) const {
+    return report.about.state.nodes[static_cast<std::size_t>(*model.file.model.find_node(name))];
+  }
+  std::vector<Complex> oscillating() const {
+    std::vector<Complex> list;
+    for (const Mode& mode : report.found.modes)
+      if (mode.s.imag() > 0) list.push_back(mode.s);
+    return list;
+  }
+};
+
+/// Checks that two lists are the same, in any order.
+void check_exponents(const std::vector<Complex>& found, std::vector<Complex> expected, double relative) {
+  CHECK(found.size() == expected.size());
+  for (const Complex s : found) {
+    CAPTURE(s);
+    REQUIRE_FALSE(expected.empty());
+    const auto nearest = std::min_element(expected.begin(), expected.end(),
+                                          [&](Complex a, Complex b) { return std::abs(a - s) < std::abs(b - s); });
+    CHECK(std::abs(*nearest - s) < relative * std::abs(s));
+    expected.erase(nearest);
+  }
+}
+
+/// Checks that the exponents have the multipliers of a turn exp(s T), each conjugate pair once.
+void check_multipliers(const std::vector<Complex>& exponents, const Eigen::VectorXcd& multipliers, double rate,
+                       double relative) {
+  std::vector<Complex> left(multipliers.begin(), multipliers.end());
+  for (const Complex s : exponents)
+    for (const Complex each : {s, std::conj(s)}) {
+      CAPTURE(s);
+      REQUIRE_FALSE(left.empty());
+      const Complex expected = std::exp(each * two_pi / rate);
+      const auto nearest = std::min_element(left.begin(), left.end(), [&](Complex a, Complex b) {
+        return std::abs(a - expected) < std::abs(b - expected);
+      });
+      CHECK(std::abs(*nearest - expected) < relative * std::abs(expected));
+      left.erase(nearest);
+    }
+  CHECK(left.empty());
+}
+
+}  // namespace
+
+TEST_CASE("a blade behind a joint has Wright's frequencies, as in rotation about the axis", "[linearised]") {
+  const std::string text =
+      "nodes: {hub: {}, tip: {position: [1, 0, 0]}}\n"
+      "elements:\n  hub: {type: rigid_body, node: hub, mass: 1, inertia: [1, 1, 1]}\n"
+      "  b: {type: beam, nodes: [hub, tip], elements: 16, orientation: [0, 1, 0], section: {EA: 1e7, GAy: 1e7, GAz: "
+      "1e7, "
+      "GJ: 1, EIy: 1, EIz: 1, mass_per_length: 1, Jx: 1e-7, Jy: 1e-7, Jz: 1e-7}}\n"
+      "joints: {shaft: {type: hinge, nodes: [ground, hub], position: [0, 0, 0], axis: [0, 0, 1]}}\n"
+      "drives: {motor: {joint: shaft, rate: 12}}\n";
+  const ReferenceTable exact("rotating_beam");
+  const Turning turning(text, "shaft", 12, 4);
+  CHECK(turning.report.turning->periodicity == Periodicity::constant);
+  const std::vector<double> found = rates_of(turning.report);
+  REQUIRE(found.size() == 4);
+  const double flap = exact("12.flap_1");
+  CHECK(found[0] == Approx(std::sqrt(flap * flap - 144)).epsilon(1e-3));
+  CHECK(found[1] == Approx(flap).epsilon(1e-3));
+  CHECK(found[3] == Approx(exact("12.flap_2")).epsilon(2e-3));
+  const ModesOf whole(text);
+  const std::vector<double> about_axis =
+      rates_of(compute_modes(whole.session, {{.count = 4}, SteadyRotation{Vector3(0, 0, 12), Vector3::Zero()}}));
+  check_rates(found, about_axis, 1e-7);
+}
+
+TEST_CASE("masses on springs move outwards by m Om^2 r/(k - m Om^2), on a standing part that carries the weight",
+          "[linearised]") {
+  // Two masses on a hub that overhangs a flexible bearing. The mean weight bends the bearing: it sinks by W/k and tilts
+  // by W d/kt, with W of the whole turning part, though gravity turns around it.
+  constexpr double m = 2, k = 4e3, r = 0.5, rate = 20, bearing = 1e6, tilt = 1e6, d = 0.3, g = 10, hub = 6;
+  const auto text = [&](double first) {
+    return fmt::format(
+        "gravity: [0, -{0}, 0]\nnodes: {{bearing: {{}}, hub: {{position: [0, 0, {1}]}}, a: {{position: [{2}, 0, "
+        "{1}]}}, b: "
+        "{{position: [-{2}, 0, {1}]}}}}\n"
+        "elements:\n  hub: {{type: rigid_body, node: hub, mass: {3}, inertia: [1, 1, 1]}}\n"
+        "  bearing: {{type: rigid_body, node: bearing, mass: 1, inertia: [1, 1, 1]}}\n"
+        "  a: {{type: rigid_body, node: a, mass: {4}, inertia: [1e-3, 1e-3, 1e-3]}}\n"
+        "  b: {{type: rigid_body, node: b, mass: {5}, inertia: [1e-3, 1e-3, 1e-3]}}\n"
+        "joints:\n  mount: {{type: bushing, nodes: [ground, bearing], stiffness: [{6}, {6}, {6}, {7}, {7}, {7}]}}\n"
+        "  shaft: {{type: hinge, nodes: [bearing, hub], position: [0, 0, 0], axis: [0, 0, 1]}}\n"
+        "  sa: {{type: bushing, nodes: [hub, a], position: [{2}, 0, {1}], stiffness: [{8}, 1e6, 1e6, 1e5, 1e5, 1e5]}}\n"
+        "  sb: {{type: bushing, nodes: [hub, b], position: [-{2}, 0, {1}], stiffness: [{8}, 1e6, 1e6, 1e5, 1e5, "
+        "1e5]}}\n",
+        g, d, r, hub, first, m, bearing, tilt, k);
+  };
+  const Turning turning(text(m), "shaft", rate, 4);
+  const double out = r * k / (k - m * rate * rate);
+  const double weight = (hub + 2 * m) * g;
+  CHECK((turning.node("a").x - turning.node("b").x).norm() == Approx(2 * out).epsilon(1e-6));
+  // The weight of the bearing itself is 1 kg; rotations of 1e-5 leave second-order terms.
+  CHECK(turning.node("bearing").x.y() == Approx(-(weight + g) / bearing).epsilon(1e-4));
+  CHECK(log_so3(turning.node("bearing").R).x() == Approx(weight * d / tilt).epsilon(1e-3));
+  // One mass is heavier: the rotor is out of balance, which the bearing does not feel in the mean.
+  const Turning heavy(text(1.1 * m), "shaft", rate, 4);
+  CHECK(heavy.node("bearing").x.y() == Approx(-(weight + 0.1 * m * g + g) / bearing).epsilon(1e-4));
+  CHECK(std::abs(heavy.node("bearing").x.x()) < 1e-9);
+}
+
+TEST_CASE("a disc on bearings of different stiffness and damping tilts as its gyroscopic equations say",
+          "[linearised]") {
+  // G. Genta, Dynamics of Rotating Systems (2005), ch. 4, with different supports:
+  // Jt a'' + c1 a' + Jp Om b' + k1 a = 0, Jt b'' + c2 b' - Jp Om a' + k2 b = 0.
+  constexpr double Jp = 0.035, Jt = 0.02, mass = 5, k1 = 800, k2 = 500, c1 = 0.2, c2 = 0.05, kx = 2e5, ky = 1e5;
+  for (const double rate : {30.0, -100.0, 400.0}) {
+    const Turning turning(
+        fmt::format(
+            "nodes: {{hub: {{}}, disc: {{}}}}\n"
+            "elements: {{disc: {{type: rigid_body, node: disc, mass: {0}, inertia: [{1}, {1}, {2}]}}}}\n"
+            "joints:\n  mount: {{type: bushing, nodes: [ground, hub], stiffness: [{3}, {4}, 3e5, {5}, {6}, 500], "
+            "damping: [0, 0, 0, {7}, {8}, 0]}}\n"
+            "  axle: {{type: hinge, nodes: [hub, disc], position: [0, 0, 0], axis: [0, 0, 1]}}\n",
+            mass, Jt, Jp, kx, ky, k1, k2, c1, c2),
+        "axle", rate, 5);
+    CAPTURE(rate);
+    CHECK(turning.report.turning->periodicity == Periodicity::multiblade);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(4, 4);
+    A.topRightCorner(2, 2).setIdentity();
+    A.bottomLeftCorner(2, 2).diagonal() << -k1 / Jt, -k2 / Jt;
+    A.bottomRightCorner(2, 2) << -c1 / Jt, -Jp * rate / Jt, Jp * rate / Jt, -c2 / Jt;
+    std::vector<Complex> exact = {Complex(0, std::sqrt(kx / mass)), Complex(0, std::sqrt(ky / mass)),
+                                  Complex(0, std::sqrt(3e5 / mass))};
+    for (const Complex s : eigenvalues(A))
+      if (s.imag() > 0) exact.push_back(s);
+    check_exponents(turning.oscillating(), exact, 1e-8);
+    CHECK(count_rigid(turning.report) == 1);  // the free shaft
+  }
+}
+
+TEST_CASE("ground resonance of four blades has the exponents of the multiblade equations", "[linearised]") {
+  for (const double rate : {15.0, 25.0, 35.0}) {
+    LagRotor rotor;
+    rotor.rate = rate;
+    const Turning turning(rotor.model(), "shaft", rate);
+    CAPTURE(rate);
+    CHECK(turning.report.turning->periodicity == Periodicity::multiblade);
+    check_exponents(turning.oscillating(), rotor.multiblade(), 1e-6);
+    check_multipliers(turning.oscillating(), rotor.multipliers(400), rate, 1e-6);
+  }
+}
+
+TEST_CASE("multiblade coordinates and Floquet exponents are the same for a rotor of equal blades", "[linearised]") {
+  const LagRotor rotor;
+  const Turning exact(rotor.model(), "shaft", rotor.rate), more(rotor.model(), "shaft", rotor.rate, 20, 3);
+  check_exponents(more.oscillating(), exact.oscillating(), 1e-9);
+}
+
+TEST_CASE("ground resonance with one damper that does not work has its Floquet exponents", "[linearised]") {
+  // C. E. Hammond (1974): the rotor is then unstable in a range of speeds.
+  for (const double rate : {20.0, 26.0}) {
+    LagRotor rotor;
+    rotor.rate = rate;
+    rotor.c[0] = 0;
+    const Turning turning(rotor.model(), "shaft", rate);
+    CAPTURE(rate);
+    CHECK(turning.report.turning->periodicity == Periodicity::periodic);
+    check_multipliers(turning.oscillating(), rotor.multipliers(400), rate, 1e-6);
+  }
+}
+
+TEST_CASE("two blades on supports that differ have the exponents of Hill's equation", "[linearised]") {
+  LagRotor rotor;
+  rotor.blades = 2;
+  rotor.k = 2e5;
+  rotor.ky = 0.6 * rotor.kx;
+  const Turning turning(rotor.model(), "shaft", rotor.rate);
+  CHECK(turning.report.turning->periodicity == Periodicity::periodic);
+  check_multipliers(turning.oscillating(), rotor.multipliers(400), rotor.rate, 1e-6);
+}
+
+TEST_CASE("a rotation behind a joint that is none is refused", "[linearised]") {
+  const auto text = [](const char* joints) {
+    return fmt::format(
+        "nodes: {{a: {{}}}}\nelements: {{a: {{type: rigid_body, node: a, mass: 1, inertia: [1, 1, 1]}}}}\n"
+        "joints:\n  axle: {{nodes: [ground, a], position: [0, 0, 0], {}\n",
+        joints);
+  };
+  CHECK_THROWS_WITH(Turning(text("type: spherical}"), "axle", 3), Catch::Contains("joint 'axle'"));
+  CHECK_THROWS_WITH(Turning(text("type: prismatic, axis: [0, 0, 1]}"), "axle", 3), Catch::Contains("has no angle"));
+  CHECK_THROWS_WITH(Turning(text("type: screw, axis: [0, 0, 1], pitch: 0.1}"), "axle", 3), Catch::Contains("axis"));
+  CHECK_THROWS_WITH(
+      Turning(text("type: hinge, axis: [0, 0, 1]}\n  held: {type: rigid, nodes: [ground, a]}"), "axle", 3),
+      Catch::Contains("nothing turns behind joint 'axle' alone") && Catch::Contains("'held'"));
+  CHECK_THROWS_WITH(Turning(text("type: hinge, axis: [0, 0, 1], stiffness: 5}"), "axle", 3),
+                    Catch::Contains("not steady"));
+}
+
+}  // namespace test_turning_part
