@@ -6,7 +6,7 @@
 namespace bielle::mechanism {
 
 /// Returns the error of a velocity [m/s] of two nodes' relative motion. @param of_joint  state of a joint of two nodes
-/// @param arm  of angular rates [m]; 1 gives the error of an angular rate [rad/s] as well
+/// @param arm  lever arm of angular rates [m]; 1 gives the error of an angular rate [rad/s] as well
 inline double velocity_at_rest(const LocalState& of_joint, double arm) {
   const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
   // Positions are rounded: in a step this gives an error of velocities, independent of their size.

@@ -15,7 +15,7 @@ namespace {
 
 /// Samples, and the values of the memory of their components in contact.
 struct ClosedContact {
-  std::string variant, event;  ///< of the sample, and of the component's event functions
+  std::string variant, event;  ///< variant of the sample, and a word of the names of the component's event functions
   std::vector<std::pair<Eigen::Index, double>> memory;
 };
 

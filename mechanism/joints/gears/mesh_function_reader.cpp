@@ -133,7 +133,7 @@ MeshFunction read_iso(const YamlValue& given, const ToothGeometry& geometry, dou
 
 /// @throws InputError if the function is not positive somewhere in a turn
 void check_positive(const MeshFunction& stiffness, const YamlValue& value, double teeth) {
-  const int samples = 16384;  // of a period of the table, or a turn of the formula
+  const int samples = 16384;  // in a period of the table, or in a turn of the formula
   for (int k = 0; k < samples; ++k) {
     const double angle = 2 * M_PI * k / (samples * teeth);
     const double found = stiffness.value({angle, angle});

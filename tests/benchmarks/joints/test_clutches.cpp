@@ -271,8 +271,19 @@ TEST_CASE("an elastic one-way clutch winds up by the torque that it holds, and g
 }
 
 TEST_CASE("clutches yield to drives of the same motion, and wrong starts are told") {
-  move_to(wheel("clutch: {capacity: 5}", 0, "0") + "", 0.01, 0.1,
-          [](const Session& session) { CHECK(read(session, "axle/clutch_sticks") == 1); });
+  const std::string load = R"(drives: {load: {joint: axle, torque: "0"}})", brake = "clutch: {capacity: 5}";
+  const auto driven = [&](const std::string& angle) {
+    std::string text = wheel(brake, 0, "0");
+    return text.replace(text.find(load), load.size(), "drives: {motor: {joint: axle, angle: \"" + angle + "\"}}");
+  };
+  move_to(driven("0.5*t^2"), 0.01, 1, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/drive_force"), WithinRel(2 + 5, 1e-9));
+    CHECK_THAT(read(session, "axle/clutch_force"), WithinRel(-5, 1e-12));
+  });
+  move_to(driven("0"), 0.01, 1, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/drive_force"), WithinAbs(0, 1e-12));
+    CHECK_THAT(read(session, "axle/clutch_force"), WithinAbs(0, 1e-12));
+  });
   CHECK_THROWS_WITH(move_to(wheel("one_way: {direction: forwards}", -1, "0"), 0.01, 0.1, [](const Session&) {}),
                     Contains("holds against a rate of -1 rad/s"));
   CHECK_THROWS_WITH(move_to(wheel("clutch: {capacity: 1 - t}", 1, "3"), 0.01, 2, [](const Session&) {}),

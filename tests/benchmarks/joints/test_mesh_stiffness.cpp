@@ -152,7 +152,7 @@ TEST_CASE("far below resonance a profile error is the transmission error, far ab
 TEST_CASE("the stiffness of the mesh makes a gear pair unstable beyond Mathieu's boundary") {
   const double k = 1e7, zeta = 0.02, natural = std::sqrt(k / m), W = 2 * natural, period = 2 * M_PI / W;
   const double d = 2 * zeta * std::sqrt(k * m);
-  const auto growth = [&](double eps) {  // of the displacement from one period to the next
+  const auto growth = [&](double eps) {  // factor of the displacement from one period to the next
     Eigen::Matrix2d Z = Eigen::Matrix2d::Identity();
     double t = 0;
     for (int n = 0; n < 400; ++n) {
