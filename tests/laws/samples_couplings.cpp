@@ -126,8 +126,9 @@ std::vector<Sample> coupling_samples() {
                        {"stiffness", "{iso: {width: 1, teeth: [20, 30]}, teeth: 20}", "belongs to a `table`"}}));
   list.back().scales.smooth_within = 0.02;  // the third derivative of the spline jumps
   list.push_back(wavy("elastic, with play", teeth + "backlash: 0.01, stiffness: 5 + sin(2*phi)", {}));
-  list.push_back(wavy("elastic, with a stiffness by formula", teeth + "stiffness: 5 + sin(2*phi)",
-                      {{"stiffness", "2*sin(phi)", "greater than 0"}, {"stiffness", "5 + t", "t"}}));
+  list.push_back(wavy(
+      "elastic, with a stiffness by formula", teeth + "stiffness: 5 + sin(2*phi)",
+      {{"stiffness", "2*sin(phi)", "greater than 0"}, {"stiffness", "1/phi", "phi"}, {"stiffness", "5 + t", "t"}}));
   list.push_back(wavy("elastic, by its size",
                       teeth + "stiffness: {iso: {width: 1e-9, teeth: [20, 30], shifts: [0.1, 0], young: 100e9}}",
                       {{"axes", "[[0, 0, 1], [0, 0.1, 1]]", ""}}));

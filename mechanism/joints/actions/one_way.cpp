@@ -76,6 +76,7 @@ void OneWay::hold_at(double value, Eigen::Ref<VectorX> memory) const {
 }
 
 void OneWay::begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const {
+  if (is_wound(state)) return;
   const auto [q, rate] = value(state);
   memory[holding] = 0;
   memory[has_moved] = 1;

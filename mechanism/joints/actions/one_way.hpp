@@ -54,6 +54,8 @@ class OneWay : public CoordinateAction {
   /// Force or torque on the coordinate.
   virtual double force(const LocalState& state) const = 0;
   virtual std::string form() const = 0;  ///< in words
+  /// Whether it stores energy, which a motion that follows another keeps.
+  virtual bool is_wound(const LocalState& /*state*/) const { return false; }
   void hold_at(double value, Eigen::Ref<VectorX> memory) const;
   /// The distance u - u_0 of a ratchet from the multiple at which it holds.
   double clearance(const LocalState& state, double q) const;
@@ -100,6 +102,7 @@ class ElasticOneWay final : public OneWay {
   double not_opening() const override { return 1; }
   double force(const LocalState& state) const override;
   std::string form() const override;
+  bool is_wound(const LocalState& state) const override { return holds(state) && opening(state) > 0; }
   double stiffness_, damping_;
 };
 

@@ -58,7 +58,8 @@ MeshFunction read_tooth_errors(const YamlValue& value);
 /// Returns the forms of `stiffness`.
 KeyForms tooth_stiffness_forms();
 /// Reads `stiffness`: a number, a formula of phi, {table, wheel, teeth, phase} or {iso: {..}}.
-/// @param geometry  geometry of the mesh  @param helix  angle of the first wheel [rad]  @param internal  one wheel is a ring
+/// @param geometry  geometry of the mesh  @param helix  angle of the first wheel [rad]
+/// @param internal  whether one wheel is a ring
 /// @throws InputError also if it is not positive everywhere
 MeshFunction read_tooth_stiffness(const YamlValue& value, const ToothGeometry& geometry, double helix, bool internal);
 

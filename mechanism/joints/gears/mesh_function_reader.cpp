@@ -8,6 +8,7 @@
 #include "mechanism/joints/gears/mesh_function.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_numbers.hpp"
+#include "reduce/common/error.hpp"
 #include "reduce/common/files/table_file.hpp"
 
 namespace bielle::mechanism {
@@ -24,7 +25,7 @@ std::vector<Key> periodic_keys(const std::string& unit, const Presence& teeth, c
            "Positions within a period, from 0 to 1, and " + quantity + " [" + unit +
                "], which a periodic cubic spline joins; the last value repeats the first."},
           {"wheel", integer().between(1, 2), otherwise("1"), "Wheel whose angle turns the table."},
-          {"teeth", number().positive(), teeth,
+          {"teeth", integer().at_least(1), teeth,
            "Periods in a turn of the wheel: its number of teeth, for a period of a pitch."},
           {"phase", number(), otherwise("0"), "Position within the period as drawn."}};
 }
@@ -96,7 +97,7 @@ void add_error(const YamlValue& given, MeshFunction& errors) {
     errors.add(formula->expression(), wheel_of(entry));
     return;
   }
-  errors.add(read_period(entry.at("table")), wheel_of(entry), entry.at("teeth").number(), entry.at("phase").number());
+  errors.add(read_period(entry.at("table")), wheel_of(entry), entry.at("teeth").integer(), entry.at("phase").number());
 }
 
 MeshFunction read_iso(const YamlValue& given, const ToothGeometry& geometry, double helix, bool internal) {
@@ -136,10 +137,13 @@ void check_positive(const MeshFunction& stiffness, const YamlValue& value, doubl
   const int samples = 16384;  // in a period of the table, or in a turn of the formula
   for (int k = 0; k < samples; ++k) {
     const double angle = 2 * M_PI * k / (samples * teeth);
-    const double found = stiffness.value({angle, angle});
-    if (!(found > 0))
-      value.fail(
-          fmt::format("expected a stiffness greater than 0; it is {:.4g} N/m at the angle {:.6g} rad", found, angle));
+    try {
+      if (const double found = stiffness.value({angle, angle}); !(found > 0))
+        value.fail(
+            fmt::format("expected a stiffness greater than 0; it is {:.4g} N/m at the angle {:.6g} rad", found, angle));
+    } catch (const ComputationError& error) {
+      value.fail(error.what());
+    }
   }
 }
 
@@ -182,7 +186,7 @@ MeshFunction read_tooth_stiffness(const YamlValue& value, const ToothGeometry& g
   }
   if (!entry.has("teeth")) entry.fail("give the number of `teeth` of the wheel, whose pitch is the period");
   MeshFunction stiffness;
-  const double teeth = entry.at("teeth").number();
+  const int teeth = entry.at("teeth").integer();
   stiffness.add(read_period(entry.at("table")), wheel_of(entry), teeth, entry.at("phase").number());
   check_positive(stiffness, entry.at("table"), teeth);
   return stiffness;

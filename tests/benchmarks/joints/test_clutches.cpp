@@ -262,6 +262,19 @@ TEST_CASE("an elastic one-way clutch winds up by the torque that it holds, and g
     CHECK_THAT(read(session, "axle/one_way_force"), WithinRel(4, 1e-5));
     CHECK_THAT(session.balance(), WithinAbs(0, 0.01 * 1.6e-3));  // 4^2/(2 k) = 0.01 J, (w h)^2
   });
+  // A motion that follows another begins with the clutch as it is wound.
+  {
+    const auto file = bielle::mechanism::read_mechanism_text(wheel("one_way: {stiffness: 800}", 1, "-4"), "model.yaml");
+    Session session(file.model);
+    bielle::mechanism::DynamicsOptions options;
+    options.stepping.size = 1e-3;
+    for (const double duration : {0.6, 0.15}) {  // at rest after 0.5 s; a turn of its swing takes 0.314 s
+      options.duration = duration;
+      session.dynamics(options).finish();
+    }
+    // From 0.25 rad on p = (4/k) (1 - cos(20 (t - 0.5))).
+    CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0.25 - 4.0 / 800 * (1 - std::cos(20 * 0.7)), 1e-5));
+  }
   // Undamped, the torque -4 + 2 t: it opens, and nothing is lost.
   const auto events = events_of(wheel("one_way: {stiffness: 800}", 1, "-4 + 2*t"), 1e-3, 4, [](const Session& session) {
     CHECK_THAT(session.energy().dissipation, WithinAbs(0, 1e-12));
