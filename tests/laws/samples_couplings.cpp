@@ -48,6 +48,13 @@ Sample mesh(const std::string& variant, const std::string& keys, std::vector<Bad
   return sample;
 }
 
+/// The same with teeth whose errors and stiffness vary within a part of a radian.
+Sample wavy(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
+  Sample sample = mesh(variant, keys, std::move(bad));
+  sample.scales.smooth_within = 0.1;
+  return sample;
+}
+
 /// A rope over three nodes.
 Sample rope(const std::string& type, const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
   return {Section::joints, type, variant,
@@ -97,6 +104,34 @@ std::vector<Sample> coupling_samples() {
       "elastic, internal",
       "carrier: carrier, axes: [0, 0, 1], radii: [1.5, 0.5], internal: true, stiffness: 5, damping: 0.4, backlash: 0",
       {{"carrier", "b", "its own carrier"}, {"radii", "[1, 1]", "apart"}}));
+  list.push_back(
+      mesh("rigid, with errors",
+           "carrier: carrier, axes: [0, 0, 1], radii: [0.4, 0.6], errors: [{table: [[0, 0], [0.4, 0.1], [0.7, "
+           "-0.1], [1, 0]], wheel: 2, phase: 0.2}, {formula: 0.1*sin(2*phi)}]",
+           {{"errors", "[{table: [[0, 0], [0.4, 1], [0.6, 1], [1, 2]]}]", "the last value must repeat the first"},
+            {"errors", "[{table: [[0, 0], [0.4, 1], [0.6, 1], [2, 0]]}]", "from 0 to 1"},
+            {"errors", "[{table: [[0, 0], [0.4, 1], [1, 0]]}]", "four rows"},
+            {"errors", "{wheel: 2}", "either a `table` or a `formula`"},
+            {"errors", "{formula: phi, teeth: 3}", "belongs to a `table`"},
+            {"errors", "theta", "theta"}}));
+  const std::string teeth =
+      "carrier: carrier, axes: [0, 0, 1], radii: [0.4, 0.6], damping: 0.25, helix_angle: 0.2, errors: 0.1*sin(3*phi), ";
+  list.push_back(wavy("elastic, with a stiffness by table",
+                      teeth + "stiffness: {table: [[0, 5], [0.3, 6], [0.6, 4], [1, 5]], teeth: 2, wheel: 2}",
+                      {{"stiffness", "{table: [[0, 5], [0.5, -1], [0.6, 1], [1, 5]], teeth: 2}", "greater than 0"},
+                       {"stiffness", "{table: [[0, 5], [0.5, 4], [0.6, 4], [1, 5]]}", "`teeth`"},
+                       {"stiffness", "{teeth: 20}", "either a `table` or `iso`"},
+                       {"stiffness", "{iso: {width: 1, teeth: [20, 20]}}", "pitch radii"},
+                       {"stiffness", "{iso: {width: 1, teeth: [20, 30], shifts: [-50, 0]}}", "between -0.5 and 2"},
+                       {"stiffness", "{iso: {width: 1, teeth: [20, 30]}, teeth: 20}", "belongs to a `table`"}}));
+  list.back().scales.smooth_within = 0.02;  // the third derivative of the spline jumps
+  list.push_back(wavy("elastic, with play", teeth + "backlash: 0.01, stiffness: 5 + sin(2*phi)", {}));
+  list.push_back(wavy(
+      "elastic, with a stiffness by formula", teeth + "stiffness: 5 + sin(2*phi)",
+      {{"stiffness", "2*sin(phi)", "greater than 0"}, {"stiffness", "1/phi", "phi"}, {"stiffness", "5 + t", "t"}}));
+  list.push_back(wavy("elastic, by its size",
+                      teeth + "stiffness: {iso: {width: 1e-9, teeth: [20, 30], shifts: [0.1, 0], young: 100e9}}",
+                      {{"axes", "[[0, 0, 1], [0, 0.1, 1]]", ""}}));
   Sample lift = coupling("cam", "lift", "joints: [one, two.displacement], lift: lift.csv",
                          {{"lift", "profile.csv", "the last value must repeat the first"},
                           {"lift", "none.csv", "no such file"},

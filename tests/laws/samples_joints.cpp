@@ -68,6 +68,22 @@ std::vector<Sample> joint_samples() {
                    "stiffness: 3, damping: 0.5, rest: 0.2, preload: 1.5, stops: {range: [-9, 9], stiffness: 5, "
                    "damping: 1}, locked: {from: 0.1, to: 0.2, release: 4}",
                    of_hinge));
+  list.push_back(with_actions(
+      "hinge", "clutch",
+      "clutch: {normal_force: \"3 + sin(t) + 0.3*it.angle^2 + 0.2*it.angle.rate^2\", coefficient: 0.4, radius: 0.8, "
+      "surfaces: 2, static_ratio: 1.2}",
+      {{"clutch", "{capacity: -1}", "at least 0"},
+       {"clutch", "{capacity: 1, normal_force: 1}", "either"},
+       {"clutch", "{static_ratio: 1.1}", "either"},
+       {"clutch", "{normal_force: 1, radius: 1}", "`coefficient`"},
+       {"clutch", "{normal_force: 1, coefficient: 1}", "`radius`"},
+       {"clutch", "{capacity: 1, radius: 1}", "belongs to the `normal_force`"},
+       {"clutch", "{capacity: it.angel}", "did you mean 'angle'"}}));
+  list.push_back(with_actions("prismatic", "one-way, rigid",
+                              "one_way: {direction: backwards, pitch: 0.1}, clutch: {capacity: 2}",
+                              {{"one_way", "{damping: 1}", "needs the `stiffness`"},
+                               {"clutch", "{normal_force: 1, coefficient: 1, radius: 1}", "that turns"}}));
+  list.push_back(with_actions("hinge", "one-way, elastic", "one_way: {stiffness: 3, damping: 0.4}", {}));
   // A point and axes in each node's own axes, and a start, whose values and rates are conditions and no components.
   list.push_back(
       {Section::joints,

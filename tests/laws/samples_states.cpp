@@ -32,6 +32,27 @@ Sample rate() {
            {"units", "[rad, m]", "one for each output"}}};
 }
 
+/// Measures of a gear mesh.
+Sample gear_measures(const std::string& variant, const std::string& mesh, const std::string& more) {
+  Sample sample{
+      Section::states,
+      "state",
+      "measures of " + variant,
+      R"yaml(
+nodes:
+  a: {position: [0, 0, 0], rotation_vector: [-0.7, 0.2, 0.4]}
+  b: {position: [0.6, 0.8, 0], rotation_vector: [0.1, 0.9, 0.4]}
+joints:
+  teeth: {type: gear_mesh, nodes: [a, b], axes: [0, 0, 1], radii: [0.4, 0.6], errors: 0.1*sin(3*phi))yaml" +
+          mesh +
+          "}\nstates:\n  it: {rate: \"teeth.transmission_error + 0.1*teeth.force^2 + 0.2*teeth.angle_1*teeth.angle_2" +
+          more + " - it\"}\n",
+      {{"rate", "teeth.froce", "did you mean 'force'"}}};
+  sample.scales.kinks_unloaded = true;  // teeth push to either side
+  sample.scales.smooth_within = 0.1;
+  return sample;
+}
+
 Sample filter(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
   bad.push_back({"filter", "axle.angel", "did you mean 'angle'"});
   return {Section::states, "state", variant,
@@ -74,12 +95,15 @@ Sample state_space() {
 std::vector<Sample> state_samples() {
   return {
       rate(),
+      gear_measures("rigid teeth", "", ""),
+      gear_measures("elastic teeth", ", stiffness: 5 + sin(phi), damping: 0.3", " + teeth.deformation*teeth.stiffness"),
       filter("filter of first order", "time_constant: 0.2",
              {{"time_constant", "", "time_constant"},
               {"frequency", "3", "one of the two"},
               {"damping", "0.5", "frequency"}}),
       filter("filter of second order", "frequency: 0.3, damping: 0.6, start: 0.4, scale: 3", {{"start", "much", ""}}),
-      transfer_function(), state_space()};
+      transfer_function(),
+      state_space()};
 }
 
 }  // namespace bielle::laws

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/actions/joint_clutch_reader.hpp"
 #include "mechanism/joints/friction/friction_reader.hpp"
 #include "mechanism/laws/force_law.hpp"
 
@@ -78,6 +79,9 @@ std::vector<Key> coordinate_keys(Moves moves) {
        optional,
        "Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for the whole "
        "run."},
+      {"clutch", clutch_form(moves), optional,
+       "Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque."},
+      {"one_way", one_way_form(moves), optional, "One-way clutch or ratchet, which lets the coordinate move one way."},
       {"start", number(units.value), optional, "Value of the coordinate at the start of the first analysis."},
       {"start_rate", number(units.rate), optional, "Rate of the coordinate at the start of the first analysis."}};
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/actions/joint_clutch_reader.hpp"
 #include "mechanism/joints/actions/joint_lock.hpp"
 #include "mechanism/joints/actions/joint_spring.hpp"
 #include "mechanism/joints/actions/joint_start_reader.hpp"
@@ -120,6 +121,8 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, cons
       if (const auto rate = find(sorted[k], "start_rate"); rate && times.from == 0)
         rate->fail("the coordinate is `locked` from the beginning: it has no rate");
     }
+    if (const auto clutch = find(sorted[k], "clutch")) read_clutch(*clutch, joint, k, model);
+    if (const auto one_way = find(sorted[k], "one_way")) read_one_way(*one_way, joint, k, model);
     read_joint_start(find(sorted[k], "start"), find(sorted[k], "start_rate"), joint, k, model);
   }
   if (const auto carries = entry.find("carries")) read_carried_start(*carries, joint, model);

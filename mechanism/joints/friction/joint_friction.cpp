@@ -1,10 +1,10 @@
 #include "mechanism/joints/friction/joint_friction.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/nested.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
@@ -27,9 +27,6 @@ Press press_of(const Vector6& reaction, double thread_radius) {
 }
 
 }  // namespace
-
-JointFriction::JointFriction(const Joint& joint, FrictionSurface surface, const FrictionLaw& law)
-    : Component("friction", joint.name()), joint_(joint), surface_(std::move(surface)), law_(law) {}
 
 void JointFriction::declare(Declaration& declaration) const {
   declaration.references = {&joint_};
@@ -73,19 +70,18 @@ double JointFriction::normal_force(const LocalState& state) const {
   return press.force.norm() + press.moment.norm() / surface_.moment_arm + surface_.preload;
 }
 
-double JointFriction::normal_force(const LocalState& of_joint, VectorX& gradient) const {
+double JointFriction::calc_normal_force(const LocalState& state, MeasureGradient& gradient) const {
   thread_local MatrixX derivatives;
-  const Vector6 reaction = joint_.calc_press(of_joint, derivatives);
+  const Vector6 reaction = joint_.calc_press(state.of(0), derivatives);
   const Press press = press_of(reaction, surface_.thread_radius);
   const double force = press.force.norm(), moment = press.moment.norm();
-  gradient.setZero(derivatives.cols());
   Vector6 by_reaction = Vector6::Zero();
   if (force > 0) {
     by_reaction.head<3>() = press.force.head<3>() / force;
     if (surface_.thread_radius > 0) by_reaction[5] = press.force[3] / (force * surface_.thread_radius);
   }
   if (moment > 0) by_reaction.tail<3>() += press.moment / (moment * surface_.moment_arm);
-  gradient.noalias() = derivatives.transpose() * by_reaction;
+  gradient.position().segment(row(state), derivatives.cols()).noalias() = derivatives.transpose() * by_reaction;
   return force + moment / surface_.moment_arm + surface_.preload;
 }
 
@@ -98,10 +94,10 @@ void JointFriction::add_residual(const LocalState& state, Eigen::Ref<VectorX> r)
 void JointFriction::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   Slip& s = slip(state, true);
   const Resistance resist = resistance(state, s.v);
-  const LocalState of_joint = state.of(0);
-  const int at = row(state), n = of_joint.slots().size(), z = state.slots().first_order_row();
-  thread_local VectorX by_reaction;
-  const double N = normal_force(of_joint, by_reaction);
+  const int at = row(state), n = static_cast<int>(s.w.rows()), z = state.slots().first_order_row();
+  Nested<MeasureGradient> by_state;
+  by_state->prepare(state.slots().size());
+  const double N = calc_normal_force(state, *by_state);
   const Vector R = N * resist.rho + held(state.multiplier());
   if (tangent.wants_K) {
     auto K = tangent.K.dense();
@@ -109,10 +105,14 @@ void JointFriction::add_tangent(const LocalState& state, LocalTangent& tangent) 
     for (std::size_t k = 0; k < surface_.parts.size(); ++k)
       block += surface_.parts[k].arm * R[surface_.parts[k].component] * s.jets[k].W();
     block.noalias() += s.w * (N * resist.by_v) * s.by_position.transpose();
-    block.noalias() += (s.w * resist.rho) * by_reaction.transpose();
+    K.middleRows(at, n).noalias() += (s.w * resist.rho) * by_state->position().transpose();
     if (resist.by_z.size() > 0) K.block(at, z, n, size()).noalias() += s.w * (N * resist.by_z);
   }
-  if (tangent.wants_C) tangent.C.dense().block(at, at, n, n).noalias() += s.w * (N * resist.by_v) * s.w.transpose();
+  if (tangent.wants_C) {
+    auto C = tangent.C.dense();
+    C.block(at, at, n, n).noalias() += s.w * (N * resist.by_v) * s.w.transpose();
+    C.middleRows(at, n).noalias() += (s.w * resist.rho) * by_state->rate().transpose();
+  }
 }
 
 double JointFriction::loss(const LocalState& /*state*/, const Vector& v, const Resistance& resistance) const {

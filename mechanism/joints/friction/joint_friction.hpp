@@ -16,10 +16,12 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/laws/friction_law.hpp"
+#include "mechanism/model/measure.hpp"
 
 namespace bielle::mechanism {
 
@@ -39,7 +41,8 @@ struct FrictionSurface {
 
 class JointFriction : public Component {
  public:
-  JointFriction(const Joint& joint, FrictionSurface surface, const FrictionLaw& law);
+  JointFriction(const Joint& joint, FrictionSurface surface, const FrictionLaw& law)
+      : JointFriction("friction", joint, std::move(surface), law) {}
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -52,6 +55,8 @@ class JointFriction : public Component {
   void describe(const LocalState& state, Description& description) const override;
 
  protected:
+  JointFriction(std::string type, const Joint& joint, FrictionSurface surface, const FrictionLaw& law)
+      : Component(std::move(type), joint.name()), joint_(joint), surface_(std::move(surface)), law_(law) {}
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
 
@@ -79,7 +84,10 @@ class JointFriction : public Component {
 
   /// Returns v without derivatives.
   Vector velocity(const LocalState& state) const;
-  double normal_force(const LocalState& state) const;
+  /// The normal force N.
+  virtual double normal_force(const LocalState& state) const;
+  /// Returns N with its derivatives over the local layout. @param gradient  zero on entry
+  virtual double calc_normal_force(const LocalState& state, MeasureGradient& gradient) const;
 
   /// Computes v with its derivatives over the joint's layout: valid until the next call in this thread.
   struct Slip {
@@ -93,8 +101,6 @@ class JointFriction : public Component {
   static int row(const LocalState& state) { return state.slots().reference_row(0); }
 
  private:
-  /// Returns N with its derivatives over the joint's layout.
-  double normal_force(const LocalState& of_joint, VectorX& gradient) const;
   const Joint& joint_;
   FrictionSurface surface_;
   FrictionLaw law_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanism/joints/rest_limits.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -38,8 +40,12 @@ double StickSlipFriction::direction(const LocalState& state) {
   return std::isnan(kept) ? 0 : kept;
 }
 
-bool StickSlipFriction::is_on(const LocalState& state, int /*row*/) const {
-  return state.memory()[slip_direction] == 0;
+bool StickSlipFriction::sticks(const LocalState& state) { return state.memory()[slip_direction] == 0; }
+
+bool StickSlipFriction::is_on(const LocalState& state, int /*row*/) const { return sticks(state); }
+
+double StickSlipFriction::resisting_force(const LocalState& state, double lambda) const {
+  return normal_force(state) * resistance(state, velocity(state)).rho[0] + lambda;
 }
 
 JointFriction::Resistance StickSlipFriction::resistance(const LocalState& state, const Vector& v) const {
@@ -110,30 +116,27 @@ double StickSlipFriction::longest_arm() const {
 }
 
 double StickSlipFriction::no_velocity(const LocalState& state) const {
-  const LocalState of_joint = state.of(0);
-  const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
-  const double arm = longest_arm();
-  // Positions are rounded: in a step this gives an error of velocities, independent of their size.
-  constexpr double per_second = 1e-11;
-  return 1e-12 * (first.v.norm() + second.v.norm() + arm * (first.Omega.norm() + second.Omega.norm())) +
-         per_second * (first.x.norm() + second.x.norm() + arm);
+  return velocity_at_rest(state.of(0), longest_arm());
 }
 
 double StickSlipFriction::no_acceleration(const LocalState& state) const {
-  const LocalState of_joint = state.of(0);
-  const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
-  const double arm = longest_arm();
-  return 1e-9 * (state.environment().gravity.norm() + first.a.norm() + second.a.norm() +
-                 arm * (first.Omegadot.norm() + second.Omegadot.norm()));
+  return acceleration_at_rest(state.of(0), longest_arm());
 }
 
 void StickSlipFriction::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  if (direction(state) != 0 && is_open(state)) {
+    const double v = velocity(state)[0];
+    memory[has_slipped] = std::abs(v) > no_velocity(state) ? 1 : 0;
+    if (memory[has_slipped] != 0) memory[slip_direction] = std::copysign(1.0, v);
+    return;
+  }
   if (direction(state) * velocity(state)[0] > no_velocity(state)) memory[has_slipped] = 1;
 }
 
 void StickSlipFriction::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const double dir = direction(state);
   values.setOnes();
+  if (dir != 0 && is_open(state)) return;
   if (dir != 0) {
     const auto memory = state.memory();
     const double v = dir * velocity(state)[0], rounding = no_velocity(state);
@@ -174,6 +177,8 @@ void StickSlipFriction::begin_motion(const LocalState& state, bool known, Eigen:
     memory[slip_direction] = std::numeric_limits<double>::quiet_NaN();
   else if (std::abs(v) > no_velocity(state))
     slip_along(std::copysign(1.0, v), true, state, memory);
+  else if (is_open(state))
+    slip_along(1, false, state, memory);
   else
     stick_here(state, memory);
 }

@@ -15,9 +15,10 @@
 
 namespace bielle::mechanism {
 
-class StickSlipFriction final : public JointFriction {
+class StickSlipFriction : public JointFriction {
  public:
-  using JointFriction::JointFriction;
+  StickSlipFriction(const Joint& joint, FrictionSurface surface, const FrictionLaw& law)
+      : JointFriction(joint, std::move(surface), law) {}
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
@@ -33,6 +34,16 @@ class StickSlipFriction final : public JointFriction {
   /// The outputs include `sticks`: 1 along the coordinates of a sticking surface, otherwise 0.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
+
+ protected:
+  /// For what holds and slips by the same law: clutches.
+  using JointFriction::JointFriction;
+  /// Whether it sticks by its constraint.
+  static bool sticks(const LocalState& state);
+  /// Whether nothing presses the surfaces together: it then slips without force, in either direction.
+  virtual bool is_open(const LocalState& /*state*/) const { return false; }
+  /// Returns R [N], resisting motion along v. @param lambda  the component's multiplier
+  double resisting_force(const LocalState& state, double lambda) const;
 
  private:
   /// Direction of slip; 0 if it sticks, or neither.

@@ -1,19 +1,27 @@
 // A pair of meshing gear wheels whose tooth forces load the bearings.
 //
-// There are two forms, with the geometry of tooth_contact.hpp:
-//   rigid (no `stiffness`)   u_1(t) - u_2(t) = 0, as pitch surfaces in rolling contact. Its multiplier lambda is
-//   the
-//                            force of wheel 1 on wheel 2 along t [N]. The loaded flank is inclined: the teeth
-//                            push each other apart along nu by |lambda| tan(alpha) (GearSeparation, which reads the
-//                            reaction)
-//   elastic                  a flank of normal n is in contact if p = u_1(n) - u_2(n) - backlash/2 > 0 and pushes
-//   with
-//                            max(0, k p + d pdot): spring and damper of the teeth, with free play between the flanks
+// There are two forms, with the geometry of tooth_contact.hpp and the error e of the teeth along their normal [m], a
+// function of the wheels' angles (mesh_function.hpp):
+//   rigid (no `stiffness`)   u_1(t) - u_2(t) + e/cos(alpha) = 0: pitch surfaces in rolling contact, but for the error.
+//                            Its multiplier lambda is the force of wheel 1 on wheel 2 along t [N]. The loaded flank is
+//                            inclined: the teeth push each other apart along nu by |lambda| tan(alpha)
+//                            (GearSeparation, which reads the reaction)
+//   elastic                  a flank of normal n is in contact if p = u_1(n) - u_2(n) +- e - backlash/2 > 0 and pushes
+//                            with N = max(0, k p + d pdot): spring and damper of the teeth, with free play between the
+//                            flanks. The error moves both flanks of a tooth alike (+ for n_+, - for n_-)
+// The stiffness k may depend on the angle phi of a wheel. The elastic force derives from the potential V = k(phi)
+// p^2/2: besides k p along the gradient of p it has the parametric torque k'(phi) p^2/2 on that wheel, against the
+// carrier. Energy is conserved at any motion; the torque is smaller than k p times the radius by about the deformation
+// over the pitch of the teeth. The transmission error is the lead of wheel 2,
+//     TE = cos(alpha) (u_2(t) - u_1(t))   [m, along the normal of the teeth];
+// rigid teeth have TE = e, elastic ones under the load F TE = e - backlash/2 - F/k, with bearings at rest.
 // With backlash, contact of a flank begins and ends when p changes its sign: steps end there. Both flanks may touch (if
 // bearings press the wheels together).
 #pragma once
 
+#include "mechanism/joints/gears/mesh_function.hpp"
 #include "mechanism/joints/gears/tooth_contact.hpp"
+#include "mechanism/model/measure.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/references.hpp"
 #include "reduce/common/input/yaml_file.hpp"
@@ -24,25 +32,41 @@ namespace bielle::mechanism {
 class GearMesh : public Component {
  public:
   /// @param nodes  carrier, wheel 1, wheel 2
-  GearMesh(std::string name, std::array<int, 3> nodes, std::array<std::string, 3> names, const ToothGeometry& geometry);
+  /// @param errors  e [m]
+  GearMesh(std::string name, std::array<int, 3> nodes, std::array<std::string, 3> names, const ToothGeometry& geometry,
+           MeshFunction errors);
   const ToothContact& contact() const { return contact_; }
   void declare(Declaration& declaration) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   /// Outputs: `approach`: u_1(t) - u_2(t) [m], the lead of wheel 1; `force`: normal forces [N] of the flanks n_+ and
-  /// n_-.
+  /// n_-; `transmission_error` [m].
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   void draw(Drawing& drawing) const override;
+  /// The names are "transmission_error", "force", "angle_1", "angle_2"; of elastic teeth "deformation", "stiffness".
+  std::vector<std::string> measure_names() const override;
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+
+  /// Computes TE.
+  MeshMeasure transmission_error(const LocalState& state) const;
+  /// Computes the normal force, positive if wheel 1 drives wheel 2 forwards, with its derivatives over the local
+  /// layout.
+  /// @param gradient  zero on entry
+  virtual double calc_force(const LocalState& state, MeasureGradient& gradient) const = 0;
+  /// Whether that force is a reaction.
+  virtual bool force_is_reaction() const = 0;
 
  protected:
   /// Normal forces of the flanks n_+, n_- [N].
   virtual std::array<double, 2> flank_forces(const LocalState& state) const = 0;
+  const MeshFunction& errors() const { return errors_; }
 
  private:
   std::array<int, 3> nodes_;
   std::array<std::string, 3> names_;
   ToothContact contact_;
+  MeshFunction errors_;
 };
 
 class RigidGearMesh final : public GearMesh {
@@ -53,8 +77,11 @@ class RigidGearMesh final : public GearMesh {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                             Eigen::Ref<VectorX> acceleration) const override;
+  double calc_force(const LocalState& state, MeasureGradient& gradient) const override;
+  bool force_is_reaction() const override { return true; }
 
  private:
+  MeshMeasure gap(const LocalState& state) const;  ///< u_1(t) - u_2(t) + e/cos(alpha)
   std::array<double, 2> flank_forces(const LocalState& state) const override;
 };
 
@@ -73,15 +100,15 @@ class GearSeparation final : public Component {
 };
 
 struct ToothSpring {
-  double stiffness;  ///< stiffness of a pair of teeth along their normal [N/m]
-  double damping;    ///< damping [N s/m]
-  double backlash;   ///< free play along the normal, from flank to flank [m]
+  MeshFunction stiffness;  ///< stiffness k of the teeth along their normal [N/m]
+  double damping;          ///< damping [N s/m]
+  double backlash;         ///< free play along the normal, from flank to flank [m]
 };
 
 class ElasticGearMesh final : public GearMesh {
  public:
   ElasticGearMesh(std::string name, std::array<int, 3> nodes, std::array<std::string, 3> names,
-                  const ToothGeometry& geometry, const ToothSpring& spring);
+                  const ToothGeometry& geometry, MeshFunction errors, ToothSpring spring);
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
@@ -90,16 +117,29 @@ class ElasticGearMesh final : public GearMesh {
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;
   void describe(const LocalState& state, Description& description) const override;
+  std::vector<std::string> measure_names() const override;
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+  double calc_force(const LocalState& state, MeasureGradient& gradient) const override;
+  bool force_is_reaction() const override { return false; }
+  MeshMeasure stiffness(const LocalState& state) const { return spring_.stiffness(contact(), state); }
+  /// Computes p of the flank that is deeper in contact, or nearer to it [m].
+  MeshMeasure deformation(const LocalState& state) const;
 
  private:
   struct Flank {
     MeshMeasure p;  ///< penetration p [m]
     double rate = 0;
     bool touches = false, pushes = false;
-    double force = 0;  ///< normal force [N]
+    double force = 0;    ///< normal force [N]
+    double pressed = 0;  ///< p as far as it stores energy [m]
   };
   bool plays() const { return spring_.backlash > 0; }
-  Flank flank(int side, const LocalState& state) const;
+  MeshMeasure penetration(int side, const MeshMeasure& error, const LocalState& state) const;
+  /// @param stiffness,error  k and e at the state
+  Flank flank(int side, double stiffness, const MeshMeasure& error, const LocalState& state) const;
+  /// Computes N of a flank that pushes, with its derivatives by positions. (That by rates is d times the gradient of
+  /// p.)
+  MeshMeasure::Gradient force_gradient(const Flank& flank, const MeshMeasure& stiffness, const LocalState& state) const;
   Vector3 normal(int side) const;  ///< 0: n_+, 1: n_-
   std::array<double, 2> flank_forces(const LocalState& state) const override;
   ToothSpring spring_;
@@ -107,7 +147,7 @@ class ElasticGearMesh final : public GearMesh {
 
 const KeyTable& gear_mesh_keys();
 /// Reads `gear_mesh: {nodes: [wheel_1, wheel_2], carrier, axes, radii | position, internal, pressure_angle,
-/// helix_angle, stiffness, damping, backlash}`.
+/// helix_angle, stiffness, damping, backlash, errors}`.
 void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

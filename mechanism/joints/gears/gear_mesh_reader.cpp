@@ -107,10 +107,15 @@ const KeyTable& gear_mesh_keys() {
        {"pressure_angle", number("rad").non_negative(), otherwise("pi/9"), "Pressure angle, less than pi/2."},
        {"helix_angle", number("rad"), otherwise("0"),
         "Helix angle of the first wheel, between -pi/2 and pi/2; right-handed teeth have a positive one."},
-       {"stiffness", number("N/m").positive(), optional,
-        "Stiffness of the teeth along their normal; without it the pitch surfaces roll on each other exactly."},
+       {"stiffness", tooth_stiffness_forms(), optional,
+        "Stiffness of the teeth along their normal, also as a formula of the angle phi of the first wheel; without it "
+        "the "
+        "pitch surfaces roll on each other exactly."},
        {"damping", number("N s/m").non_negative(), otherwise("0"), "Damping of elastic teeth along their normal."},
-       {"backlash", number("m").non_negative(), otherwise("0"), "Free play of elastic teeth along their normal."}}};
+       {"backlash", number("m").non_negative(), otherwise("0"), "Free play of elastic teeth along their normal."},
+       {"errors", tooth_error_forms(), optional,
+        "Errors of the teeth along their normal, by which the second wheel is ahead when it is not loaded; also as a "
+        "formula of the angle phi of the first wheel."}}};
   return table;
 }
 
@@ -126,14 +131,19 @@ void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& mode
   const ToothGeometry geometry = read_geometry(entry, nodes, model);
   refuse_starts_beyond_half_a_turn(entry, wheels, model);
   const Entry own{Section::joints, name};
+  MeshFunction errors;
+  if (const auto given = entry.find("errors")) errors = read_tooth_errors(*given);
   if (const auto stiffness = entry.find("stiffness")) {
-    const ToothSpring spring{stiffness->number(), entry.at("damping").number(), entry.at("backlash").number()};
-    model.add(std::make_unique<ElasticGearMesh>(name, nodes, names, geometry, spring), own);
+    ToothSpring spring{
+        read_tooth_stiffness(*stiffness, geometry, entry.at("helix_angle").number(), entry.at("internal").boolean()),
+        entry.at("damping").number(), entry.at("backlash").number()};
+    model.add(std::make_unique<ElasticGearMesh>(name, nodes, names, geometry, std::move(errors), std::move(spring)),
+              own);
     return;
   }
   for (const char* key : {"damping", "backlash"})
     if (const auto too_much = entry.find(key)) too_much->fail("needs the `stiffness` of the teeth");
-  auto mesh = std::make_unique<RigidGearMesh>(name, nodes, names, geometry);
+  auto mesh = std::make_unique<RigidGearMesh>(name, nodes, names, geometry, std::move(errors));
   const RigidGearMesh& rigid = *mesh;
   model.add(std::move(mesh), own);
   if (geometry.pressure_angle > 0) model.add(std::make_unique<GearSeparation>(name, rigid), own, Recorded::no);

@@ -55,6 +55,10 @@ MeshMeasure ToothContact::approach(const Vector3& e, const LocalState& state) co
   return in_mesh(displacement(0, e, state), 0) - in_mesh(displacement(1, e, state), 1);
 }
 
+MeshMeasure ToothContact::turned(int wheel, const LocalState& state) const {
+  return in_mesh(angle(wheel, state), wheel);
+}
+
 double ToothContact::arm(int wheel) const {
   const auto k = static_cast<std::size_t>(wheel);
   return (geometry_.P - geometry_.centre[k]).cross(geometry_.t).dot(geometry_.axis[k]);

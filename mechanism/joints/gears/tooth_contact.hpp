@@ -43,6 +43,8 @@ class ToothContact {
   /// Computes u_1(e) - u_2(e): displacement of the teeth of wheel 1 along e relative to those of wheel 2 [m].
   /// @param state  state of a component whose nodes are carrier, wheel 1, wheel 2 and whose memory begins as below
   MeshMeasure approach(const Vector3& e, const LocalState& state) const;
+  /// Computes theta_i of a wheel (0 or 1), counted over turns.
+  MeshMeasure turned(int wheel, const LocalState& state) const;
   /// Torque about each wheel's axis per force along t: lever arms (P - c_i) x t . z_i [m], signed. Rates of the wheels
   /// are inversely proportional to them.
   double arm(int wheel) const;

@@ -269,8 +269,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that fixes two nodes to each other.
@@ -302,6 +302,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -312,8 +316,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "rigid", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -322,8 +326,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves turning about an axis free.
@@ -353,6 +357,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -363,8 +371,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "hinge", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def prismatic(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -373,8 +381,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis free.
@@ -403,6 +411,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -413,8 +425,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "prismatic", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def cylindrical(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -423,8 +435,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis and turning about it free.
@@ -455,6 +467,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -465,8 +481,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "cylindrical", "nodes": nodes, "axis": axis, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def spherical(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -475,8 +491,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point and leaves turning free.
@@ -507,6 +523,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -517,8 +537,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "spherical", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def planar(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -527,8 +547,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding across an axis and turning about it free.
@@ -559,6 +579,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -569,8 +593,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "planar", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def screw(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], pitch: float | str, position: Sequence[Any] | None = None,
@@ -579,8 +603,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that slides along its axis as it turns about it.
@@ -612,6 +636,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -622,8 +650,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "screw", "nodes": nodes, "axis": axis, "pitch": pitch,
             "position": position, "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping,
-            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def universal(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], second_axis: Sequence[Any],
@@ -632,8 +660,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A cross between two shafts, which turns about its two arms.
@@ -662,6 +690,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -672,8 +704,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "universal", "nodes": nodes, "axis": axis, "second_axis": second_axis,
             "position": position, "at": at, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def constant_velocity(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -682,8 +714,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint between two shafts that turn at equal rates at any bend below 180 degrees.
@@ -716,6 +748,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -726,8 +762,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "constant_velocity", "nodes": nodes, "position": position, "at": at,
             "axis": axis, "second_axis": second_axis, "axes": axes, "stiffness": stiffness, "damping": damping,
-            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def distance(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
@@ -761,8 +797,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A rod without mass that hinges on the first node, with a ball joint on the second.
@@ -787,6 +823,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -797,8 +837,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "revolute_spherical", "nodes": nodes, "axis": axis, "at": at,
             "length": length, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def point_on_line(self, name: str, *,
             nodes: Sequence[Any], line: Sequence[Any], position: Sequence[Any] | None = None,
@@ -807,8 +847,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a line and leaves turning free.
@@ -837,6 +877,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -847,8 +891,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "point_on_line", "nodes": nodes, "line": line, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def point_on_plane(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], position: Sequence[Any] | None = None,
@@ -857,8 +901,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point in a plane and leaves turning free.
@@ -887,6 +931,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -897,8 +945,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "point_on_plane", "nodes": nodes, "normal": normal, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def point_on_curve(self, name: str, *,
             nodes: Sequence[Any], curve: str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -906,8 +954,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a curve of the first node and leaves turning free.
@@ -933,6 +981,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -943,8 +995,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "point_on_curve", "nodes": nodes, "curve": curve, "position": position,
             "at": at, "closed": closed, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def slider(self, name: str, *,
             node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None,
@@ -953,9 +1005,9 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start_rate: Mapping[str, Any] | float | str | None = None,
+            friction: Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
         """A joint that holds a node on a beam that deforms, along which it slides.
 
         node: Node that slides. (name of a node)
@@ -980,6 +1032,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
@@ -988,8 +1044,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "slider", "node": node, "beam": beam, "at": at, "start": start,
             "ends": ends, "orientation": orientation, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def wheel(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], axis: Sequence[Any], radius: float | str,
@@ -998,8 +1054,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A thin wheel of the second node on a plane of the first.
@@ -1026,6 +1082,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -1036,8 +1096,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "wheel", "nodes": nodes, "normal": normal, "axis": axis, "radius": radius,
             "position": position, "at": at, "slip": slip, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def bushing(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -1046,8 +1106,8 @@ class Entries:
             damping: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
             preload: Sequence[Any] | None = None, curves: Mapping[str, Any] | None = None,
             maxwell: Sequence[Any] | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             **more: Any) -> None:
         """An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.
@@ -1082,6 +1142,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1091,8 +1155,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "bushing", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "preload": preload,
-            "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "carries": carries, **more})
+            "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked, "clutch": clutch,
+            "one_way": one_way, "start": start, "start_rate": start_rate, "carries": carries, **more})
 
     def bearing(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], radial: Mapping[str, Any] | Sequence[Any] | float | str,
@@ -1103,8 +1167,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """An elastic hinge, whose shaft turns freely.
@@ -1142,6 +1206,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1153,8 +1221,8 @@ class Entries:
         self.add("joints", name, {"type": "bearing", "nodes": nodes, "axis": axis, "radial": radial,
             "position": position, "at": at, "second_axis": second_axis, "axial": axial, "tilting": tilting,
             "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload, "stops": stops,
-            "locked": locked, "start": start, "start_rate": start_rate, "friction": friction, "carries": carries,
-            **more})
+            "locked": locked, "clutch": clutch, "one_way": one_way, "start": start, "start_rate": start_rate,
+            "friction": friction, "carries": carries, **more})
 
     def clearance_hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
@@ -1164,8 +1232,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             length: float | str | None = None, axial_gap: float | str | None = None,
             axial_contact: Mapping[str, Any] | None = None, **more: Any) -> None:
@@ -1203,6 +1271,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1218,8 +1290,9 @@ class Entries:
         self.add("joints", name, {"type": "clearance_hinge", "nodes": nodes, "axis": axis, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "second_axis": second_axis, "radius": radius,
             "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "carries": carries,
-            "length": length, "axial_gap": axial_gap, "axial_contact": axial_contact, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "carries": carries, "length": length, "axial_gap": axial_gap,
+            "axial_contact": axial_contact, **more})
 
     def clearance_spherical(self, name: str, *,
             nodes: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
@@ -1230,8 +1303,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             **more: Any) -> None:
         """A ball with play in a socket.
@@ -1269,6 +1342,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1279,8 +1356,8 @@ class Entries:
         self.add("joints", name, {"type": "clearance_spherical", "nodes": nodes, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "axis": axis, "second_axis": second_axis,
             "radius": radius, "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "carries": carries, **more})
 
     def gear(self, name: str, *,
             joints: Sequence[Any], ratio: float | str | None = None, teeth: Sequence[Any] | None = None,
@@ -1302,8 +1379,9 @@ class Entries:
             nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None,
             radii: Sequence[Any] | None = None, position: Sequence[Any] | None = None, internal: bool | None = None,
             pressure_angle: float | str | None = None, helix_angle: float | str | None = None,
-            stiffness: float | str | None = None, damping: float | str | None = None,
-            backlash: float | str | None = None, **more: Any) -> None:
+            stiffness: Mapping[str, Any] | float | str | None = None, damping: float | str | None = None,
+            backlash: float | str | None = None,
+            errors: Mapping[str, Any] | Sequence[Any] | float | str | None = None, **more: Any) -> None:
         """Forces between the teeth of two wheels, which load the bearings.
 
         nodes: Nodes of the two wheels, on their axes. (list of 2: name of a node)
@@ -1316,14 +1394,19 @@ class Entries:
         pressure_angle: Pressure angle, less than pi/2. (number [rad] of at least 0; default: pi/9)
         helix_angle: Helix angle of the first wheel, between -pi/2 and pi/2; right-handed teeth have a positive one.
         (number [rad]; default: 0)
-        stiffness: Stiffness of the teeth along their normal; without it the pitch surfaces roll on each other
-        exactly. (number [N/m] greater than 0)
+        stiffness: Stiffness of the teeth along their normal, also as a formula of the angle phi of the first wheel;
+        without it the pitch surfaces roll on each other exactly. (formula of phi [N/m] greater than 0; or keys of a
+        stiffness of teeth)
         damping: Damping of elastic teeth along their normal. (number [N s/m] of at least 0; default: 0)
         backlash: Free play of elastic teeth along their normal. (number [m] of at least 0; default: 0)
+        errors: Errors of the teeth along their normal, by which the second wheel is ahead when it is not loaded;
+        also as a formula of the angle phi of the first wheel. (formula of phi [m]; or keys of an error of the teeth;
+        or list: keys of an error of the teeth)
         """
         self.add("joints", name, {"type": "gear_mesh", "nodes": nodes, "axes": axes, "carrier": carrier,
             "radii": radii, "position": position, "internal": internal, "pressure_angle": pressure_angle,
-            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash, **more})
+            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash,
+            "errors": errors, **more})
 
     def differential(self, name: str, *,
             joints: Sequence[Any], ratio: float | str | None = None, **more: Any) -> None:

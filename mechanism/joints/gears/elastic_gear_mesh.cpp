@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/joints/gears/gear_mesh.hpp"
+#include "mechanism/model/description.hpp"
+
+namespace bielle::mechanism {
+
+ElasticGearMesh::ElasticGearMesh(std::string name, std::array<int, 3> nodes, std::array<std::string, 3> names,
+                                 const ToothGeometry& geometry, MeshFunction errors, ToothSpring spring)
+    : GearMesh(std::move(name), nodes, std::move(names), geometry, std::move(errors)), spring_(std::move(spring)) {}
+
+void ElasticGearMesh::declare(Declaration& declaration) const {
+  GearMesh::declare(declaration);
+  declaration.damping = spring_.damping > 0;
+  declaration.kinks = true;  // at zero total force
+  const double touch = plays() ? 0 : 1;
+  declaration.memory.insert(declaration.memory.end(), {touch, touch});  // whether each flank touches
+  if (plays()) declaration.event_functions = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};
+}
+
+Vector3 ElasticGearMesh::normal(int side) const {
+  const ToothGeometry& g = contact().geometry();
+  return (side == 0 ? 1 : -1) * std::cos(g.pressure_angle) * g.t + std::sin(g.pressure_angle) * g.nu;
+}
+
+MeshMeasure ElasticGearMesh::penetration(int side, const MeshMeasure& error, const LocalState& state) const {
+  MeshMeasure p = contact().approach(normal(side), state) - 0.5 * spring_.backlash;
+  if (!errors().is_zero()) p += (side == 0 ? 1.0 : -1.0) * error;
+  return p;
+}
+
+ElasticGearMesh::Flank ElasticGearMesh::flank(int side, double stiffness, const MeshMeasure& error,
+                                              const LocalState& state) const {
+  Flank flank;
+  flank.p = penetration(side, error, state);
+  flank.rate = flank.p.rate(ToothContact::rates(state));
+  // Without play, one of the flanks is always loaded: nothing jumps when they change.
+  flank.touches = !plays() || (state.environment().statics ? flank.p.value >= 0
+                                                           : state.memory()[ToothContact::memories + side] != 0);
+  const double push = stiffness * flank.p.value + spring_.damping * flank.rate;
+  flank.pushes = flank.touches && push >= 0;
+  flank.force = flank.pushes ? push : 0;
+  flank.pressed = !flank.touches ? 0 : plays() ? flank.p.value : std::max(0.0, flank.p.value);
+  return flank;
+}
+
+std::array<double, 2> ElasticGearMesh::flank_forces(const LocalState& state) const {
+  const double k = stiffness(state).value;
+  const MeshMeasure e = errors()(contact(), state);
+  return {flank(0, k, e, state).force, flank(1, k, e, state).force};
+}
+
+MeshMeasure ElasticGearMesh::deformation(const LocalState& state) const {
+  const MeshMeasure e = errors()(contact(), state);
+  const MeshMeasure forwards = penetration(0, e, state), backwards = penetration(1, e, state);
+  return forwards.value >= backwards.value ? forwards : backwards;
+}
+
+void ElasticGearMesh::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  const MeshMeasure k = stiffness(state), e = errors()(contact(), state);
+  for (const int side : {0, 1}) {
+    const Flank f = flank(side, k.value, e, state);
+    if (f.pushes) r.head<18>() += f.force * f.p.gradient;
+    if (spring_.stiffness.varies()) r.head<18>() += 0.5 * f.pressed * f.pressed * k.gradient;
+  }
+}
+
+MeshMeasure::Gradient ElasticGearMesh::force_gradient(const Flank& flank, const MeshMeasure& stiffness,
+                                                      const LocalState& state) const {
+  return stiffness.value * flank.p.gradient + flank.p.value * stiffness.gradient +
+         spring_.damping * (flank.p.second.transpose() * ToothContact::rates(state));
+}
+
+void ElasticGearMesh::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  const MeshMeasure k = stiffness(state), e = errors()(contact(), state);
+  for (const int side : {0, 1}) {
+    const Flank f = flank(side, k.value, e, state);
+    const MeshMeasure::Gradient& g = f.p.gradient;
+    if (tangent.wants_K && f.pushes)
+      tangent.K.dense() += f.force * f.p.second + g * force_gradient(f, k, state).transpose();
+    if (tangent.wants_K && spring_.stiffness.varies() && f.pressed != 0)
+      tangent.K.dense() += 0.5 * f.pressed * f.pressed * k.second + f.pressed * k.gradient * g.transpose();
+    if (tangent.wants_C && f.pushes && spring_.damping > 0) tangent.C.dense() += spring_.damping * g * g.transpose();
+  }
+}
+
+double ElasticGearMesh::calc_force(const LocalState& state, MeasureGradient& gradient) const {
+  const MeshMeasure k = stiffness(state), e = errors()(contact(), state);
+  double force = 0;
+  for (const int side : {0, 1}) {
+    const Flank f = flank(side, k.value, e, state);
+    if (!f.pushes) continue;
+    const double sign = side == 0 ? 1 : -1;
+    force += sign * f.force;
+    gradient.position().head<18>() += sign * force_gradient(f, k, state);
+    gradient.rate().head<18>() += sign * spring_.damping * f.p.gradient;
+  }
+  return force;
+}
+
+void ElasticGearMesh::add_energy(const LocalState& state, Energy& energy) const {
+  const double k = stiffness(state).value;
+  const MeshMeasure e = errors()(contact(), state);
+  for (const int side : {0, 1}) {
+    const Flank f = flank(side, k, e, state);
+    energy.elastic += 0.5 * k * f.pressed * f.pressed;
+    energy.dissipation += (f.force - k * f.pressed) * f.rate;
+  }
+}
+
+void ElasticGearMesh::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  if (!plays()) return;
+  const MeshMeasure e = errors()(contact(), state);
+  for (const int side : {0, 1}) values[side] = penetration(side, e, state).value;
+}
+
+bool ElasticGearMesh::leaves_branch(const LocalState& state) const {
+  if (!plays()) return false;
+  const MeshMeasure e = errors()(contact(), state);
+  for (const int side : {0, 1})
+    if (state.memory()[ToothContact::memories + side] != 0 && penetration(side, e, state).value < 0) return true;
+  return false;
+}
+
+void ElasticGearMesh::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
+                                   Eigen::Ref<VectorX> memory) const {
+  if (!plays()) return;
+  const MeshMeasure e = errors()(contact(), state);
+  for (const int side : {0, 1}) {
+    const MeshMeasure p = penetration(side, e, state);
+    const bool touches = p.value > 0 || (p.value == 0 && p.rate(ToothContact::rates(state)) >= 0);
+    memory[ToothContact::memories + side] = touches ? 1 : 0;
+  }
+}
+
+void ElasticGearMesh::describe(const LocalState& state, Description& description) const {
+  GearMesh::describe(state, description);
+  std::string text = fmt::format("tooth stiffness {:.6g} N/m", stiffness(state).value);
+  if (spring_.stiffness.varies()) text += " as drawn";
+  if (spring_.damping > 0) text += fmt::format(", damping {:.6g} N s/m", spring_.damping);
+  if (spring_.backlash > 0) text += fmt::format(", backlash {:.6g} m", spring_.backlash);
+  description.add(text);
+}
+
+}  // namespace bielle::mechanism

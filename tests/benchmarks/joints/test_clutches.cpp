@@ -1,0 +1,308 @@
+// Clutches, brakes, torque limiters, one-way clutches and ratchets against closed forms.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "mechanism/analyses/statics.hpp"
+#include "tests/benchmarks/joints/moved.hpp"
+
+using bielle::mechanism::Session;
+using bielle::test::move;
+using bielle::test::move_to;
+using Catch::Contains;
+using Catch::WithinAbs;
+using Catch::WithinRel;
+
+namespace test_clutches {
+namespace {
+
+constexpr double J_1 = 0.3, J_2 = 0.5, w_0 = 40;
+
+/// Two flywheels on an axis. @param clutch  keys of the joint between them
+std::string flywheels(const std::string& clutch, const std::string& more = "") {
+  return fmt::format(R"yaml(
+nodes: {{a: {{}}, b: {{}}}}
+elements:
+  a: {{type: rigid_body, node: a, mass: 1, inertia: [1, 1, {}]}}
+  b: {{type: rigid_body, node: b, mass: 1, inertia: [1, 1, {}]}}
+joints:
+  shaft: {{type: hinge, nodes: [ground, a], axis: [0, 0, 1], start_rate: {}}}
+  between: {{type: hinge, nodes: [a, b], axis: [0, 0, 1], start_rate: {}, {}}}
+{})yaml",
+                     J_1, J_2, w_0, -w_0, clutch, more);
+}
+
+/// A flywheel of 2 kg m^2 on the ground.
+std::string wheel(const std::string& keys, double rate, const std::string& torque) {
+  return fmt::format(R"yaml(
+nodes: {{w: {{}}}}
+elements: {{w: {{type: rigid_body, node: w, mass: 1, inertia: [1, 1, 2]}}}}
+joints: {{axle: {{type: hinge, nodes: [ground, w], axis: [0, 0, 1], start_rate: {}, {}}}}}
+drives: {{load: {{joint: axle, torque: "{}"}}}}
+)yaml",
+                     rate, keys, torque);
+}
+
+double read(const Session& session, const std::string& what) { return session.read("joints/" + what)[0]; }
+
+/// Root of a function that changes its sign between two places.
+template <class Function>
+double root(const Function& f, double low, double high) {
+  const bool rises = f(high) > 0;
+  for (int k = 0; k < 200; ++k) {
+    const double middle = 0.5 * (low + high);
+    ((f(middle) > 0) == rises ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<bielle::mechanism::Event> events_of(const std::string& text, double h, double end,
+                                                const bielle::test::Look& look) {
+  const auto file = bielle::mechanism::read_mechanism_text(text, "model.yaml");
+  Session session(file.model);
+  std::vector<bielle::mechanism::Event> events;
+  session.on_event([&](const bielle::mechanism::Event& event) { events.push_back(event); });
+  bielle::mechanism::DynamicsOptions options;
+  options.duration = end;
+  options.stepping.size = h;
+  session.dynamics(options).finish();
+  look(session);
+  return events;
+}
+
+}  // namespace
+
+TEST_CASE("a clutch brings two flywheels together in the time of its capacity, and takes the energy of their slip") {
+  const double C = 60, reduced = J_1 * J_2 / (J_1 + J_2), slips = reduced * w_0 / C;
+  const double common = J_1 * w_0 / (J_1 + J_2), lost = 0.5 * reduced * w_0 * w_0;
+  for (const std::string& capacity :
+       {std::string("capacity: 60"), std::string("normal_force: 1000, coefficient: 0.25, radius: 0.08, surfaces: 3")}) {
+    const auto events = events_of(flywheels("clutch: {" + capacity + "}"), 7e-3, 0.5, [&](const Session& session) {
+      CHECK_THAT(read(session, "shaft/rate"), WithinRel(common, 1e-10));
+      CHECK_THAT(read(session, "between/rate"), WithinAbs(0, 1e-11));
+      CHECK_THAT(read(session, "between/coordinate"), WithinRel(-0.5 * w_0 * slips, 1e-9));
+      CHECK_THAT(session.energy().dissipation, WithinRel(lost, 1e-9));
+      CHECK_THAT(session.balance(), WithinAbs(0, 1e-8 * lost));
+      CHECK(read(session, "between/clutch_sticks") == 1);
+      CHECK_THAT(read(session, "between/clutch_force"), WithinAbs(0, 1e-9));
+    });
+    REQUIRE(events.size() == 1);
+    CHECK_THAT(events[0].time, WithinRel(slips, 1e-9));
+  }
+}
+
+TEST_CASE("a clutch that is pressed little by little engages at the time of its ramp, whatever the grid") {
+  // 500 t N m: w_0 = 500 t^2/2 (1/J_1 + 1/J_2).
+  const double engages = std::sqrt(2 * w_0 / (500 * (1 / J_1 + 1 / J_2)));
+  std::vector<double> errors;
+  for (const double h : {8e-3, 4e-3, 2e-3, 1.9e-3}) {
+    const auto events = events_of(flywheels("clutch: {capacity: 500*t}"), h, 0.4, [](const Session& session) {
+      CHECK_THAT(read(session, "shaft/rate"), WithinRel(J_1 * w_0 / (J_1 + J_2), 1e-9));  // momentum
+    });
+    REQUIRE(events.size() == 1);
+    errors.push_back(std::abs(events[0].time - engages));
+  }
+  CHECK(errors[2] < 1e-4 * engages);
+  CHECK(errors[3] < 1e-4 * engages);
+}
+
+TEST_CASE("a brake stops a wheel after its time and angle, holds it, and slips beyond its torque at rest") {
+  // 2 kg m^2 at 30 rad/s, 12 N m.
+  const std::string brake = "clutch: {capacity: 12, static_ratio: 1.5}";
+  const auto events = events_of(wheel(brake, 30, "0"), 0.013, 6, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/coordinate"), WithinRel(0.5 * 30 * 5, 1e-10));
+    CHECK_THAT(read(session, "axle/rate"), WithinAbs(0, 1e-12));
+  });
+  REQUIRE(events.size() == 1);
+  CHECK_THAT(events[0].time, WithinRel(5, 1e-10));
+  move_to(wheel(brake, 0, "17.9"), 0.01, 1, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0, 1e-14));
+    CHECK_THAT(read(session, "axle/clutch_force"), WithinRel(-17.9, 1e-12));
+  });
+  move_to(wheel(brake, 0, "18.1"), 0.01, 1, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/rate"), WithinRel((18.1 - 12) / 2, 1e-9));
+    CHECK_THAT(read(session, "axle/clutch_force"), WithinRel(-12, 1e-12));
+  });
+}
+
+TEST_CASE("an open clutch lets its flywheels pass each other, also at the same rate") {
+  // Open until 0.2 s; the first is driven past the second, whose rate it has at 0 and at 0.1 s: w_1 = 40 - 200 t (t -
+  // 0.1).
+  const std::string text =
+      wheel("clutch: {capacity: \"if(t > 0.2, 30, 0)\"}", 0, "2*(-200)*(2*t - 0.1)*if(t > 0.2, 0, 1)");
+  for (const double h : {0.01, 0.007})
+    move_to(text, h, 0.6, [h](const Session& session) {
+      // -200 t (t - 0.1) = -4 rad/s at 0.2 s; then 15 rad/s^2 stop it after 4/15 s.
+      const double before = -200 * (0.008 / 3 - 0.1 * 0.04 / 2), after = -0.5 * 4 * 4 / 15;
+      CHECK_THAT(read(session, "axle/coordinate"),
+                 WithinAbs(before + after, 400 * 0.2 * h * h / 10));  // jerk 400 rad/s^3
+      CHECK_THAT(read(session, "axle/rate"), WithinAbs(0, 1e-11));
+      CHECK(read(session, "axle/clutch_sticks") == 1);
+    });
+  // At rest, without a load, and then closed.
+  const auto events =
+      events_of(wheel("clutch: {capacity: \"if(t > 0.2, 30, 0)\"}", 0, "0"), 0.01, 0.4, [](const Session& session) {
+        CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0, 1e-12));
+        CHECK(read(session, "axle/clutch_sticks") == 1);
+      });
+  CHECK(events.size() == 1);
+}
+
+TEST_CASE("a brake whose force follows the rate slows the wheel down exponentially") {
+  // The capacity 4 |w|: 2 w' = -4 w.
+  const double h = 2e-3;
+  move_to(wheel("clutch: {capacity: 4*abs(axle.angle.rate)}", 30, "0"), h, 1, [&](const Session& session) {
+    CHECK_THAT(read(session, "axle/rate"), WithinRel(30 * std::exp(-2.0), 4 * h * h));
+  });
+}
+
+TEST_CASE("a torque limiter slips by the angle of an overload, and holds again") {
+  // The motor turns uniformly; the wheel behind the limiter bears the load 32 t (2 - t) <= 32 N m. It slips from 1.25 *
+  // 24 on with 24 N m.
+  const double C = 24, J = 2;
+  const auto load = [](double t) { return 32 * t * (2 - t); };
+  const double begins = root([&](double t) { return load(t) - 1.25 * C; }, 0, 1);
+  const auto lag = [&](double t) {  // J times the rate of slip: integral of load - C
+    const auto integral = [](double s) { return 32 * (s * s - s * s * s / 3); };
+    return integral(t) - integral(begins) - C * (t - begins);
+  };
+  const double holds = root(lag, 1.5, 2.2);
+  double angle = 0;  // Simpson's rule is exact for a cubic
+  angle = (holds - begins) / 6 * (lag(begins) + 4 * lag(0.5 * (begins + holds)) + lag(holds)) / J;
+  const std::string text = R"yaml(
+nodes: {m: {}, w: {}}
+elements: {w: {type: rigid_body, node: w, mass: 1, inertia: [1, 1, 2]}}
+joints:
+  motor: {type: hinge, nodes: [ground, m], axis: [0, 0, 1]}
+  limiter: {type: hinge, nodes: [m, w], axis: [0, 0, 1], clutch: {capacity: 24, static_ratio: 1.25}}
+  axle: {type: hinge, nodes: [ground, w], axis: [0, 0, 1], start_rate: 10}
+drives: {motor: {joint: motor, angle: 10*t}, load: {joint: axle, torque: -32*t*(2 - t)}}
+)yaml";
+  std::vector<double> errors;
+  for (const double h : {8e-3, 4e-3, 2e-3}) {
+    const auto events = events_of(text, h, 2.2, [&](const Session& session) {
+      errors.push_back(std::abs(read(session, "limiter/coordinate") + angle));
+      CHECK_THAT(read(session, "axle/rate"), WithinRel(10, 1e-10));
+    });
+    REQUIRE(events.size() == 2);
+    CHECK_THAT(events[0].time, WithinAbs(begins, 2 * h * h));
+    CHECK_THAT(events[1].time, WithinAbs(holds, 2 * h * h));
+  }
+  CHECK(errors[2] < 1e-5 * angle);
+}
+
+TEST_CASE("a sprag clutch under an alternating torque advances as the piecewise solution, to the second order") {
+  // J v' = T (sin(W t) - b): opens at sin = b, holds again at v = 0, once in each period.
+  const double J = 2, T = 9, W = 5, b = 0.3, opens = std::asin(b) / W;
+  const auto rate = [&](double t) { return T / J * ((std::cos(W * opens) - std::cos(W * t)) / W - b * (t - opens)); };
+  const double holds = root(rate, M_PI / W, 2 * M_PI / W + opens);
+  const auto travel = [&](double t) {  // from `opens` on
+    const double s = std::min(t, holds);
+    return T / J *
+           (std::cos(W * opens) * (s - opens) / W - (std::sin(W * s) - std::sin(W * opens)) / (W * W) -
+            0.5 * b * (s - opens) * (s - opens));
+  };
+  const auto exact = [&](double t) {
+    const double cycles = std::floor(t * W / (2 * M_PI)), phase = t - cycles * 2 * M_PI / W;
+    return cycles * travel(holds) + (phase > opens ? travel(phase) : 0);
+  };
+  for (const double sense : {1.0, -1.0}) {
+    const std::string text = wheel(fmt::format("one_way: {{direction: {}}}", sense > 0 ? "forwards" : "backwards"), 0,
+                                   fmt::format("{}*(sin(5*t) - 0.3)", sense * T));
+    const auto error = [&](double h) {
+      double largest = 0;
+      move(text, h, 3.7, [&](const Session& session) {
+        largest = std::max(largest, std::abs(sense * read(session, "axle/coordinate") - exact(session.time())));
+        if (read(session, "axle/one_way_holds") == 1) CHECK(sense * read(session, "axle/one_way_force") >= -1e-9);
+        CHECK(sense * read(session, "axle/rate") >= -1e-9);
+      });
+      return largest;
+    };
+    const double coarse = error(0.02), fine = error(0.01), between = error(0.0123);
+    CHECK_THAT(std::log2(coarse / fine), WithinAbs(2, 0.3));
+    CHECK(between < coarse);
+    CHECK(fine < 3 * 0.05 * 0.05 * travel(holds));  // (W h)^2 in each of three periods
+  }
+}
+
+TEST_CASE("a ratchet holds at the last tooth that it has passed, and lets go forwards") {
+  // Thrown forwards at 3 rad/s against 4 N m: up to 2.25 rad, back to the last of the teeth at 0.4 rad, 2 rad. The
+  // torque turns at 8 s and moves it on.
+  for (const double h : {0.01, 0.0137}) {
+    const auto events = events_of(wheel("one_way: {pitch: 0.4}", 3, "-4 + 0.5*t"), h, 9, [](const Session& session) {
+      // 2 v' = -4 + t/2 from rest at 8 s: v = (t - 8)^2/8, 2.4 + (t - 8)^3/24.
+      CHECK_THAT(read(session, "axle/rate"), WithinRel(1.0 / 8, 1e-4));
+      CHECK_THAT(read(session, "axle/coordinate"), WithinRel(2.4 + 1.0 / 24, 1e-5));
+      CHECK(read(session, "axle/one_way_holds") == 0);
+    });
+    REQUIRE(events.size() == 2);
+    CHECK_THAT(events[1].time, WithinRel(8, 1e-6));
+  }
+  // With a constant torque up to 2.25 rad, and back at 2 rad after 3/2 + sqrt(0.25) s with 1 rad/s: 1 J is lost.
+  const auto events = events_of(wheel("one_way: {pitch: 0.4}", 3, "-4"), 0.01, 4, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/coordinate"), WithinRel(2, 1e-12));
+    CHECK_THAT(read(session, "axle/rate"), WithinAbs(0, 1e-12));
+    CHECK_THAT(read(session, "axle/one_way_force"), WithinRel(4, 1e-10));
+    CHECK_THAT(session.energy().dissipation, WithinRel(1, 1e-8));
+    CHECK_THAT(session.balance(), WithinAbs(0, 1e-8));
+  });
+  REQUIRE(events.size() == 1);
+  CHECK_THAT(events[0].time, WithinRel(2, 1e-9));
+}
+
+TEST_CASE("an elastic one-way clutch winds up by the torque that it holds, and gives its energy back") {
+  // Thrown forwards at 1 rad/s against 4 N m: at rest after 0.5 s and 0.25 rad. Then it swings about 0.25 - 4/k rad and
+  // comes to rest there by its damping.
+  move_to(wheel("one_way: {stiffness: 800, damping: 40}", 1, "-4"), 2e-3, 3, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0.25 - 4.0 / 800, 1e-8));
+    CHECK_THAT(read(session, "axle/one_way_force"), WithinRel(4, 1e-5));
+    CHECK_THAT(session.balance(), WithinAbs(0, 0.01 * 1.6e-3));  // 4^2/(2 k) = 0.01 J, (w h)^2
+  });
+  // A motion that follows another begins with the clutch as it is wound.
+  {
+    const auto file = bielle::mechanism::read_mechanism_text(wheel("one_way: {stiffness: 800}", 1, "-4"), "model.yaml");
+    Session session(file.model);
+    bielle::mechanism::DynamicsOptions options;
+    options.stepping.size = 1e-3;
+    for (const double duration : {0.6, 0.15}) {  // at rest after 0.5 s; a turn of its swing takes 0.314 s
+      options.duration = duration;
+      session.dynamics(options).finish();
+    }
+    // From 0.25 rad on p = (4/k) (1 - cos(20 (t - 0.5))).
+    CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0.25 - 4.0 / 800 * (1 - std::cos(20 * 0.25)), 1e-5));
+  }
+  // Undamped, the torque -4 + 2 t: it opens, and nothing is lost.
+  const auto events = events_of(wheel("one_way: {stiffness: 800}", 1, "-4 + 2*t"), 1e-3, 4, [](const Session& session) {
+    CHECK_THAT(session.energy().dissipation, WithinAbs(0, 1e-12));
+    CHECK_THAT(session.balance(), WithinAbs(0, 1e-5));
+  });
+  CHECK(events.size() >= 2);
+}
+
+TEST_CASE("clutches yield to drives of the same motion, and wrong starts are told") {
+  const std::string load = R"(drives: {load: {joint: axle, torque: "0"}})", brake = "clutch: {capacity: 5}";
+  const auto driven = [&](const std::string& angle) {
+    std::string text = wheel(brake, 0, "0");
+    const std::string start = "start_rate: 0, ";
+    text.replace(text.find(start), start.size(), "");
+    return text.replace(text.find(load), load.size(), "drives: {motor: {joint: axle, angle: \"" + angle + "\"}}");
+  };
+  move_to(driven("0.5*t^2"), 0.01, 1, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/drive_force"), WithinRel(2 + 5, 1e-9));
+    CHECK_THAT(read(session, "axle/clutch_force"), WithinRel(-5, 1e-12));
+  });
+  move_to(driven("0"), 0.01, 1, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/drive_force"), WithinAbs(0, 1e-12));
+    CHECK_THAT(read(session, "axle/clutch_force"), WithinAbs(0, 1e-12));
+  });
+  CHECK_THROWS_WITH(move_to(wheel("one_way: {direction: forwards}", -1, "0"), 0.01, 0.1, [](const Session&) {}),
+                    Contains("holds against a rate of -1 rad/s"));
+  CHECK_THROWS_WITH(move_to(wheel("clutch: {capacity: 1 - t}", 1, "3"), 0.01, 2, [](const Session&) {}),
+                    Contains("must not be negative"));
+}
+
+}  // namespace test_clutches
