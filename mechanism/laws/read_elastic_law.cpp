@@ -204,6 +204,8 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
   std::vector<CurveFormula> formulas;
   const auto stiffness = entry.find("stiffness"), damping = entry.find("damping"), preload = entry.find("preload"),
              curves = entry.find("curves"), maxwell = entry.find("maxwell");
+  if (const auto unsymmetric = entry.find("unsymmetric"); unsymmetric && !stiffness)
+    unsymmetric->fail("says something about the `stiffness`, which is missing");
   if (stiffness) law.K = read_stiffness(*stiffness, !entry.at("unsymmetric").boolean());
   if (damping) law.D = read_damping(*damping, law.K);
   if (preload) {

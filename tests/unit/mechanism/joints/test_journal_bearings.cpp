@@ -130,6 +130,43 @@ TEST_CASE("a bearing of finite length has the pressure of Reynolds' equation in 
   CHECK((narrow - infinitely).norm() < 2e-3 * infinitely.norm());
 }
 
+// At the limit of whirl with the frequency w, det(K - m w^2 + i w C) = 0: with kappa = m w^2 its imaginary and real
+// part are
+//   kappa (cxx + cyy) = kxx cyy + kyy cxx - kxy cyx - kyx cxy,   w^2 (cxx cyy - cxy cyx) = (kxx - kappa)(kyy - kappa) -
+//   kxy kyx
+// K and C are the published ones, of the test before.
+TEST_CASE("a rigid rotor whirls in short bearings from its critical mass on, at half the speed when it is light") {
+  for (const double eps : {0.01, 0.4}) {
+    CAPTURE(eps);
+    const BearingLaw::Force force = short_bearing().calc(six(eps * c, 0, 0), six(0, 0, omega));
+    const Matrix2 k = force.by_e.topLeftCorner<2, 2>(), d = force.by_v.topLeftCorner<2, 2>();
+    const double kappa =
+        (k(0, 0) * d(1, 1) + k(1, 1) * d(0, 0) - k(0, 1) * d(1, 0) - k(1, 0) * d(0, 1)) / (d(0, 0) + d(1, 1));
+    const double whirl = std::sqrt(((k(0, 0) - kappa) * (k(1, 1) - kappa) - k(0, 1) * k(1, 0)) / d.determinant());
+    const double critical = kappa / (whirl * whirl);
+    if (eps < 0.1) CHECK_THAT(whirl / omega, WithinAbs(0.5, 1e-3));
+    const auto growth = [&](double mass) {
+      const auto model = model_from_text(fmt::format(
+          "nodes: {{rotor: {{position: [0, 0, 0]}}}}\nelements: {{rotor: {{type: rigid_body, node: rotor, mass: {}, "
+          "inertia: [1, 1, 1]}}}}\njoints: {{film: {{type: journal_bearing, nodes: [ground, rotor], axis: [0, 0, 1], "
+          "diameter: {}, length: {}, clearance: {}, viscosity: {}, model: short}}}}",
+          mass, 2 * R, L, c, mu));
+      const DenseModel dense(*model);
+      State state = dense.start();
+      state.nodes[1].x = Vector3(eps * c, 0, 0);
+      state.nodes[1].Omega = Vector3(0, 0, omega);
+      MatrixX A = MatrixX::Zero(4, 4);
+      A.topRightCorner(2, 2).setIdentity();
+      A.bottomLeftCorner(2, 2) = -dense.tangent(state, DenseModel::Part::K).block(6, 6, 2, 2) / mass;
+      A.bottomRightCorner(2, 2) = -dense.tangent(state, DenseModel::Part::C).block(6, 6, 2, 2) / mass;
+      return bielle::test::eigenvalues(A).real().maxCoeff();
+    };
+    CHECK_THAT(growth(critical) / omega, WithinAbs(0, 1e-7));
+    CHECK(growth(0.99 * critical) < 0);
+    CHECK(growth(1.01 * critical) > 0);
+  }
+}
+
 // With K = [[k, q], [-q, k]] and damping c, a forward whirl of the undamped frequency is at its limit at q = c omega_n.
 TEST_CASE("cross-coupled stiffness drives a rotor from c omega_n on") {
   const double k = 5e4, m = 2, damping = 30, limit = damping * std::sqrt(k / m);
