@@ -22,6 +22,8 @@
 #include "mechanism/joints/flexible/bearing.hpp"
 #include "mechanism/joints/flexible/bushing.hpp"
 #include "mechanism/joints/flexible/clearance_joint.hpp"
+#include "mechanism/joints/flexible/journal_bearing.hpp"
+#include "mechanism/joints/flexible/rolling_bearing.hpp"
 #include "mechanism/joints/gears/gear_mesh.hpp"
 #include "mechanism/joints/pairs/guided_point.hpp"
 #include "mechanism/joints/pairs/links.hpp"
@@ -63,6 +65,9 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "wheel", read_wheel, wheel_keys},
       {Section::joints, "bushing", read_bushing, bushing_keys},
       {Section::joints, "bearing", read_bearing, bearing_keys},
+      {Section::joints, "ball_bearing", read_ball_bearing, ball_bearing_keys},
+      {Section::joints, "roller_bearing", read_roller_bearing, roller_bearing_keys},
+      {Section::joints, "journal_bearing", read_journal_bearing, journal_bearing_keys},
       {Section::joints, "clearance_hinge", read_clearance_hinge, clearance_hinge_keys},
       {Section::joints, "clearance_spherical", read_clearance_spherical, clearance_spherical_keys},
       {Section::joints, "gear", read_gear, gear_keys},

@@ -90,41 +90,53 @@ void ElasticLaw::add_residual(const LocalState& state, const Measures& m, Eigen:
   }
 }
 
-void ElasticLaw::add_tangent(const LocalState& state, const Measures& m, LocalTangent& tangent) const {
-  if (!tangent.wants_K && !tangent.wants_C) return;
-  const Vector6 e = values(m), N = force(state, m);
+ElasticLaw::Slopes ElasticLaw::slopes(const LocalState& state, const Measures& m) const {
+  const Vector6 e = values(m);
   Matrix6 N_e = K;
   for (std::size_t k = 0; k < size(); ++k)
     if (const auto i = static_cast<Eigen::Index>(k); curves[k]) N_e(i, i) += (*curves[k])(e[i]).slope;
   for (const MaxwellBranch& branch : branches_) N_e += branch.K;
+  const Eigen::Matrix<double, 6, 12> G = gradients(m);
+  Slopes slopes{force(state, m), N_e * G, D * G, MatrixX::Zero(6, static_cast<Eigen::Index>(unknowns_.size()))};
+  if (has_damping()) {
+    const Vector12 u = pair_rate(state.node(0), state.node(1));
+    Eigen::Matrix<double, 6, 12> turned = Eigen::Matrix<double, 6, 12>::Zero();
+    for (std::size_t k = 0; k < size(); ++k) turned.row(static_cast<Eigen::Index>(k)) = u.transpose() * m[k].second;
+    slopes.by_position += D * turned;
+  }
+  for (std::size_t i = 0; i < unknowns_.size(); ++i)
+    slopes.by_unknown.col(static_cast<Eigen::Index>(i)) = -branches_[unknowns_[i].branch].K.col(unknowns_[i].direction);
+  return slopes;
+}
+
+Eigen::Matrix<double, 6, 12> ElasticLaw::gradients(const Measures& m) const {
   Eigen::Matrix<double, 6, 12> G = Eigen::Matrix<double, 6, 12>::Zero();
   for (std::size_t k = 0; k < size(); ++k) G.row(static_cast<Eigen::Index>(k)) = m[k].gradient.transpose();
+  return G;
+}
+
+void ElasticLaw::add_tangent(const LocalState& state, const Measures& m, LocalTangent& tangent) const {
+  if (!tangent.wants_K && !tangent.wants_C) return;
+  const Eigen::Matrix<double, 6, 12> G = gradients(m);
+  const Slopes slope = slopes(state, m);
   const int row = state.slots().first_order_row();
   if (tangent.wants_K) {
     auto local = tangent.K.dense();
-    Eigen::Matrix<double, 6, 12> slope = N_e * G;
-    if (has_damping()) {
-      const Vector12 u = pair_rate(state.node(0), state.node(1));
-      Eigen::Matrix<double, 6, 12> by_rate = Eigen::Matrix<double, 6, 12>::Zero();
-      for (std::size_t k = 0; k < size(); ++k) by_rate.row(static_cast<Eigen::Index>(k)) = u.transpose() * m[k].second;
-      slope += D * by_rate;
-    }
-    Matrix12 whole = G.transpose() * slope;
-    for (std::size_t k = 0; k < size(); ++k) whole += N[static_cast<Eigen::Index>(k)] * m[k].second;
+    Matrix12 whole = G.transpose() * slope.by_position;
+    for (std::size_t k = 0; k < size(); ++k) whole += slope.N[static_cast<Eigen::Index>(k)] * m[k].second;
     local.topLeftCorner<12, 12>() += whole;
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
       const auto at = row + static_cast<Eigen::Index>(i);
       const MaxwellBranch& branch = branches_[unknowns_[i].branch];
-      const Vector6 column = branch.K.col(unknowns_[i].direction);
-      local.col(at).head<12>() -= G.transpose() * column;
+      const Vector6 column = slope.by_unknown.col(static_cast<Eigen::Index>(i));
+      local.col(at).head<12>() += G.transpose() * column;
       local.row(at).head<12>() -= G.row(unknowns_[i].direction) / branch.time;
       local(at, at) += 1 / branch.time;
     }
   }
   if (tangent.wants_C && (has_damping() || !unknowns_.empty())) {
     auto local = tangent.C.dense();
-    const Eigen::Matrix<double, 6, 12> slope = D * G;
-    if (has_damping()) local.topLeftCorner<12, 12>() += G.transpose() * slope;
+    if (has_damping()) local.topLeftCorner<12, 12>() += G.transpose() * slope.by_rate;
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
       const auto at = row + static_cast<Eigen::Index>(i);
       local(at, at) += 1;
@@ -135,6 +147,7 @@ void ElasticLaw::add_tangent(const LocalState& state, const Measures& m, LocalTa
 void ElasticLaw::add_energy(const LocalState& state, const Measures& m, Energy& energy) const {
   const Vector6 e = values(m);
   energy.elastic += preload.dot(e) + 0.5 * e.dot(K * e);
+  if (const Matrix6 cross = 0.5 * (K - K.transpose()); !cross.isZero(0)) energy.input -= rates(state, m).dot(cross * e);
   if (has_damping()) {
     const Vector6 v = rates(state, m);
     energy.dissipation += v.dot(D * v);

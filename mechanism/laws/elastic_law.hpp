@@ -2,12 +2,13 @@
 //
 //     N = N_0 + K m + D mdot + n(m) + sum over branches K_b (m - z_b),    zdot_b = (m - z_b)/tau_b,
 //
-// The forces and moments N resist growth, K is symmetric and positive semidefinite, D has a positive semidefinite
-// symmetric part, and n are curves, each of one measure. A branch is a spring K_b and a damper tau_b K_b in series
-// (Maxwell), and z_b is the elongation of its damper, a first-order unknown. Its force is K_b m initially, zero
-// finally, and K_b i w tau/(1 + i w tau) in a vibration of circular frequency w. At rest (statics) all branches are
-// relaxed. Energies:  V = N_0 . m + m . K m/2 + integral of n dm + sum (m - z_b) . K_b (m - z_b)/2, dissipation  mdot .
-// D mdot + sum (m - z_b) . K_b (m - z_b)/tau_b.
+// The forces and moments N resist growth, K and D have positive semidefinite symmetric parts, and n are curves, each of
+// one measure. A branch is a spring K_b and a damper tau_b K_b in series (Maxwell), and z_b is the elongation of its
+// damper, a first-order unknown. Its force is K_b m initially, zero finally, and K_b i w tau/(1 + i w tau) in a
+// vibration of circular frequency w. At rest (statics) all branches are relaxed. Energies:  V = N_0 . m + m . K m/2 +
+// integral of n dm + sum (m - z_b) . K_b (m - z_b)/2, dissipation  mdot . D mdot + sum (m - z_b) . K_b (m - z_b)/tau_b.
+// An antisymmetric part K_a of K (a rotating fluid or shaft with internal damping) has no potential: its power, -mdot .
+// K_a m, counts as input.
 #pragma once
 
 #include <array>
@@ -49,6 +50,14 @@ class ElasticLaw {
   /// Computes N at a state of the component that owns the law. @param m  the measures; gradients are only read if rates
   /// matter
   Vector6 force(const LocalState& state, const Measures& m) const;
+  /// N with its derivatives.
+  struct Slopes {
+    Vector6 N;
+    Eigen::Matrix<double, 6, 12> by_position, by_rate;  ///< by positions and velocities of the two nodes
+    MatrixX by_unknown;                                 ///< by the first-order unknowns, six rows
+  };
+  /// @param m  measures with second derivatives
+  Slopes slopes(const LocalState& state, const Measures& m) const;
   // Adds the forces to a component whose first twelve local rows are those of the two nodes.
   void add_residual(const LocalState& state, const Measures& m, Eigen::Ref<VectorX> r) const;
   /// @param m  measures with second derivatives
@@ -64,6 +73,7 @@ class ElasticLaw {
   };
   Vector6 values(const Measures& m) const;
   Vector6 rates(const LocalState& state, const Measures& m) const;
+  Eigen::Matrix<double, 6, 12> gradients(const Measures& m) const;
   /// Returns m - z of a branch.
   Vector6 stretch(std::size_t branch, const LocalState& state, const Vector6& e) const;
   std::vector<std::string> names_;

@@ -75,10 +75,10 @@ MatrixX read_diagonal_or_matrix(const YamlValue& value) {
   return value.vector().asDiagonal();
 }
 
-Matrix6 read_stiffness(const YamlValue& value) {
+Matrix6 read_stiffness(const YamlValue& value, bool symmetric = true) {
   MatrixX K = read_diagonal_or_matrix(value);
-  make_symmetric(value, K);
-  check_semidefinite(value, K,
+  if (symmetric) make_symmetric(value, K);
+  check_semidefinite(value, 0.5 * (K + K.transpose()),
                      "a spring that pushes away from where it is free; what is to do so is one of the `curves`");
   return K;
 }
@@ -117,7 +117,7 @@ MaxwellBranch read_branch(const YamlValue& given, const Matrix6& K) {
     entry.fail("a branch takes either its `stiffness` or a `factor` of that of the whole");
   if (const auto factor = entry.find("factor")) {
     if (K.isZero(0)) factor->fail("multiplies the `stiffness`, which is missing");
-    branch.K = factor->number() * K;
+    branch.K = 0.5 * factor->number() * (K + K.transpose());
   } else {
     branch.K = read_stiffness(entry.at("stiffness"));
   }
@@ -184,6 +184,9 @@ std::vector<Key> keys_of_elastic_law() {
   const KeyForms force{number("N")}, moment{number("N m")};
   return {{"stiffness", forms_of_stiffness(), optional,
            "Stiffness along and about x, y, z, or a symmetric matrix by rows without negative eigenvalues."},
+          {"unsymmetric", boolean(), otherwise("false"),
+           "Whether the matrix of the stiffness may be unsymmetric: cross-coupled terms, which drive or brake a whirl. "
+           "Its symmetric part has no negative eigenvalue."},
           {"damping", std::move(damping), optional,
            "Damping along and about x, y, z, or a matrix whose symmetric part has no negative eigenvalue, or a time "
            "that multiplies the stiffness."},
@@ -201,7 +204,9 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
   std::vector<CurveFormula> formulas;
   const auto stiffness = entry.find("stiffness"), damping = entry.find("damping"), preload = entry.find("preload"),
              curves = entry.find("curves"), maxwell = entry.find("maxwell");
-  if (stiffness) law.K = read_stiffness(*stiffness);
+  if (const auto unsymmetric = entry.find("unsymmetric"); unsymmetric && !stiffness)
+    unsymmetric->fail("says something about the `stiffness`, which is missing");
+  if (stiffness) law.K = read_stiffness(*stiffness, !entry.at("unsymmetric").boolean());
   if (damping) law.D = read_damping(*damping, law.K);
   if (preload) {
     const Eigen::VectorXd forces = preload->vector();

@@ -322,6 +322,21 @@ elements:
           {{"force", "other.forces", "did you mean 'force'"}}};
 }
 
+/// Forces and moments in sections of a beam: a spring between its ends uses them.
+Sample spring_of_a_beam(const std::string& variant, const std::string& beam) {
+  return {Section::elements,
+          "spring_damper",
+          "section forces of a beam, " + variant,
+          two_nodes + R"yaml(
+elements:
+  boom: {type: beam, nodes: [a, b], elements: 1, )yaml" +
+              beam + R"yaml(}
+  it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0, 0, 0]], force: "0.5*boom.force.x + 0.3*boom.force.y - 0.2*boom.element_1.force.z + 0.4*boom.moment.x - 0.6*boom.moment.y + 0.7*boom.moment.z*boom.force.x"}
+)yaml",
+          {{"force", "boom.force.q", "did you mean 'force."},
+           {"force", "boom.element_2.force.x", "did you mean 'element_1.force.x'"}}};
+}
+
 /// A bent body with three interfaces, load patterns, damping and prestress; nodes stand as meshed. Small local
 /// displacements are its premise.
 Sample superelement(const std::string& loads) {
@@ -459,29 +474,36 @@ loads:
 }  // namespace
 
 std::vector<Sample> element_samples() {
-  std::vector<Sample> list = {rigid_body(),
-                              turned_body(),
-                              solid_body(),
-                              drilled_body(),
-                              shaped_body(),
-                              point_mass(),
-                              beam(),
-                              curved_beam(),
-                              tapered_beam(),
-                              tapered_shape(),
-                              dead_line_load(),
-                              follower_line_load(),
-                              spring(),
-                              spring_by_formula(),
-                              timed_spring(),
-                              following_spring(),
-                              superelement_with_followers(),
-                              superelement_with_dead_load(),
-                              superelement_with_free_directions(),
-                              superelement_with_points("points", "at: [0.55, -0.07, 0.17]", "at: [0.92, 0.09, 0.25]"),
-                              superelement_with_points("named points", "point: core", "point: rim"),
-                              dead_load(),
-                              follower_load()};
+  std::vector<Sample> list = {
+      rigid_body(),
+      turned_body(),
+      solid_body(),
+      drilled_body(),
+      shaped_body(),
+      point_mass(),
+      beam(),
+      curved_beam(),
+      tapered_beam(),
+      tapered_shape(),
+      dead_line_load(),
+      follower_line_load(),
+      spring(),
+      spring_by_formula(),
+      timed_spring(),
+      following_spring(),
+      spring_of_a_beam("damped, tapered",
+                       "damping: 0.2, twist: 0.3, section: [{rectangle: [1.1, 0.8], young: 2, poisson: 0.2, density: "
+                       "1.5}, {rectangle: [0.9, 0.7], young: 2, poisson: 0.2, density: 1.5}]"),
+      spring_of_a_beam("constant strain",
+                       "damping: 0.1, bending: constant, arc_through: [0.7, 0.5, 0.3], section: {EA: 4, GAy: 2, GAz: "
+                       "3, GJ: 1, EIy: 2, EIz: 1}"),
+      superelement_with_followers(),
+      superelement_with_dead_load(),
+      superelement_with_free_directions(),
+      superelement_with_points("points", "at: [0.55, -0.07, 0.17]", "at: [0.92, 0.09, 0.25]"),
+      superelement_with_points("named points", "point: core", "point: rim"),
+      dead_load(),
+      follower_load()};
   for (Sample& sample : beams_of_sections()) list.push_back(std::move(sample));
   return list;
 }

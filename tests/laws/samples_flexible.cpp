@@ -115,6 +115,101 @@ Sample bearing_of_all() {
            {"preload.z", "much", ""}}};
 }
 
+Sample bushing_unsymmetric() {
+  return {Section::joints,
+          "bushing",
+          "unsymmetric stiffness",
+          flexible_joint("type: bushing, stiffness: " + unsymmetric_matrix +
+                         ", unsymmetric: true, damping: 0.2, maxwell: [{factor: 0.4, time: 0.7}]"),
+          {{"stiffness",
+            "[[1, 3, 0, 0, 0, 0], [2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, "
+            "0, 0, 0, 0, 1]]",
+            "not positive semidefinite"}}};
+}
+
+std::vector<Sample> coupled_bearings() {
+  Sample film{
+      Section::joints,
+      "bearing",
+      "cross-coupled, film",
+      flexible_joint("type: bearing, axis: [1, 2, 3], radial: {stiffness: [[3, 0.5], [-0.7, 2]], damping: [[0.3, "
+                     "0.1], [0, 0.2]]}, tilting: {stiffness: [[1, 0.2], [-0.3, 2]]}, film: {table: oil.csv}"),
+      {{"radial.damping", "[[-1, 0], [0, 1]]", "drives the motion"},
+       {"film.table", "none.csv", "no such file"},
+       {"film.table", "falling.csv", "ascend"}}};
+  film.files = [](const std::string& folder) {
+    std::ofstream(folder + "/oil.csv") << "-40 1 0.3 -0.4 2 0.3 0.1 0.05 0.4\n40 3 1 -1.5 2.5 0.5 0.2 0.1 0.6\n";
+    std::ofstream(folder + "/falling.csv") << "3 1 1 1 1 1 1 1 1\n2 1 1 1 1 1 1 1 1\n";
+  };
+  return {
+      film,
+      {Section::joints,
+       "bearing",
+       "matrices of all directions",
+       flexible_joint("type: bearing, axis: [1, 2, 3], matrix: {stiffness: [[3, 0.5, 0.1, 0.2, 0.3], [-0.7, 2, 0.2, "
+                      "0, 0.1], [0, 0, 1, 0.1, 0], [0.3, 0.1, 0, 2, 0.4], [0, 0, 0, -0.4, 1]], damping: [[1, 0.1, 0, "
+                      "0, 0], [0, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0], [0, 0, 0, 0, 1]]}"),
+       {{"matrix", "{}", "expected `stiffness` or `damping`"}, {"radial", "1", "or `matrix`"}}}};
+}
+
+/// All elements are loaded, by an interference: forces are smooth.
+std::vector<Sample> rolling_bearings() {
+  const std::string place = "position: [0.7, 0.3, 0.1], axis: [1, 2, 3], elements: 7, pitch_diameter: 6, ";
+  std::vector<Sample> list = {
+      {Section::joints,
+       "ball_bearing",
+       "angular contact, spread",
+       flexible_joint("type: ball_bearing, " + place +
+                      "ball_diameter: 2, grooves: [0.55, 0.53], contact_angle: 0.5, clearance: -3, constant: 0.3"),
+       {{"elements", "2", "3"},
+        {"ball_diameter", "6", "less than"},
+        {"ball_diameter", "4", "have room"},
+        {"grooves", "[0.5, 0.52]", "wider than the ball"},
+        {"contact_angle", "1.57", "89 degrees"},
+        {"cage_angle", "1", "discrete"},
+        {"young", "1e11", "follows from `constant`"}}},
+      {Section::joints,
+       "ball_bearing",
+       "discrete, of materials",
+       flexible_joint("type: ball_bearing, " + place +
+                      "ball_diameter: 1.5, clearance: -4, young: [0.1, 0.2], poisson: [0.3, 0.2], discrete: true, "
+                      "cage_angle: 0.3"),
+       {{"axial_preload", "1", "contact_angle"}}},
+      {Section::joints,
+       "roller_bearing",
+       "tapered, discrete",
+       flexible_joint("type: roller_bearing, " + place +
+                      "roller_diameter: 1, roller_length: 1.2, contact_angle: 0.4, clearance: -8, constant: 0.4, "
+                      "discrete: true"),
+       {{"roller_diameter", "7", "less than"}}},
+      {Section::joints,
+       "roller_bearing",
+       "preloaded",
+       flexible_joint("type: roller_bearing, " + place +
+                      "roller_diameter: 1, roller_length: 1.2, contact_angle: 0.4, clearance: -8, constant: 0.4, "
+                      "axial_preload: 4.8"),
+       {{"axial_preload", "1e9", "too soft"}}}};
+  for (Sample& sample : list) sample.scales.smooth_within = 0.1;
+  return list;
+}
+
+std::vector<Sample> journal_bearings() {
+  std::vector<Sample> list;
+  for (const char* film : {"short", "finite"}) {
+    Sample sample{
+        Section::joints,
+        "journal_bearing",
+        film,
+        flexible_joint(fmt::format("type: journal_bearing, position: [0.7, 0.3, 0.1], axis: [1, 2, 3], diameter: "
+                                   "60, length: 20, clearance: 3, viscosity: 1e-3, model: {}",
+                                   film)),
+        {{"clearance", "4", "no film"}}};
+    sample.scales.kinks_unloaded = true;  // without motion the film has no direction
+    list.push_back(std::move(sample));
+  }
+  return list;
+}
+
 Sample plain_bearing() {
   return {Section::joints,
           "bearing",
@@ -171,6 +266,36 @@ std::vector<Sample> clearances() {
       clearance("clearance_spherical", "materials",
                 "radial_gap: 0.1, radius: 0.2, contact: {young: 2, poisson: [0.3, 0.2]}",
                 {{"radius", "", "which is missing"}})};
+}
+
+/// Measures of flexible joints and stops: a spring between the nodes uses them.
+Sample measured(const std::string& variant, const std::string& joint, const std::string& force, BadValue bad) {
+  Sample sample{Section::elements,
+                "spring_damper",
+                "measures of " + variant,
+                flexible_nodes + "joints:\n  j: {nodes: [a, b], " + joint +
+                    "}\nelements:\n  it: {type: spring_damper, nodes: [a, b], at: [[0.2, 0.1, -0.3], [0.1, 0.3, 0.2]], "
+                    "force: \"" +
+                    force + "\"}\n",
+                {std::move(bad)}};
+  sample.scales.kinks_unloaded = true;
+  sample.scales.deformation = 1.5;
+  return sample;
+}
+
+std::vector<Sample> measures_of_joints() {
+  std::vector<Sample> list = {
+      measured("a bushing",
+               "type: bushing, stiffness: [1, 2, 1, 0.5, 0, 1], damping: 0.3, maxwell: [{factor: 0.4, time: 0.7}]",
+               "0.4*j.force.x - 0.3*j.force.z*j.force.rx + 0.5*j.force.rz", {"force", "j.force.q", "did you mean"}),
+      measured("a clearance",
+               "type: clearance_hinge, axis: [1, 2, 3], radial_gap: 0.01, axial_gap: 0.02, length: 0.6, contact: "
+               "{stiffness: 3, exponent: 2, damping: 0.1}, axial_contact: {stiffness: 2, exponent: 3, damping: 0.1}",
+               "0.3*j.normal_force + 2*j.gap", {"force", "j.gapp", "did you mean 'gap'"}),
+      measured("stops", "type: hinge, axis: [1, 2, 3], stops: {range: [-0.01, 0.01], stiffness: 3, damping: 0.2}",
+               "0.7*j.angle.stop_force + 2*j.angle.stop_gap", {"force", "j.angle.stop", "did you mean"})};
+  list[1].scales.smooth_within = 0.1;  // the normal of the bore turns within the radial displacement
+  return list;
 }
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
@@ -254,6 +379,10 @@ std::vector<Sample> flexible_samples() {
   std::vector<Sample> list = {bushing_of_matrices(), plain_bushing(), bushing_of_curves(), bearing_of_all(),
                               plain_bearing(),       field(),         field_of_files()};
   for (Sample& sample : clearances()) list.push_back(std::move(sample));
+  list.push_back(bushing_unsymmetric());
+  for (const auto& more : {coupled_bearings(), rolling_bearings(), journal_bearings()})
+    list.insert(list.end(), more.begin(), more.end());
+  for (Sample& sample : measures_of_joints()) list.push_back(std::move(sample));
   return list;
 }
 

@@ -9,7 +9,7 @@ A section contains one such group per kind; entries of a kind record the same qu
 import numpy as np
 
 MOST_KEPT = 200e6  # bytes of datasets that are kept, since their entries are read one after another
-SECTIONS = ("nodes", "elements", "joints", "measures")
+SECTIONS = ("nodes", "elements", "joints", "loads", "measures", "supports", "contacts", "hydraulics")
 
 
 class StackedLayout:

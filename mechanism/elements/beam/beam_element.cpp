@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/elements/beam/beam_deformation.hpp"
 #include "mechanism/elements/beam/beam_strain.hpp"
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/inverse.hpp"
@@ -17,17 +18,8 @@
 namespace bielle::mechanism {
 namespace {
 
-using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
-using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
-
-/// Resultants at a section of an element with relative motion d in equilibrium, as a function of its f: the nodal
-/// wrench at B, T6^-T(d) f, transferred to the section. @param section  frame of the section in the axes of the section
-/// frame at B
-Matrix6 equilibrium(const Vector6& d, const Frame& section) {
-  return adjoint(section).transpose() * tangent_se3_inverse(d).transpose();
-}
 
 /// Returns the flexibility at z: the parabola through those of the Gauss points (constant for a uniform section).
 Matrix6 flexibility_at(const std::array<Matrix6, 3>& S, double z) {
@@ -101,23 +93,6 @@ void BeamElement::declare(Declaration& declaration) const {
   const Vector3 psi = d0_.tail<3>();
   declaration.memory.assign(psi.begin(), psi.end());
 }
-
-/// Section frames, relative frame, and derived quantities.
-struct BeamElement::Deformation {
-  Matrix3 R_A, R_B;  ///< section axes -> inertial
-  Vector6 d;
-  Matrix6x12 P;
-  Vector12 v;  ///< body velocities of the section frames
-  BeamBowing::Stretch bowing;
-  Matrix6x12 S;  ///< J P
-  Vector6 eps, epsdot;
-  Vector6 f;  ///< resultants of the strains
-
-  /// Returns J^T times the resultants of the strains: the forces conjugate to e.
-  Vector6 of_motion(const Vector6& resultants, const Vector3& along) const {
-    return resultants + bowing.gradient * along.dot(resultants.head<3>());
-  }
-};
 
 Vector6 BeamElement::relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const {
   const Vector6 d = log_se3({R_A.transpose() * (state.node(1).x - state.node(0).x), R_A.transpose() * R_B});
@@ -193,6 +168,22 @@ void add_rotated(const Matrix12& A, const std::array<Matrix3, 4>& U, Eigen::Ref<
 
 }  // namespace
 
+// df/dh = C_e J P/L + C_d depsdot/dh, see below
+Eigen::Matrix<double, 6, 12> BeamElement::f_gradient(const Deformation& D) const {
+  Matrix6x12 gradient = stiffness_ * D.S / L_;
+  if (damping_ == 0) return gradient;
+  const Matrix6 bows_gradient = bowing_.second_gradient(D.bowing);
+  const Matrix6 along_d =
+      tangent_se3_inverse_gradient(D.d, D.v.tail<6>()) + tangent_se3_inverse_gradient(-D.d, D.v.head<6>());
+  Matrix6x12 rate_gradient = along_d * D.P;
+  for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
+  const Vector6 bows_rate = bows_gradient * (D.P * D.v) / L_;
+  rate_gradient.topRows<3>() +=
+      along_ * (D.bowing.gradient.transpose() * rate_gradient + bows_rate.transpose() * D.P).eval();
+  gradient += damping_ / L_ * stiffness_ * rate_gradient;
+  return gradient;
+}
+
 // The matrices in body increments of the section frames are (12x12, F = P^T J^T f, n = t . f)
 //   K_b = P^T J^T (C_e J P/L + C_d depsdot/dh) + ([G(-d, J^T f); G(d, J^T f)] + P^T (n/L) d2q/de2) P,
 //   C_b = P^T J^T C_d J P/L
@@ -208,18 +199,7 @@ void BeamElement::add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) con
   Matrix12x6 G;
   G << inverse_transpose_gradient_se3(-D.d, f_of_motion), inverse_transpose_gradient_se3(D.d, f_of_motion);
   G.noalias() += D.P.transpose() * (along_.dot(D.f.head<3>()) / L_ * bows_gradient);
-  Matrix6x12 f_gradient = stiffness_ * D.S / L_;
-  if (damping_ > 0) {
-    const Matrix6 along_d =
-        tangent_se3_inverse_gradient(D.d, D.v.tail<6>()) + tangent_se3_inverse_gradient(-D.d, D.v.head<6>());
-    Matrix6x12 rate_gradient = along_d * D.P;
-    for (Eigen::Index k : {0, 6}) rate_gradient.middleCols<3>(k + 3) += D.P.middleCols<3>(k) * skew(D.v.segment<3>(k));
-    const Vector6 bows_rate = bows_gradient * (D.P * D.v) / L_;
-    rate_gradient.topRows<3>() +=
-        along_ * (D.bowing.gradient.transpose() * rate_gradient + bows_rate.transpose() * D.P).eval();
-    f_gradient += damping_ / L_ * stiffness_ * rate_gradient;
-  }
-  const Matrix12 K_b = D.S.transpose() * f_gradient + G * D.P;
+  const Matrix12 K_b = D.S.transpose() * f_gradient(D) + G * D.P;
   add_rotated(K_b, {D.R_A, R_A_, D.R_B, R_B_}, K);
   K.block<3, 3>(0, 3) -= D.R_A * skew(F.segment<3>(0)) * R_A_.transpose();
   K.block<3, 3>(6, 9) -= D.R_B * skew(F.segment<3>(6)) * R_B_.transpose();
@@ -293,6 +273,11 @@ std::unique_ptr<StepRecorder> BeamElement::make_step_recorder() const {
   return std::make_unique<BeamStrainWatch>(*this);
 }
 
+Matrix6 BeamElement::wrench_to_middle(const Deformation& D) const {
+  if (bending_ == BeamBending::constant) return Matrix6::Identity();
+  return equilibrium(D.d, exp_se3(-0.5 * D.d));
+}
+
 std::vector<OutputField> BeamElement::output_fields() const {
   std::vector<OutputField> fields{
       {"strain", {6}, "1, 1/m", "stretch and shears [1], twist and curvatures [1/m] in the middle, section frame"},
@@ -308,9 +293,7 @@ std::vector<OutputField> BeamElement::output_fields() const {
 
 void BeamElement::write_output(const LocalState& state, double* values) const {
   const Deformation D = deformation(state);
-  // Physical resultants in the middle; constant strain has only one set.
-  Matrix6 middle = Matrix6::Identity();
-  if (bending_ == BeamBending::residual) middle = equilibrium(D.d, exp_se3(-0.5 * D.d));
+  const Matrix6 middle = wrench_to_middle(D);
   const Vector6 f = middle * D.of_motion(D.f, along_);
   Eigen::Map<Vector12> out(values);
   out << flexibility_ * middle * D.of_motion(stiffness_ * D.eps, along_), f;

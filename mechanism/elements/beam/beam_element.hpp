@@ -74,6 +74,16 @@ class BeamElement : public Component {
   void write_output(const LocalState& state, double* values) const override;
   /// Describes length and mass of the beam, and its sections.
   void describe(const LocalState& state, Description& description) const override;
+  /// Names of the forces and moments in the middle: "element_3.force.x"; in a beam of one element also "force.x".
+  std::vector<std::string> measure_names() const override;
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+  /// Resultants in the middle, in section axes, as recorded: forces [N], moments [N m]; with their derivatives by
+  /// positions and by velocities of the two nodes.
+  struct MiddleForces {
+    Vector6 value;
+    Eigen::Matrix<double, 6, 12> by_position, by_rate;
+  };
+  MiddleForces calc_middle_forces(const LocalState& state) const;
   /// Stores psi; within the next step the relative rotation must not pass 180 degrees from this value. @throws
   /// ComputationError beyond `largest_turn`
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
@@ -94,11 +104,14 @@ class BeamElement : public Component {
 
  private:
   struct Deformation;
+  Deformation deformation(const LocalState& state) const;
+  /// Maps J^T f to the physical resultants in the middle; the strain of a constant element has only one set.
+  Matrix6 wrench_to_middle(const Deformation& D) const;
+  Eigen::Matrix<double, 6, 12> f_gradient(const Deformation& D) const;  ///< df/dh
   /// Returns d at a state. @throws ComputationError if the relative rotation of the ends has passed 180 degrees since
   /// the last accepted step
   Vector6 relative_motion(const LocalState& state, const Matrix3& R_A, const Matrix3& R_B) const;
   [[noreturn]] void refuse(const LocalState& state, const std::string& why, const char* or_else) const;
-  Deformation deformation(const LocalState& state) const;
   /// Returns the resultants that a linear step from one state to another predicts. See Environment::before.
   Vector6 predicted_resultants(const LocalState& before, const LocalState& state) const;
   void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;

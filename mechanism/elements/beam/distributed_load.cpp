@@ -204,6 +204,27 @@ void DistributedLoad::describe(const LocalState& /*state*/, Description& descrip
       fmt::format("load per length: {}, {}", text, load_.follower ? "turning with the section" : "fixed in space"));
 }
 
+std::vector<OutputField> DistributedLoad::output_fields() const {
+  constexpr bool summed = true;
+  return {{"distributed_force", {3}, "N", "sum of the loads per length, inertial components", summed},
+          {"distributed_moment", {3}, "N m", "their moment about the inertial origin, inertial components", summed}};
+}
+
+void DistributedLoad::write_output(const LocalState& state, double* values) const {
+  Vector3 F = Vector3::Zero(), m = Vector3::Zero();
+  for (const Point& p : points_) {
+    const Section at = section(state, p);
+    Vector3 x = Vector3::Zero();
+    for (int k = 0; k < 2; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      x += p.N[i] * state.node(k).x + state.node(k).R * p.a[i];
+    }
+    F += p.w * at.f;
+    m += p.w * (x.cross(at.f) + at.S * at.n);
+  }
+  Eigen::Map<Vector6>(values) << F, m;
+}
+
 namespace {
 
 FormulaVector vector_along(const YamlValue& value) {

@@ -65,6 +65,10 @@ class DistributedLoad : public Component, public TimeDependent {
   std::vector<Formula> time_formulas() const override;
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  /// Outputs the resultant of all loads per length on the beam, inertial components: `distributed_force` (3) [N], and
+  /// `distributed_moment` (3) [N m] about the inertial origin.
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
 
  private:
   struct Point {

@@ -119,7 +119,19 @@ void read_load(const std::string& name, const YamlValue& entry, Model& model) {
     if (force) load->read(*force, false, model);
     if (moment) load->read(*moment, true, model);
   });
-  model.add(std::move(load), Entry{Section::loads, name}, Recorded::no);
+  model.add(std::move(load), Entry{Section::loads, name});
+}
+
+std::vector<OutputField> Load::output_fields() const {
+  return {{"force", {3}, "N", "force at the point of application, inertial components"},
+          {"moment", {3}, "N m", "moment in addition to that of the force, inertial components"}};
+}
+
+void Load::write_output(const LocalState& state, double* values) const {
+  Vector3 F, m;
+  formulas_.evaluate(state, F, m);
+  const Matrix3 R = follower_ ? state.node(0).R : Matrix3(Matrix3::Identity());
+  Eigen::Map<Vector6>(values) << R * F, R * m;
 }
 
 void Load::draw(Drawing& drawing) const {

@@ -32,6 +32,9 @@ class Load : public Component, public TimeDependent {
   void add_break_points(std::vector<double>& times) const override;
   void describe(const LocalState& state, Description& description) const override;
   void draw(Drawing& drawing) const override;
+  /// Outputs `force` (3) [N] at the point of application and `moment` (3) [N m], inertial components.
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
   std::vector<Formula> time_formulas() const override { return formulas_.time_formulas(); }
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
     formulas_.calc_time_formulas(state, values);

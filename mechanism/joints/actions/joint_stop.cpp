@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/own_measure.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
@@ -78,6 +79,54 @@ std::vector<OutputField> JointStop::output_fields() const {
 void JointStop::write_output(const LocalState& state, double* values) const {
   const auto [q, v] = value(state);
   write_force(-contact(state, q, v).N, values);
+}
+
+double JointStop::calc_gap(const LocalState& state, MeasureGradient& gradient) const {
+  CoordinateDerivatives& jet = calc(state);
+  const bool at_upper = range_.upper - jet.value < jet.value - range_.lower;
+  gradient.position().segment(row(state), jet.g().size()) = (at_upper ? -1 : 1) * jet.g();
+  return at_upper ? range_.upper - jet.value : jet.value - range_.lower;
+}
+
+double JointStop::calc_force(const LocalState& state, MeasureGradient& gradient) const {
+  CoordinateDerivatives& jet = calc(state);
+  const Contact c = contact(state, jet.value, jet.rate);
+  if (!c.pushes) return 0;
+  const int at = row(state);
+  const auto n = jet.g().size();
+  gradient.position().segment(at, n) = -range_.stiffness * jet.g();
+  if (range_.damping > 0) {
+    gradient.position().segment(at, n) -= range_.damping * rate_slope(state, jet);
+    gradient.rate().segment(at, n) = -range_.damping * jet.w();
+  }
+  return -c.N;
+}
+
+namespace {
+
+/// "main.angle.stop_gap", "main.angle.stop_force"
+class StopMeasure final : public OwnMeasure {
+ public:
+  StopMeasure(std::string name, const JointStop& stop, bool force)
+      : OwnMeasure(std::move(name), stop), stop_(stop), force_(force) {}
+  std::string units() const override { return force_ ? stop_.coordinate().force_units() : stop_.coordinate().units(); }
+
+ private:
+  double calc_own(const LocalState& own, MeasureGradient& gradient) const override {
+    return force_ ? stop_.calc_force(own, gradient) : stop_.calc_gap(own, gradient);
+  }
+  const JointStop& stop_;
+  bool force_;
+};
+
+}  // namespace
+
+std::vector<std::string> JointStop::measure_names() const {
+  return {coordinate().name + ".stop_gap", coordinate().name + ".stop_force"};
+}
+
+std::unique_ptr<Measure> JointStop::make_measure(const std::string& name, const std::string& measure) const {
+  return std::make_unique<StopMeasure>(name, *this, measure.ends_with("force"));
 }
 
 void JointStop::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {

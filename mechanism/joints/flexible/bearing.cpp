@@ -1,106 +1,34 @@
 #include "mechanism/joints/flexible/bearing.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "mechanism/joints/actions/joint_actions.hpp"
-#include "mechanism/measures/middle_frame.hpp"
+#include "mechanism/joints/flexible/linear_bearing_law.hpp"
+#include "mechanism/laws/read_elastic_law.hpp"
+#include "mechanism/reading/read_file.hpp"
+#include "reduce/common/files/table_file.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-constexpr int bearing_x = 0, bearing_y = 1, bearing_z = 2;
-
-std::vector<JointCoordinate> bearing_coordinates() {
-  using Kind = JointCoordinate::Kind;
-  return {{"x", Kind::displacement, bearing_x},
-          {"y", Kind::displacement, bearing_y},
-          {"z", Kind::displacement, bearing_z},
-          {"tilt_x", Kind::rotation, JointCoordinate::by_type},
-          {"tilt_y", Kind::rotation, JointCoordinate::by_type},
-          {"angle", Kind::angle, bearing_z}};
+/// Returns the forms of a coefficient along one direction, or along two that may differ and be coupled.
+KeyForms forms_of_direction(const char* unit, bool two) {
+  using namespace keys;
+  const KeyForm one = number(unit).non_negative();
+  return two ? KeyForms{one, list_of(2, one), matrix(2, 2, unit)} : KeyForms{one};
 }
 
-/// theta/sin(theta) with its first two derivatives by c = cos(theta), -1 < c <= 1.
-struct TiltFactor {
-  double f, f1, f2;
-  explicit TiltFactor(double c) {
-    // f solves (1 - c^2) f' = c f - 1; near c = 1 the series in s = 1 - c:  sum of a_k s^k, a_k = a_(k-1) k/(2k + 1).
-    const double s = 1 - c;
-    if (s < 0.05) {
-      double a = 1, power = 1;  // a_k, s^k
-      f = 1;
-      f1 = f2 = 0;
-      double power_1 = 1, power_2 = 1;  // s^(k-1), s^(k-2)
-      for (int k = 1; k < 16; ++k) {
-        a *= k / (2.0 * k + 1);
-        power *= s;
-        f += a * power;
-        f1 -= k * a * power_1;
-        if (k > 1) {
-          f2 += k * (k - 1) * a * power_2;
-          power_2 *= s;
-        }
-        power_1 *= s;
-      }
-      return;
-    }
-    const double w = 1 - c * c;
-    f = std::acos(c) / std::sqrt(w);
-    f1 = (c * f - 1) / w;
-    f2 = (f + 3 * c * f1) / w;
-  }
-};
-
-}  // namespace
-
-Bearing::Bearing(std::string name, JointFrames frames, const Model& model)
-    : ElasticPair("bearing", std::move(name), std::move(frames), bearing_coordinates(),
-                  ElasticLaw({"x", "y", "z", "tilt_x", "tilt_y"}, {false, false, false, true, true}), model) {}
-
-void Bearing::calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool /*second*/) const {
-  for (const int axis : {bearing_x, bearing_y, bearing_z})
-    measures[static_cast<std::size_t>(axis)] = position(axis, state);
-  const auto shaft_along = [&](int axis) {
-    return measure_alignment(state.node(0), state.node(1), frames().on_first.R.col(axis),
-                             frames().on_second.R.col(bearing_z));
-  };
-  PairMeasure c = shaft_along(bearing_z);
-  const TiltFactor tilt(std::min(1.0, c.value));
-  const PairMeasure factor = compose(c, tilt.f, tilt.f1, tilt.f2);
-  measures[3] = -(factor * shaft_along(bearing_y));
-  measures[4] = factor * shaft_along(bearing_x);
-}
-
-void Bearing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
-  Joint::accept(state, memory);
-  ElasticLaw::Measures measures;
-  calc_measures(state, measures, false);
-  constexpr int tilt_x = 3, tilt_y = 4, entry = 2;  // the memory holds [value, rate] of each coordinate
-  const Vector3 tilt(measures[tilt_x].value, measures[tilt_y].value, 0),
-      before(memory[entry * tilt_x], memory[entry * tilt_y], 0);
-  check_half_turn(state, fmt::format("bearing '{}'", name()), tilt, before,
-                  "What is to tilt freely is a `spherical` joint, or a `bushing` without stiffness of rotations");
-  memory[entry * tilt_x] = tilt.x();
-  memory[entry * tilt_y] = tilt.y();
-}
-
-namespace {
-
-/// Returns the table of one direction, or of two that may differ: a number is valid for both.
+/// Returns the table of one direction, or of two.
 KeyTable direction_table(const char* stiffness_unit, const char* damping_unit, bool two) {
   using namespace keys;
-  const auto forms = [&](const char* unit) {
-    const KeyForm one = number(unit).non_negative();
-    return two ? KeyForms{one, list_of(2, one)} : KeyForms{one};
-  };
   return {"a direction of a bearing",
           "Stiffness and damping of a bearing in one direction.",
-          {{"stiffness", forms(stiffness_unit), otherwise("0"), "Stiffness."},
-           {"damping", forms(damping_unit), otherwise("0"), "Damping."}}};
+          {{"stiffness", forms_of_direction(stiffness_unit, two), otherwise("0"),
+            two ? "Stiffness; a matrix by rows may be unsymmetric." : "Stiffness."},
+           {"damping", forms_of_direction(damping_unit, two), otherwise("0"),
+            two ? "Damping; a matrix by rows may be unsymmetric." : "Damping."}}};
 }
 
 const KeyTable& radial_keys() {
@@ -118,28 +46,76 @@ const KeyTable& tilting_keys() {
   return table;
 }
 
-/// Reads `{stiffness, damping}` or only the stiffness, for one direction or for two equal ones.
-void read_bearing_part(const YamlValue& entry, const char* key, std::span<const int> directions, ElasticLaw& law) {
+const KeyTable& bearing_matrix_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "matrices of a bearing",
+      "Stiffness and damping of a bearing in all directions, with their couplings.",
+      {{"stiffness", forms_of_matrix(5, "N/m or N or N/rad or N m/rad"), optional,
+        "Stiffness along x, y, z and about x, y, by rows; it may be unsymmetric."},
+       {"damping", forms_of_matrix(5, "N s/m or N s or N s/rad or N m s/rad"), optional, "Damping likewise."}}};
+  return table;
+}
+
+const KeyTable& film_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a film of a bearing",
+      "Radial coefficients of an oil film over the speed of the shaft.",
+      {{"table", file("table of nine columns"), required,
+        "Ascending speeds of the shaft relative to the housing [rad/s], positive about the axis; stiffness xx, xy, yx, "
+        "yy [N/m]; damping xx, xy, yx, yy [N s/m]. Straight lines between the speeds, constant beyond them."}}};
+  return table;
+}
+
+/// Reads a coefficient of one direction or of two.
+void read_coefficient(const YamlValue& given, std::span<const int> directions, Matrix6& A) {
+  if (!given.is_sequence()) {
+    for (const int k : directions) A(k, k) = given.number();
+    return;
+  }
+  if (directions.size() != 2 || given.size() != 2)
+    given.fail(directions.size() == 2 ? "expected a number, two along x and y of the housing, or a matrix of 2 x 2"
+                                      : "expected a number");
+  const int first = directions.front();
+  if (given.at(std::size_t{0}).is_sequence())
+    A.block<2, 2>(first, first) = given.matrix(2, 2);
+  else
+    A.block<2, 2>(first, first) = given.vector().asDiagonal();
+}
+
+/// Refuses damping that drives the motion in some direction.
+void check_damping(const YamlValue& place, const Matrix6& D) {
+  check_semidefinite(place, 0.5 * (D + D.transpose()), "a damper that drives the motion");
+}
+
+/// Reads `{stiffness, damping}` or only the stiffness, for one direction or for two.
+void read_bearing_part(const YamlValue& entry, const char* key, std::span<const int> directions,
+                       LinearBearingLaw& law) {
   const auto value = entry.find(key);
   if (!value) return;
-  const auto read = [&](const YamlValue& given, Matrix6& A) {
-    if (given.is_sequence()) {
-      const Eigen::VectorXd numbers = given.vector();
-      if (directions.size() != 2 || numbers.size() != 2)
-        given.fail(directions.size() == 2 ? "expected a number, or two: along x and y of the housing"
-                                          : "expected a number");
-      for (std::size_t k = 0; k < 2; ++k) A(directions[k], directions[k]) = numbers[static_cast<Eigen::Index>(k)];
-      return;
-    }
-    for (const int k : directions) A(k, k) = given.number();
-  };
   if (!value->is_map()) {
-    read(*value, law.K);
+    read_coefficient(*value, directions, law.K);
     return;
   }
   if (!value->has("stiffness") && !value->has("damping")) value->fail("expected `stiffness` or `damping`");
-  read(value->at("stiffness"), law.K);
-  read(value->at("damping"), law.D);
+  read_coefficient(value->at("stiffness"), directions, law.K);
+  read_coefficient(value->at("damping"), directions, law.D);
+  check_damping(value->at("damping"), law.D);
+}
+
+void read_matrices(const YamlValue& value, LinearBearingLaw& law) {
+  const YamlValue given = value.keyed(bearing_matrix_keys());
+  const auto stiffness = given.find("stiffness"), damping = given.find("damping");
+  if (!stiffness && !damping) given.fail("expected `stiffness` or `damping`");
+  if (stiffness) law.K.topLeftCorner<5, 5>() = read_square_matrix(*stiffness, 5);
+  if (damping) law.D.topLeftCorner<5, 5>() = read_square_matrix(*damping, 5);
+  if (damping) check_damping(*damping, law.D);
+}
+
+FilmCoefficients read_film(const YamlValue& value) {
+  return read_named_file(value.keyed(film_keys()).at("table"),
+                         [](const std::string& path) { return FilmCoefficients(read_table(path, 9), path); });
 }
 
 }  // namespace
@@ -147,33 +123,50 @@ void read_bearing_part(const YamlValue& entry, const char* key, std::span<const 
 const KeyTable& bearing_keys() {
   using namespace keys;
   static const KeyTable table = [] {
-    const KeyForm force = number("N/m").non_negative(), moment = number("N m/rad").non_negative();
+    const auto forms = [](const char* unit, bool two, const KeyTable& (*of)()) {
+      KeyForms all = forms_of_direction(unit, two);
+      all.push_back(nested(of));
+      return all;
+    };
     return KeyTable{
         "a bearing", "An elastic hinge, whose shaft turns freely.",
-        joined({joint_frame_keys(AxisNeed::required),
-                {{"radial",
-                  {force, list_of(2, force), nested(radial_keys)},
-                  required,
-                  "Radial stiffness, one number or two along x and y of the housing; or stiffness and damping."},
-                 {"axial", {force, nested(axial_keys)}, otherwise("0"), "Axial stiffness; or stiffness and damping."},
-                 {"tilting",
-                  {moment, list_of(2, moment), nested(tilting_keys)},
-                  otherwise("0"),
-                  "Stiffness against tilting, one number or two about x and y of the housing; or stiffness and "
-                  "damping."}},
-                joint_action_keys(Moves::both)})};
+        joined(
+            {joint_frame_keys(AxisNeed::required),
+             {{"radial", forms("N/m", true, radial_keys), optional,
+               "Radial stiffness: one number, two along x and y of the housing, or a matrix; or stiffness and "
+               "damping."},
+              {"axial", forms("N/m", false, axial_keys), otherwise("0"), "Axial stiffness; or stiffness and damping."},
+              {"tilting", forms("N m/rad", true, tilting_keys), otherwise("0"),
+               "Stiffness against tilting: one number, two about x and y of the housing, or a matrix; or stiffness "
+               "and damping."},
+              {"matrix", nested(bearing_matrix_keys), optional,
+               "Stiffness and damping in all directions, in place of `radial`, `axial` and `tilting`."},
+              {"film", nested(film_keys), optional,
+               "Radial coefficients over the speed of the shaft, in addition to the others."}},
+             joint_action_keys(Moves::both)})};
   }();
   return table;
 }
 
 void read_bearing(const std::string& name, const YamlValue& entry, Model& model) {
-  auto made = std::make_unique<Bearing>(name, read_joint_frames(entry, model, AxisNeed::required), model);
+  auto law = std::make_shared<LinearBearingLaw>();
   constexpr int radial[] = {0, 1}, axial[] = {2}, tilting[] = {3, 4};
-  if (!entry.has("radial")) entry.fail("a bearing needs its `radial` stiffness [N/m]");
-  read_bearing_part(entry, "radial", radial, made->law());
-  read_bearing_part(entry, "axial", axial, made->law());
-  read_bearing_part(entry, "tilting", tilting, made->law());
-  Bearing& bearing = *made;
+  const auto matrix = entry.find("matrix"), film = entry.find("film");
+  if (matrix) {
+    for (const char* key : {"radial", "axial", "tilting"})
+      if (const auto other = entry.find(key)) other->fail("give either this or `matrix`, which has all directions");
+    read_matrices(*matrix, *law);
+  } else {
+    if (!entry.has("radial") && !film)
+      entry.fail("a bearing needs its `radial` stiffness [N/m], a `matrix` or a `film`");
+    read_bearing_part(entry, "radial", radial, *law);
+    read_bearing_part(entry, "axial", axial, *law);
+    read_bearing_part(entry, "tilting", tilting, *law);
+  }
+  if (film) law->film = read_film(*film);
+  auto made = std::make_unique<ShaftBearing>("bearing", name, read_joint_frames(entry, model, AxisNeed::required),
+                                             std::move(law), model);
+  ShaftBearing& bearing = *made;
   model.add(std::move(made), Entry{Section::joints, name});
   read_joint_actions(entry, bearing, model);
 }

@@ -54,6 +54,13 @@ class ClearanceJoint final : public Joint, public OpenContact {
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   bool reaction_has_rates() const override { return true; }
+  /// Smallest gap of all places, negative the depth ("gap"), and sum of their normal forces ("normal_force"), besides
+  /// the measures of all joints.
+  std::vector<std::string> measure_names() const override;
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+  /// Computes one of them, with its derivatives over the local layout.
+  double calc_gap(const LocalState& state, MeasureGradient& gradient) const;
+  double calc_normal_force(const LocalState& state, MeasureGradient& gradient) const;
   std::string what_is_open(const LocalState& state) const override;
 
  private:

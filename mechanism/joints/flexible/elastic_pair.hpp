@@ -24,6 +24,11 @@ class ElasticPair : public Joint {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
+  /// Forces of the law, "force.x", besides those of all joints.
+  std::vector<std::string> measure_names() const override;
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+  /// Force of the joint along a measure, as recorded, with its derivatives over the local layout.
+  double calc_force(const LocalState& state, std::size_t k, MeasureGradient& gradient) const;
   bool reaction_has_rates() const override { return law_.has_damping(); }
 
  protected:

@@ -269,8 +269,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that fixes two nodes to each other.
@@ -302,10 +302,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -316,8 +312,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "rigid", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
 
     def hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -326,8 +322,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves turning about an axis free.
@@ -357,10 +353,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -371,8 +363,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "hinge", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
 
     def prismatic(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -381,8 +373,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis free.
@@ -411,10 +403,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -425,8 +413,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "prismatic", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
 
     def cylindrical(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -435,8 +423,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis and turning about it free.
@@ -467,10 +455,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -481,8 +465,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "cylindrical", "nodes": nodes, "axis": axis, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
+            "friction": friction, "carries": carries, **more})
 
     def spherical(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -491,8 +475,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point and leaves turning free.
@@ -523,10 +507,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -537,8 +517,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "spherical", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
 
     def planar(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -547,8 +527,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding across an axis and turning about it free.
@@ -579,10 +559,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -593,8 +569,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "planar", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
 
     def screw(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], pitch: float | str, position: Sequence[Any] | None = None,
@@ -603,8 +579,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that slides along its axis as it turns about it.
@@ -636,10 +612,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -650,8 +622,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "screw", "nodes": nodes, "axis": axis, "pitch": pitch,
             "position": position, "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping,
-            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def universal(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], second_axis: Sequence[Any],
@@ -660,8 +632,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A cross between two shafts, which turns about its two arms.
@@ -690,10 +662,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -704,8 +672,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "universal", "nodes": nodes, "axis": axis, "second_axis": second_axis,
             "position": position, "at": at, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
+            "friction": friction, "carries": carries, **more})
 
     def constant_velocity(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -714,8 +682,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint between two shafts that turn at equal rates at any bend below 180 degrees.
@@ -748,10 +716,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -762,8 +726,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "constant_velocity", "nodes": nodes, "position": position, "at": at,
             "axis": axis, "second_axis": second_axis, "axes": axes, "stiffness": stiffness, "damping": damping,
-            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def distance(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
@@ -797,8 +761,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A rod without mass that hinges on the first node, with a ball joint on the second.
@@ -823,10 +787,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -837,8 +797,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "revolute_spherical", "nodes": nodes, "axis": axis, "at": at,
             "length": length, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
 
     def point_on_line(self, name: str, *,
             nodes: Sequence[Any], line: Sequence[Any], position: Sequence[Any] | None = None,
@@ -847,8 +807,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a line and leaves turning free.
@@ -877,10 +837,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -891,8 +847,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "point_on_line", "nodes": nodes, "line": line, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
+            "friction": friction, "carries": carries, **more})
 
     def point_on_plane(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], position: Sequence[Any] | None = None,
@@ -901,8 +857,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point in a plane and leaves turning free.
@@ -931,10 +887,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -945,8 +897,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "point_on_plane", "nodes": nodes, "normal": normal, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
+            "friction": friction, "carries": carries, **more})
 
     def point_on_curve(self, name: str, *,
             nodes: Sequence[Any], curve: str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -954,8 +906,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a curve of the first node and leaves turning free.
@@ -981,10 +933,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -995,8 +943,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "point_on_curve", "nodes": nodes, "curve": curve, "position": position,
             "at": at, "closed": closed, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
 
     def slider(self, name: str, *,
             node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None,
@@ -1005,9 +953,9 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start_rate: Mapping[str, Any] | float | str | None = None,
-            friction: Mapping[str, Any] | None = None, carries: str | None = None, **more: Any) -> None:
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a node on a beam that deforms, along which it slides.
 
         node: Node that slides. (name of a node)
@@ -1032,10 +980,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
@@ -1044,8 +988,8 @@ class Entries:
         """
         self.add("joints", name, {"type": "slider", "node": node, "beam": beam, "at": at, "start": start,
             "ends": ends, "orientation": orientation, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
 
     def wheel(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], axis: Sequence[Any], radius: float | str,
@@ -1054,8 +998,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """A thin wheel of the second node on a plane of the first.
@@ -1082,10 +1026,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -1096,18 +1036,18 @@ class Entries:
         """
         self.add("joints", name, {"type": "wheel", "nodes": nodes, "normal": normal, "axis": axis, "radius": radius,
             "position": position, "at": at, "slip": slip, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
+            "friction": friction, "carries": carries, **more})
 
     def bushing(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
             axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
-            stiffness: Mapping[str, Any] | Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | Sequence[Any] | None = None, unsymmetric: bool | None = None,
             damping: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
             preload: Sequence[Any] | None = None, curves: Mapping[str, Any] | None = None,
             maxwell: Sequence[Any] | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             **more: Any) -> None:
         """An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.
@@ -1127,6 +1067,8 @@ class Entries:
         ([number [N/m] of at least 0, number [N/m] of at least 0, number [N/m] of at least 0, number [N m/rad] of at
         least 0, number [N m/rad] of at least 0, number [N m/rad] of at least 0]; or list of 6: list of 6: number
         [N/m or N or N/rad or N m/rad]; or keys of a matrix)
+        unsymmetric: Whether the matrix of the stiffness may be unsymmetric: cross-coupled terms, which drive or
+        brake a whirl. Its symmetric part has no negative eigenvalue. (true or false; default: false)
         damping: Damping along and about x, y, z, or a matrix whose symmetric part has no negative eigenvalue, or a
         time that multiplies the stiffness. (number [s] of at least 0; or [number [N s/m] of at least 0, number [N
         s/m] of at least 0, number [N s/m] of at least 0, number [N m s/rad] of at least 0, number [N m s/rad] of at
@@ -1142,10 +1084,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1154,21 +1092,23 @@ class Entries:
         or the rates of its drives. (`all`)
         """
         self.add("joints", name, {"type": "bushing", "nodes": nodes, "position": position, "at": at, "axis": axis,
-            "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "preload": preload,
-            "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked, "clutch": clutch,
-            "one_way": one_way, "start": start, "start_rate": start_rate, "carries": carries, **more})
+            "second_axis": second_axis, "stiffness": stiffness, "unsymmetric": unsymmetric, "damping": damping,
+            "preload": preload, "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked,
+            "start": start, "start_rate": start_rate, "carries": carries, **more})
 
     def bearing(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], radial: Mapping[str, Any] | Sequence[Any] | float | str,
-            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
-            second_axis: Sequence[Any] | None = None, axial: Mapping[str, Any] | float | str | None = None,
+            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            radial: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
+            axial: Mapping[str, Any] | float | str | None = None,
             tilting: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
+            matrix: Mapping[str, Any] | None = None, film: Mapping[str, Any] | None = None,
             stiffness: Mapping[str, Any] | float | str | None = None,
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
             carries: str | None = None, **more: Any) -> None:
         """An elastic hinge, whose shaft turns freely.
@@ -1176,8 +1116,6 @@ class Entries:
         nodes: First and second node. (list of 2: name of a node)
         axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
         which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
-        radial: Radial stiffness, one number or two along x and y of the housing; or stiffness and damping. (number
-        [N/m] of at least 0; or list of 2: number [N/m] of at least 0; or keys of a direction of a bearing)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
@@ -1185,11 +1123,18 @@ class Entries:
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
         node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
         number; default: the inertial axis most normal to z, as drawn)
+        radial: Radial stiffness: one number, two along x and y of the housing, or a matrix; or stiffness and
+        damping. (number [N/m] of at least 0; or list of 2: number [N/m] of at least 0; or list of 2: list of 2:
+        number [N/m]; or keys of a direction of a bearing)
         axial: Axial stiffness; or stiffness and damping. (number [N/m] of at least 0; or keys of a direction of a
         bearing; default: 0)
-        tilting: Stiffness against tilting, one number or two about x and y of the housing; or stiffness and damping.
-        (number [N m/rad] of at least 0; or list of 2: number [N m/rad] of at least 0; or keys of a direction of a
-        bearing; default: 0)
+        tilting: Stiffness against tilting: one number, two about x and y of the housing, or a matrix; or stiffness
+        and damping. (number [N m/rad] of at least 0; or list of 2: number [N m/rad] of at least 0; or list of 2:
+        list of 2: number [N m/rad]; or keys of a direction of a bearing; default: 0)
+        matrix: Stiffness and damping in all directions, in place of `radial`, `axial` and `tilting`. (keys of
+        matrices of a bearing)
+        film: Radial coefficients over the speed of the shaft, in addition to the others. (keys of a film of a
+        bearing)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
@@ -1206,10 +1151,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1218,10 +1159,226 @@ class Entries:
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
         """
-        self.add("joints", name, {"type": "bearing", "nodes": nodes, "axis": axis, "radial": radial,
-            "position": position, "at": at, "second_axis": second_axis, "axial": axial, "tilting": tilting,
-            "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload, "stops": stops,
-            "locked": locked, "clutch": clutch, "one_way": one_way, "start": start, "start_rate": start_rate,
+        self.add("joints", name, {"type": "bearing", "nodes": nodes, "axis": axis, "position": position, "at": at,
+            "second_axis": second_axis, "radial": radial, "axial": axial, "tilting": tilting, "matrix": matrix,
+            "film": film, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
+
+    def ball_bearing(self, name: str, *,
+            nodes: Sequence[Any], axis: Sequence[Any], elements: float | str, pitch_diameter: float | str,
+            ball_diameter: float | str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            second_axis: Sequence[Any] | None = None, grooves: Sequence[Any] | None = None,
+            young: Sequence[Any] | float | str | None = None, poisson: Sequence[Any] | float | str | None = None,
+            contact_angle: float | str | None = None, clearance: float | str | None = None,
+            axial_preload: float | str | None = None, constant: float | str | None = None,
+            discrete: bool | None = None, cage_angle: float | str | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
+        """A deep groove or angular contact ball bearing, by the contacts of its balls.
+
+        nodes: First and second node. (list of 2: name of a node)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
+        elements: Number of balls. (whole number between 1 and 1000)
+        pitch_diameter: Diameter of the circle of the balls. (number [m] greater than 0)
+        ball_diameter: Diameter of a ball. (number [m] greater than 0)
+        position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
+        the second node)
+        at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
+        grooves: Radius of the grooves of the inner and the outer ring, in diameters of a ball; above 0.5. (list of
+        2: number between 0.5 and 1; default: [0.52, 0.52])
+        young: Young's modulus of rings and balls, or of each. (number [Pa] greater than 0; or list of 2: number [Pa]
+        greater than 0; default: 2.07e11)
+        poisson: Poisson's ratio likewise. (number between 0 and 0.5; or list of 2: number between 0 and 0.5;
+        default: 0.3)
+        contact_angle: Angle between the contact and the radial plane, below 90 degrees. With an angle the bearing
+        carries the shaft along +z of its axis. (number [rad] of at least 0; default: 0)
+        clearance: Diametral clearance: the radial play of the shaft; negative for an interference. (number [m];
+        default: 0)
+        axial_preload: Axial force on the shaft at the position as drawn, of a bearing with a contact angle. (number
+        [N] of at least 0; default: 0)
+        constant: Force of an element per deflection of both contacts together, to the power of the law. (number
+        [N/m^1.5] greater than 0; default: from materials and radii)
+        discrete: Whether single elements pass in a cage, so that the stiffness varies; otherwise they are spread
+        evenly. (true or false; default: false)
+        cage_angle: Azimuth of the first of discrete elements as drawn, from x about z. (number [rad]; default: 0)
+        stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
+        coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
+        t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
+        v, t and measures [N/m or N m/rad] of at least 0; or keys of a law of force)
+        damping: Damping of the coordinate; or the whole resisting force, as a table over its rate or as a formula of
+        q, v, t and measures. (formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys of a law
+        of force; or map by coordinate: formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys
+        of a law of force)
+        rest: Value of the coordinate at which the spring is free. (number [m or rad]; or map by coordinate: number
+        [m or rad]; default: 0)
+        preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
+        m]; default: 0)
+        stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
+        start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
+        number [m or rad])
+        start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
+        coordinate: number [m/s or rad/s])
+        friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
+        """
+        self.add("joints", name, {"type": "ball_bearing", "nodes": nodes, "axis": axis, "elements": elements,
+            "pitch_diameter": pitch_diameter, "ball_diameter": ball_diameter, "position": position, "at": at,
+            "second_axis": second_axis, "grooves": grooves, "young": young, "poisson": poisson,
+            "contact_angle": contact_angle, "clearance": clearance, "axial_preload": axial_preload,
+            "constant": constant, "discrete": discrete, "cage_angle": cage_angle, "stiffness": stiffness,
+            "damping": damping, "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+
+    def roller_bearing(self, name: str, *,
+            nodes: Sequence[Any], axis: Sequence[Any], elements: float | str, pitch_diameter: float | str,
+            roller_diameter: float | str, roller_length: float | str, position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            contact_angle: float | str | None = None, clearance: float | str | None = None,
+            axial_preload: float | str | None = None, constant: float | str | None = None,
+            discrete: bool | None = None, cage_angle: float | str | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
+        """A cylindrical or tapered roller bearing, by the contacts of its rollers.
+
+        nodes: First and second node. (list of 2: name of a node)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
+        elements: Number of rollers. (whole number between 1 and 1000)
+        pitch_diameter: Diameter of the circle of the rollers. (number [m] greater than 0)
+        roller_diameter: Diameter of a roller. (number [m] greater than 0)
+        roller_length: Length of contact of a roller. Steel rollers follow from it, by Palmgren's formula. (number
+        [m] greater than 0)
+        position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
+        the second node)
+        at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
+        contact_angle: Angle between the contact and the radial plane, below 90 degrees. With an angle the bearing
+        carries the shaft along +z of its axis. (number [rad] of at least 0; default: 0)
+        clearance: Diametral clearance: the radial play of the shaft; negative for an interference. (number [m];
+        default: 0)
+        axial_preload: Axial force on the shaft at the position as drawn, of a bearing with a contact angle. (number
+        [N] of at least 0; default: 0)
+        constant: Force of an element per deflection of both contacts together, to the power of the law. (number
+        [N/m^(10/9)] greater than 0; default: from materials and radii)
+        discrete: Whether single elements pass in a cage, so that the stiffness varies; otherwise they are spread
+        evenly. (true or false; default: false)
+        cage_angle: Azimuth of the first of discrete elements as drawn, from x about z. (number [rad]; default: 0)
+        stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
+        coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
+        t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
+        v, t and measures [N/m or N m/rad] of at least 0; or keys of a law of force)
+        damping: Damping of the coordinate; or the whole resisting force, as a table over its rate or as a formula of
+        q, v, t and measures. (formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys of a law
+        of force; or map by coordinate: formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys
+        of a law of force)
+        rest: Value of the coordinate at which the spring is free. (number [m or rad]; or map by coordinate: number
+        [m or rad]; default: 0)
+        preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
+        m]; default: 0)
+        stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
+        start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
+        number [m or rad])
+        start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
+        coordinate: number [m/s or rad/s])
+        friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
+        """
+        self.add("joints", name, {"type": "roller_bearing", "nodes": nodes, "axis": axis, "elements": elements,
+            "pitch_diameter": pitch_diameter, "roller_diameter": roller_diameter, "roller_length": roller_length,
+            "position": position, "at": at, "second_axis": second_axis, "contact_angle": contact_angle,
+            "clearance": clearance, "axial_preload": axial_preload, "constant": constant, "discrete": discrete,
+            "cage_angle": cage_angle, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
+            "carries": carries, **more})
+
+    def journal_bearing(self, name: str, *,
+            nodes: Sequence[Any], axis: Sequence[Any], diameter: float | str, length: float | str,
+            clearance: float | str, viscosity: float | str, position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None, model: str | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, **more: Any) -> None:
+        """A journal in the oil film of its bush.
+
+        nodes: First and second node. (list of 2: name of a node)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
+        diameter: Diameter of the journal. (number [m] greater than 0)
+        length: Length of the bush. (number [m] greater than 0)
+        clearance: Radial clearance: half the difference of the diameters of bush and journal. (number [m] greater
+        than 0)
+        viscosity: Dynamic viscosity of the oil. (number [Pa s] greater than 0)
+        position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
+        the second node)
+        at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
+        model: Film of `finite` length, or of a `short` bearing, whose length is less than about half its diameter.
+        (`short`, `finite`; default: finite)
+        stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
+        coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
+        t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
+        v, t and measures [N/m or N m/rad] of at least 0; or keys of a law of force)
+        damping: Damping of the coordinate; or the whole resisting force, as a table over its rate or as a formula of
+        q, v, t and measures. (formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys of a law
+        of force; or map by coordinate: formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys
+        of a law of force)
+        rest: Value of the coordinate at which the spring is free. (number [m or rad]; or map by coordinate: number
+        [m or rad]; default: 0)
+        preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
+        m]; default: 0)
+        stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
+        start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
+        number [m or rad])
+        start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
+        coordinate: number [m/s or rad/s])
+        friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
+        """
+        self.add("joints", name, {"type": "journal_bearing", "nodes": nodes, "axis": axis, "diameter": diameter,
+            "length": length, "clearance": clearance, "viscosity": viscosity, "position": position, "at": at,
+            "second_axis": second_axis, "model": model, "stiffness": stiffness, "damping": damping, "rest": rest,
+            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
             "friction": friction, "carries": carries, **more})
 
     def clearance_hinge(self, name: str, *,
@@ -1232,8 +1389,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             length: float | str | None = None, axial_gap: float | str | None = None,
             axial_contact: Mapping[str, Any] | None = None, **more: Any) -> None:
@@ -1271,10 +1428,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1290,9 +1443,8 @@ class Entries:
         self.add("joints", name, {"type": "clearance_hinge", "nodes": nodes, "axis": axis, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "second_axis": second_axis, "radius": radius,
             "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "carries": carries, "length": length, "axial_gap": axial_gap,
-            "axial_contact": axial_contact, **more})
+            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "carries": carries,
+            "length": length, "axial_gap": axial_gap, "axial_contact": axial_contact, **more})
 
     def clearance_spherical(self, name: str, *,
             nodes: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
@@ -1303,8 +1455,8 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             **more: Any) -> None:
         """A ball with play in a socket.
@@ -1342,10 +1494,6 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
-        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
-        (keys of `clutch`; or map by coordinate: keys of `clutch`)
-        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
-        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1356,8 +1504,8 @@ class Entries:
         self.add("joints", name, {"type": "clearance_spherical", "nodes": nodes, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "axis": axis, "second_axis": second_axis,
             "radius": radius, "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
-            "start": start, "start_rate": start_rate, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
+            "carries": carries, **more})
 
     def gear(self, name: str, *,
             joints: Sequence[Any], ratio: float | str | None = None, teeth: Sequence[Any] | None = None,
@@ -1379,9 +1527,8 @@ class Entries:
             nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None,
             radii: Sequence[Any] | None = None, position: Sequence[Any] | None = None, internal: bool | None = None,
             pressure_angle: float | str | None = None, helix_angle: float | str | None = None,
-            stiffness: Mapping[str, Any] | float | str | None = None, damping: float | str | None = None,
-            backlash: float | str | None = None,
-            errors: Mapping[str, Any] | Sequence[Any] | float | str | None = None, **more: Any) -> None:
+            stiffness: float | str | None = None, damping: float | str | None = None,
+            backlash: float | str | None = None, **more: Any) -> None:
         """Forces between the teeth of two wheels, which load the bearings.
 
         nodes: Nodes of the two wheels, on their axes. (list of 2: name of a node)
@@ -1394,19 +1541,14 @@ class Entries:
         pressure_angle: Pressure angle, less than pi/2. (number [rad] of at least 0; default: pi/9)
         helix_angle: Helix angle of the first wheel, between -pi/2 and pi/2; right-handed teeth have a positive one.
         (number [rad]; default: 0)
-        stiffness: Stiffness of the teeth along their normal, also as a formula of the angle phi of the first wheel;
-        without it the pitch surfaces roll on each other exactly. (formula of phi [N/m] greater than 0; or keys of a
-        stiffness of teeth)
+        stiffness: Stiffness of the teeth along their normal; without it the pitch surfaces roll on each other
+        exactly. (number [N/m] greater than 0)
         damping: Damping of elastic teeth along their normal. (number [N s/m] of at least 0; default: 0)
         backlash: Free play of elastic teeth along their normal. (number [m] of at least 0; default: 0)
-        errors: Errors of the teeth along their normal, by which the second wheel is ahead when it is not loaded;
-        also as a formula of the angle phi of the first wheel. (formula of phi [m]; or keys of an error of the teeth;
-        or list: keys of an error of the teeth)
         """
         self.add("joints", name, {"type": "gear_mesh", "nodes": nodes, "axes": axes, "carrier": carrier,
             "radii": radii, "position": position, "internal": internal, "pressure_angle": pressure_angle,
-            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash,
-            "errors": errors, **more})
+            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash, **more})
 
     def differential(self, name: str, *,
             joints: Sequence[Any], ratio: float | str | None = None, **more: Any) -> None:

@@ -1,4 +1,4 @@
-"""mechanism/examples/joints.yaml: every type of joint (elastic ones are in flexible_joints.yaml), each moving as its
+"""mechanism/examples/joints.yaml: every type of joint (elastic ones are in flexible_joints.yaml and bearings.yaml), each moving as its
 closed form requires."""
 
 import math
@@ -31,7 +31,7 @@ class Joints(ExampleTest):
         with open(os.path.join(REPOSITORY, "mechanism", "io", "component_table.cpp"), encoding="utf-8") as file:
             types = set(re.findall(r'\{Section::joints, "(\w+)"', file.read()))
         used = set()
-        for model in (MODEL, os.path.join(os.path.dirname(MODEL), "flexible_joints.yaml")):
+        for model in (MODEL, *(os.path.join(os.path.dirname(MODEL), name) for name in ("flexible_joints.yaml", "bearings.yaml"))):
             with open(model, encoding="utf-8") as file:
                 used |= set(re.findall(r"type: (\w+)", file.read()))
         # A rod with two balls is a `distance` with another name.

@@ -133,6 +133,24 @@ class Scenes(unittest.TestCase):
         points = placed(scene.poses(scene.parts[0], [2])[0, scene.parts[0].mesh.bones], scene.parts[0].mesh.points)
         self.assertAlmostEqual(volume(type(scene.parts[0].mesh)(points, scene.parts[0].mesh.triangles, None, None)), 16, 9)
 
+    def test_loads_have_arrows(self):
+        # A load at a point of a node that turns by 90 degrees; on a beam along x the resultant 4 N along y at x = 1.5, where the middle is 1.
+        node = np.zeros((2, 3)), np.array([[1.0, 0, 0, 0], [np.sqrt(0.5), 0, 0, np.sqrt(0.5)]])
+        beam, records = stressed_beam()
+
+        def loads(file):
+            group = file.create_group("loads/push")
+            group["force"], group["moment"] = [[0, 0, 5.0], [0, 0, 7]], np.zeros((2, 3))
+            records(file)
+            of_beam = file["elements/beam"]
+            of_beam["distributed_force"], of_beam["distributed_moment"] = [[0, 4.0, 0], [0, 0, 0]], [[0, 0, 6.0], [0, 0, 0]]
+        scene = self.scene({"n": node}, [{"entry": "loads/push", "type": "load", "shape": "force", "node": "n", "position": [1, 0, 0]}, beam], extra=loads)
+        push, line = arrows_of(scene, np.arange(2))
+        self.assertEqual([(each.entry, each.kind, each.largest) for each in (push, line)], [("loads/push", "loads", 7), ("elements/beam", "loads", 4)])
+        np.testing.assert_allclose(push.origin, [[1, 0, 0], [0, 1, 0]], atol=1e-15)
+        np.testing.assert_allclose(push.vector, [[0, 0, 5], [0, 0, 7]])
+        np.testing.assert_allclose(line.origin, [[1.5, 0, 0], [1, 0, 0]])
+
     def test_equal_planes_are_drawn_once_and_others_do_not_overlap(self):
         def plane(name, x, z=0.0):
             return {"entry": f"joints/{name}", "type": "wheel", "shape": "plane", "node": "ground", "position": [x, 0, z]}

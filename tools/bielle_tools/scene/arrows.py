@@ -47,6 +47,8 @@ def _candidates(scene, rows):
                 force = results.rows(f"{item['entry']}/force")
                 if force.ndim == 2 and force.shape[1] == 3:
                     yield item["entry"], "loads", "N", motion.position(place_of(item), rows), force[rows]
+            elif item["shape"] == "beam" and results.has(f"{item['entry']}/distributed_force"):
+                yield item["entry"], "loads", "N", *_line_load(results, item["entry"], rows)
         except (InputError, KeyError, TypeError, ValueError, IndexError, ArithmeticError):
             continue
     for section, function in (("supports", _support), ("contacts", _contact), ("nodes", _velocity)):
@@ -55,6 +57,17 @@ def _candidates(scene, rows):
                 yield from function(scene, name, rows)
             except (InputError, KeyError, ValueError):
                 continue
+
+
+def _line_load(results, entry, rows):
+    """The resultant of the loads per length on a beam: the point of its line of action that is nearest to the middle of the beam's nodes, and the
+    force. (A moment about the force does not show.)"""
+    force, moment, position = (results.rows(f"{entry}/{name}")[rows] for name in ("distributed_force", "distributed_moment", "position"))
+    middle = position.mean(axis=1)
+    square = (force**2).sum(axis=1, keepdims=True)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        from_middle = np.cross(force, moment - np.cross(middle, force)) / square
+    return np.where(square > 0, middle + from_middle, middle), force
 
 
 def _support(scene, name, rows):

@@ -70,7 +70,7 @@ def _other(n):
 SYMBOLS = {"hinge": _hinge, "clearance_hinge": _hinge, "spherical": _spherical, "clearance_spherical": _spherical, "prismatic": _prismatic,
            "cylindrical": _cylindrical, "slider": _cylindrical, "universal": _universal, "constant_velocity": _constant_velocity,
            "planar": _planar, "point_on_plane": _planar, "point_on_line": _line, "rigid": _rigid, "screw": _screw, "bearing": _bearing,
-           "bushing": _bushing}
+           "ball_bearing": _bearing, "roller_bearing": _bearing, "journal_bearing": _bearing, "bushing": _bushing}
 
 
 @functools.lru_cache(maxsize=64)

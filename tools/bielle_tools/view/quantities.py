@@ -5,7 +5,7 @@ import numpy as np
 from ..messages import InputError
 from ..results_columns import column_names
 
-SECTIONS = ("measures", "energy", "joints", "supports", "contacts", "elements", "nodes", "hydraulics", "solver")
+SECTIONS = ("measures", "energy", "joints", "supports", "contacts", "elements", "nodes", "loads", "hydraulics", "solver")
 MOST_VALUES, MOST_COLUMNS, MOST_ROWS = 1_200_000, 24, 1000
 
 

@@ -75,6 +75,40 @@ TEST_CASE("a force that grows along the beam converges with the fourth power of 
     CHECK((errors[k] < 1e-13 || std::log2(errors[k - 1] / errors[k]) > 3.9));
 }
 
+TEST_CASE("the recorded resultant of loads per length is that of their forces on the nodes") {
+  for (const char* load :
+       {"{force: [1, 2, s], at: [0.1, 0.2]}", "{force: [1, -2, 's^2'], at: [0.1, 0.2], follower: true}",
+        "{moment: [s, 1, 2], follower: true}", "{force: [0, 3, 0], moment: [1, s, 2]}"}) {
+    CAPTURE(load);
+    const auto model = model_from_text(cantilever(2, load));
+    DenseModel dense(*model);
+    State state = dense.start();
+    Random random(3);
+    dense.move(state, random.vector(dense.size(), 0.4));
+    VectorX forces = -dense.residual(state);
+    dense.environment.load_factor = 0;
+    forces += dense.residual(state);
+    dense.environment.load_factor = 1;
+    Vector6 expected = Vector6::Zero(), recorded = Vector6::Zero();
+    for (int k = 0; k < dense.nodes(); ++k) {
+      const NodeState& node = state.nodes[static_cast<std::size_t>(k)];
+      expected.head<3>() += forces.segment<3>(6 * k);
+      expected.tail<3>() += node.x.cross(forces.segment<3>(6 * k)) + node.R * forces.segment<3>(6 * k + 3);
+    }
+    for (const auto& member : model->members()) {
+      if (member.component->output_fields().front().name != "distributed_force") continue;
+      Declaration declaration;
+      member.component->declare(declaration);
+      Slots slots;
+      slots.nodes = declaration.nodes;
+      Vector6 out;
+      member.component->write_output({state, slots, dense.environment}, out.data());
+      recorded += out;
+    }
+    CHECK((recorded - expected).norm() < 1e-12 * expected.norm());
+  }
+}
+
 TEST_CASE("moments per length twist and bend a cantilever") {
   const double m = 1e-3, L = 2;
   for (int elements : {1, 3})

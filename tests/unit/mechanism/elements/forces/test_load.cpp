@@ -43,6 +43,26 @@ TEST_CASE("a follower load turns with its node") {
   CHECK((force("moment: [0, 4, 0], follower: true", 0) - six(0, 0, 0, 0, 4, 0)).norm() < 1e-15);
 }
 
+TEST_CASE("a load records its force and moment in inertial components, with the load factor") {
+  const auto recorded = [](const std::string& load, double factor) {
+    const auto model = model_from_text(
+        "nodes: {a: {position: [5, 6, 7], rotation_vector: [0, 0, pi/2]}}\nloads: {gas: {node: a, " + load + "}}");
+    const DenseModel dense(*model);
+    const State state = dense.start();
+    bielle::test::Environment environment;
+    environment.load_factor = factor;
+    Slots slots;
+    slots.nodes = {1};
+    VectorX out(6);
+    model->members()[0].component->write_output({state, slots, environment}, out.data());
+    return out;
+  };
+  const std::string both = "force: [1, 2, 3], moment: [4, 5, 6], at: [7, 8, 9]";
+  CHECK((recorded(both, 1) - six(1, 2, 3, 4, 5, 6)).norm() < 1e-15);
+  CHECK((recorded(both + ", follower: true", 0.5) - six(-1, 0.5, 1.5, -2.5, 2, 3)).norm() < 1e-15);
+  CHECK((recorded("moment: [4, 5, 6]", 1) - six(0, 0, 0, 4, 5, 6)).norm() < 1e-15);
+}
+
 TEST_CASE("loads name the times at which their expressions break") {
   const auto model = model_from_text(
       "nodes: {a: {position: [0, 0, 0]}}\n"
