@@ -26,7 +26,8 @@ bool outputs_together(const Member& member) {
 
 const char* layout_name(ResultsLayout layout) { return layout == ResultsLayout::named ? "named" : "stacked"; }
 
-ResultsRows::ResultsRows(const Model& model, Extent extent) : kinds_(model, extent == Extent::all), model_(model) {
+ResultsRows::ResultsRows(const Model& model, Extent extent)
+    : kinds_(model, extent == Extent::all), model_(model), activities_(model) {
   add_node_places();
   add_together();
   std::size_t largest = 0;
@@ -233,6 +234,15 @@ std::vector<double> ResultsRows::read_entry(const ResultsEntry& entry, std::size
   return values;
 }
 
+/// Sets the forces of a released member to zero, which its component has computed as if it acted. Positions and rates
+/// remain. @param output  all output fields of the member
+void ResultsRows::clear_forces(std::size_t member, double* output) const {
+  for (const OutputField& field : model_.members()[member].component->output_fields()) {
+    if (are_units_of_forces(field.units)) std::fill_n(output, field.size(), 0.0);
+    output += field.size();
+  }
+}
+
 template <class To>
 void ResultsRows::write_member(std::size_t member, const ResultsPart& part, const State& state,
                                const std::vector<Slots>& slots, const Environment& environment, double* output,
@@ -240,6 +250,7 @@ void ResultsRows::write_member(std::size_t member, const ResultsPart& part, cons
   if (part.empty()) return;
   const LocalState local(state, slots[member], environment);
   model_.members()[member].component->write_output(local, output);
+  if (!activities_.is_active(state, slots, member)) clear_forces(member, output);
   for (const ResultsTarget& target : part) {
     if (double* values = to(target)) {
       if (target.summed)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "mechanism/model/event_actions.hpp"
+
 namespace bielle::mechanism {
 
 void Branches::add(const Declaration& declaration) {
@@ -26,14 +28,18 @@ void Branches::calc_event_functions(const State& state, const Environment& envir
     std::size_t end = k;
     while (end < crossings_.size() && crossings_[end].member == member) ++end;
     const auto count = static_cast<Eigen::Index>(end - k);
-    model_.members()[member].component->calc_event_functions(local(state, member, environment),
-                                                             values.segment(static_cast<Eigen::Index>(k), count));
+    if (unknowns_.is_active(state, member))
+      model_.members()[member].component->calc_event_functions(local(state, member, environment),
+                                                               values.segment(static_cast<Eigen::Index>(k), count));
+    else
+      values.segment(static_cast<Eigen::Index>(k), count).setZero();  // no event occurs in a released part
     k = end;
   }
 }
 
 double Branches::calc_crossing(const State& state, const Environment& environment, int crossing) const {
   const auto k = static_cast<std::size_t>(crossing);
+  if (!unknowns_.is_active(state, crossings_[k].member)) return 0;
   const std::size_t member = crossings_[k].member, begin = k - static_cast<std::size_t>(crossings_[k].index);
   std::size_t end = k;
   while (end < crossings_.size() && crossings_[end].member == member) ++end;
@@ -42,10 +48,23 @@ double Branches::calc_crossing(const State& state, const Environment& environmen
   return values[crossings_[k].index];
 }
 
+void Branches::do_actions(State& state, const Environment& environment, const std::vector<int>& ascending) const {
+  std::vector<int> own;
+  for (auto next = ascending.begin(); next != ascending.end();) {
+    const std::size_t m = crossings_[static_cast<std::size_t>(*next)].member;
+    own.clear();
+    for (; next != ascending.end() && crossings_[static_cast<std::size_t>(*next)].member == m; ++next)
+      own.push_back(crossings_[static_cast<std::size_t>(*next)].index);
+    if (const auto* actions = dynamic_cast<const EventActions*>(model_.members()[m].component.get()))
+      actions->act(local(state, m, environment), own, ReferencedMemory(state.memory, unknowns_.slots()[m]));
+  }
+}
+
 void Branches::begin(State& state, const Environment& environment, const std::vector<int>& crossed) const {
-  VectorX memory = state.memory;
   std::vector<int> ascending = crossed, own;  // ordered by member, as the event functions are
   std::sort(ascending.begin(), ascending.end());
+  do_actions(state, environment, ascending);
+  VectorX memory = state.memory;
   auto next = ascending.begin();
   for (const std::size_t m : remembering_) {
     own.clear();
@@ -78,7 +97,7 @@ bool Branches::accept(State& state, const Environment& environment) const {
     const Component& component = *model_.members()[m].component;
     const Slots& slots = unknowns_.slots()[m];
     const LocalState view = local(state, m, environment);
-    if (component.leaves_branch(view)) left = true;
+    if (unknowns_.is_active(state, m) && component.leaves_branch(view)) left = true;
     component.accept(view, memory.segment(slots.memory_begin, slots.memories));
   };
   const auto accept_costly = [&](std::size_t k) {

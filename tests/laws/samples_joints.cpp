@@ -61,13 +61,26 @@ std::vector<Sample> joint_samples() {
                                                     {"locked", "{to: 1, until: 2}", "until"},
                                                     {"locked.from", "-1", ""},
                                                     {"locked.to", "0.05", "after"},
-                                                    {"locked.release", "0", ""}})
+                                                    {"locked.release", "0", ""},
+                                                    {"active", "3", "true or false"}})
     of_hinge.push_back(each);
   list.push_back(
       with_actions("hinge", "spring, stops, lock",
                    "stiffness: 3, damping: 0.5, rest: 0.2, preload: 1.5, stops: {range: [-9, 9], stiffness: 5, "
                    "damping: 1}, locked: {from: 0.1, to: 0.2, release: 4}",
                    of_hinge));
+  // A lock that events close and open.
+  list.push_back({Section::joints,
+                  "hinge",
+                  "locked by events",
+                  pair("  it: {type: hinge, nodes: [a, b], position: [0.5, 0.2, 0.1], axis: [1, 2, 3], locked: {from: "
+                       "{event: there}, to: {event: back}, release: 4}, active: false}\n",
+                       "events:\n  there: {when: it.angle, crosses: 1}\n  back: {when: it.angle, crosses: 0.5, do: "
+                       "[{lock: it}, {activate: it}]}\n"),
+                  {{"locked.from", "{event: the}", "did you mean 'there'"},
+                   {"locked.from", "{events: there}", "did you mean 'event'"},
+                   {"locked.to", "{}", "event"},
+                   {"active", "perhaps", "true or false"}}});
   // A point and axes in each node's own axes, and a start, whose values and rates are conditions and no components.
   list.push_back(
       {Section::joints,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/solvers/constraints/activated_fit.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/dynamics/stabilised_equations.hpp"
 #include "mechanism/solvers/dynamics/start_values.hpp"
@@ -114,6 +115,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.before = system_.energy(state, environment_);
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
+  const VectorX memory = state.memory;
   const bool balanced = event_function_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
   if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
@@ -123,6 +125,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   StartReport report;
   KktMatrix& saddle = correction_.saddle();
   try {
+    check_activated_fit(system_, environment_, state, memory);
     if (holds_stop_more(system_, environment_, state, new_holds, saddle)) {
       refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, saddle);
       make_consistent_anew(report);
