@@ -1,7 +1,7 @@
 // Components that change the memory of others when one of their own events occurs: inputs, locks, activities.
 //
 // All actions of an instant are done before any component begins its new branch, one after the other in the order of
-// the components and within one in its own order. What happens then depends on the state with all actions done.
+// the components and within one in its own order. The branches then begin from the state with all actions done.
 #pragma once
 
 #include <cstddef>

@@ -61,8 +61,7 @@ std::vector<Sample> joint_samples() {
                                                     {"locked", "{to: 1, until: 2}", "until"},
                                                     {"locked.from", "-1", ""},
                                                     {"locked.to", "0.05", "after"},
-                                                    {"locked.release", "0", ""},
-                                                    {"active", "3", "true or false"}})
+                                                    {"locked.release", "0", ""}})
     of_hinge.push_back(each);
   list.push_back(
       with_actions("hinge", "spring, stops, lock",
@@ -77,10 +76,7 @@ std::vector<Sample> joint_samples() {
                        "{event: there}, to: {event: back}, release: 4}, active: false}\n",
                        "events:\n  there: {when: it.angle, crosses: 1}\n  back: {when: it.angle, crosses: 0.5, do: "
                        "[{lock: it}, {activate: it}]}\n"),
-                  {{"locked.from", "{event: the}", "did you mean 'there'"},
-                   {"locked.from", "{events: there}", "did you mean 'event'"},
-                   {"locked.to", "{}", "event"},
-                   {"active", "perhaps", "true or false"}}});
+                  {{"locked.from", "{event: the}", "no 'the' among the events"}}});
   // A point and axes in each node's own axes, and a start, whose values and rates are conditions and no components.
   list.push_back(
       {Section::joints,

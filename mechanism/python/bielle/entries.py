@@ -126,7 +126,7 @@ class Entries:
     def spring_damper(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, stiffness: float | str | None = None,
             damping: float | str | None = None, length: float | str | None = None, force: float | str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """A spring, a damper or a force along the line between points of two nodes.
 
         nodes: The two nodes. (list of 2: name of a node)
@@ -137,13 +137,16 @@ class Entries:
         length: Free length of the spring. (number [m] of at least 0; default: the distance as placed)
         force: Tension as a formula of the elongation e, its rate v, the time t and measures, in place of `stiffness`
         and `damping`. (formula of e, v, t and measures [N])
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("elements", name, {"type": "spring_damper", "nodes": nodes, "at": at, "stiffness": stiffness,
-            "damping": damping, "length": length, "force": force, **more})
+            "damping": damping, "length": length, "force": force, "active": active, **more})
 
     def node_force(self, name: str, *,
             nodes: Sequence[Any], force: Sequence[Any] | None = None, moment: Sequence[Any] | None = None,
-            at: Sequence[Any] | None = None, axes: str | None = None, **more: Any) -> None:
+            at: Sequence[Any] | None = None, axes: str | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """A force and a moment between two nodes.
 
         nodes: The two nodes: force and moment act on the second, and back on the first at the same place. (list of
@@ -155,9 +158,11 @@ class Entries:
         at: Point of application in the axes of the second node. (list of 3: number [m]; default: [0, 0, 0])
         axes: Axes of the components: those of the first node, of the second node, or inertial ones. (`first`,
         `second`, `inertial`; default: first)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("elements", name, {"type": "node_force", "nodes": nodes, "force": force, "moment": moment, "at": at,
-            "axes": axes, **more})
+            "axes": axes, "active": active, **more})
 
     def stiffness_field(self, name: str, *,
             nodes: Sequence[Any], stiffness: Mapping[str, Any] | Sequence[Any],
@@ -165,7 +170,8 @@ class Entries:
             rotation_vector: Sequence[Any] | None = None, quaternion: Sequence[Any] | None = None,
             bryant: Sequence[Any] | None = None, euler: Sequence[Any] | None = None,
             axes: Mapping[str, Any] | None = None, matrix: Sequence[Any] | None = None,
-            rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] | None = None, **more: Any) -> None:
+            rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] | None = None,
+            active: bool | None = None, **more: Any) -> None:
         """A part between two nodes with the stiffness matrix of another program.
 
         nodes: The two nodes. (list of 2: name of a node)
@@ -185,10 +191,13 @@ class Entries:
         up to 1e-3 is corrected. (list of 3: list of 3: number)
         rodrigues: Orientation: tan(angle/2) times the axis. (list of 3: number)
         conformal: Orientation: 4 tan(angle/4) times the axis (Wiener-Milenkovic). (list of 3: number)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("elements", name, {"type": "stiffness_field", "nodes": nodes, "stiffness": stiffness,
             "damping": damping, "rotation_vector": rotation_vector, "quaternion": quaternion, "bryant": bryant,
-            "euler": euler, "axes": axes, "matrix": matrix, "rodrigues": rodrigues, "conformal": conformal, **more})
+            "euler": euler, "axes": axes, "matrix": matrix, "rodrigues": rodrigues, "conformal": conformal,
+            "active": active, **more})
 
     def hydraulic_actuator(self, name: str, *,
             nodes: Sequence[Any], stroke: Sequence[Any], at: Sequence[Any] | None = None,
@@ -203,7 +212,7 @@ class Entries:
             density: float | str | None = None, viscosity: float | str | None = None,
             bulk_modulus: float | str | None = None, air_fraction: float | str | None = None,
             air_exponent: float | str | None = None, vapour_pressure: float | str | None = None,
-            conserves: str | None = None, **more: Any) -> None:
+            conserves: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A cylinder between points of two nodes, in a circuit or with a circuit of its own.
 
         nodes: The two nodes, which chamber 1 pushes apart. (list of 2: name of a node)
@@ -253,6 +262,8 @@ class Entries:
         [Pa] between 0 and 3500; default: 1000)
         conserves: Quantity that flows conserve: the `volume`, each place at its own pressure, or the `mass`, with
         flows as volumes at 101325 Pa. (`volume`, `mass`; default: volume)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("elements", name, {"type": "hydraulic_actuator", "nodes": nodes, "stroke": stroke, "at": at,
             "piston_areas": piston_areas, "stages": stages, "dead_volumes": dead_volumes, "leakage": leakage,
@@ -260,7 +271,8 @@ class Entries:
             "pressures": pressures, "compliances": compliances, "cushions": cushions, "supply": supply,
             "valve": valve, "relief": relief, "accumulator": accumulator, "ambient_pressure": ambient_pressure,
             "density": density, "viscosity": viscosity, "bulk_modulus": bulk_modulus, "air_fraction": air_fraction,
-            "air_exponent": air_exponent, "vapour_pressure": vapour_pressure, "conserves": conserves, **more})
+            "air_exponent": air_exponent, "vapour_pressure": vapour_pressure, "conserves": conserves,
+            "active": active, **more})
 
     def rigid(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -272,7 +284,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that fixes two nodes to each other.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -309,11 +321,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "rigid", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -325,7 +339,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that leaves turning about an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -360,11 +374,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "hinge", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def prismatic(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -376,7 +392,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -410,11 +426,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "prismatic", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def cylindrical(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -426,7 +444,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -462,11 +480,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "cylindrical", "nodes": nodes, "axis": axis, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "friction": friction, "carries": carries, "active": active, **more})
 
     def spherical(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -478,7 +498,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a point and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -514,11 +534,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "spherical", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def planar(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -530,7 +552,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that leaves sliding across an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -566,11 +588,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "planar", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def screw(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], pitch: float | str, position: Sequence[Any] | None = None,
@@ -582,7 +606,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that slides along its axis as it turns about it.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -619,11 +643,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "screw", "nodes": nodes, "axis": axis, "pitch": pitch,
             "position": position, "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping,
             "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def universal(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], second_axis: Sequence[Any],
@@ -635,7 +661,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A cross between two shafts, which turns about its two arms.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -669,11 +695,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "universal", "nodes": nodes, "axis": axis, "second_axis": second_axis,
             "position": position, "at": at, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "friction": friction, "carries": carries, "active": active, **more})
 
     def constant_velocity(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -685,7 +713,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint between two shafts that turn at equal rates at any bend below 180 degrees.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -723,15 +751,17 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "constant_velocity", "nodes": nodes, "position": position, "at": at,
             "axis": axis, "second_axis": second_axis, "axes": axes, "stiffness": stiffness, "damping": damping,
             "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def distance(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """A rod without mass and with a ball joint at either end.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -739,12 +769,15 @@ class Entries:
         0], [0, 0, 0]])
         length: Distance of the two points, which may be a formula of t. (formula of t [m] greater than 0; default:
         the distance as drawn)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "distance", "nodes": nodes, "at": at, "length": length, **more})
+        self.add("joints", name, {"type": "distance", "nodes": nodes, "at": at, "length": length, "active": active,
+            **more})
 
     def spherical_spherical(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """A rod without mass and with a ball joint at either end.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -752,8 +785,11 @@ class Entries:
         0], [0, 0, 0]])
         length: Distance of the two points, which may be a formula of t. (formula of t [m] greater than 0; default:
         the distance as drawn)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "spherical_spherical", "nodes": nodes, "at": at, "length": length, **more})
+        self.add("joints", name, {"type": "spherical_spherical", "nodes": nodes, "at": at, "length": length,
+            "active": active, **more})
 
     def revolute_spherical(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], at: Sequence[Any] | None = None,
@@ -764,7 +800,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A rod without mass that hinges on the first node, with a ball joint on the second.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -794,11 +830,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "revolute_spherical", "nodes": nodes, "axis": axis, "at": at,
             "length": length, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def point_on_line(self, name: str, *,
             nodes: Sequence[Any], line: Sequence[Any], position: Sequence[Any] | None = None,
@@ -810,7 +848,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a point on a line and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -844,11 +882,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "point_on_line", "nodes": nodes, "line": line, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "friction": friction, "carries": carries, "active": active, **more})
 
     def point_on_plane(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], position: Sequence[Any] | None = None,
@@ -860,7 +900,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a point in a plane and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -894,11 +934,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "point_on_plane", "nodes": nodes, "normal": normal, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "friction": friction, "carries": carries, "active": active, **more})
 
     def point_on_curve(self, name: str, *,
             nodes: Sequence[Any], curve: str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -909,7 +951,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a point on a curve of the first node and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -940,11 +982,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "point_on_curve", "nodes": nodes, "curve": curve, "position": position,
             "at": at, "closed": closed, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def slider(self, name: str, *,
             node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None,
@@ -955,7 +999,7 @@ class Entries:
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a node on a beam that deforms, along which it slides.
 
         node: Node that slides. (name of a node)
@@ -985,11 +1029,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "slider", "node": node, "beam": beam, "at": at, "start": start,
             "ends": ends, "orientation": orientation, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def wheel(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], axis: Sequence[Any], radius: float | str,
@@ -1001,7 +1047,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A thin wheel of the second node on a plane of the first.
 
         nodes: Node of the plane and node of the wheel. (list of 2: name of a node)
@@ -1033,11 +1079,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "wheel", "nodes": nodes, "normal": normal, "axis": axis, "radius": radius,
             "position": position, "at": at, "slip": slip, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "friction": friction, "carries": carries, "active": active, **more})
 
     def bushing(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -1049,7 +1097,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1088,11 +1136,13 @@ class Entries:
         coordinate: number [m/s or rad/s])
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "bushing", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "preload": preload,
             "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "carries": carries, **more})
+            "start_rate": start_rate, "carries": carries, "active": active, **more})
 
     def bearing(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], radial: Mapping[str, Any] | Sequence[Any] | float | str,
@@ -1106,7 +1156,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """An elastic hinge, whose shaft turns freely.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1149,12 +1199,14 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "bearing", "nodes": nodes, "axis": axis, "radial": radial,
             "position": position, "at": at, "second_axis": second_axis, "axial": axial, "tilting": tilting,
             "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload, "stops": stops,
             "locked": locked, "start": start, "start_rate": start_rate, "friction": friction, "carries": carries,
-            **more})
+            "active": active, **more})
 
     def clearance_hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
@@ -1168,7 +1220,7 @@ class Entries:
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             length: float | str | None = None, axial_gap: float | str | None = None,
-            axial_contact: Mapping[str, Any] | None = None, **more: Any) -> None:
+            axial_contact: Mapping[str, Any] | None = None, active: bool | None = None, **more: Any) -> None:
         """A journal with play in a bush.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1214,12 +1266,14 @@ class Entries:
         axial_gap: Axial play of the journal to either side, until its collars touch; without it the journal slides
         freely. (number [m] of at least 0)
         axial_contact: Contact of the collars. (keys of a contact; default: as `contact`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "clearance_hinge", "nodes": nodes, "axis": axis, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "second_axis": second_axis, "radius": radius,
             "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "carries": carries,
-            "length": length, "axial_gap": axial_gap, "axial_contact": axial_contact, **more})
+            "length": length, "axial_gap": axial_gap, "axial_contact": axial_contact, "active": active, **more})
 
     def clearance_spherical(self, name: str, *,
             nodes: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
@@ -1233,7 +1287,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """A ball with play in a socket.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1275,16 +1329,19 @@ class Entries:
         coordinate: number [m/s or rad/s])
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "clearance_spherical", "nodes": nodes, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "axis": axis, "second_axis": second_axis,
             "radius": radius, "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "carries": carries, **more})
+            "carries": carries, "active": active, **more})
 
     def gear(self, name: str, *,
             joints: Sequence[Any], ratio: float | str | None = None, teeth: Sequence[Any] | None = None,
-            internal: bool | None = None, factors: Sequence[Any] | None = None, **more: Any) -> None:
+            internal: bool | None = None, factors: Sequence[Any] | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """Coordinates of joints in a fixed ratio.
 
         joints: Coordinates that are coupled: angles of two joints; with `factors` any coordinates. (list of at least
@@ -1294,16 +1351,18 @@ class Entries:
         internal: Whether one of two wheels with `teeth` is a ring. (true or false; default: false)
         factors: Factors of the coordinates, in place of `ratio`: the sum of factor times coordinate is zero. (list
         of at least 2: number)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "gear", "joints": joints, "ratio": ratio, "teeth": teeth,
-            "internal": internal, "factors": factors, **more})
+            "internal": internal, "factors": factors, "active": active, **more})
 
     def gear_mesh(self, name: str, *,
             nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None,
             radii: Sequence[Any] | None = None, position: Sequence[Any] | None = None, internal: bool | None = None,
             pressure_angle: float | str | None = None, helix_angle: float | str | None = None,
             stiffness: float | str | None = None, damping: float | str | None = None,
-            backlash: float | str | None = None, **more: Any) -> None:
+            backlash: float | str | None = None, active: bool | None = None, **more: Any) -> None:
         """Forces between the teeth of two wheels, which load the bearings.
 
         nodes: Nodes of the two wheels, on their axes. (list of 2: name of a node)
@@ -1320,35 +1379,44 @@ class Entries:
         exactly. (number [N/m] greater than 0)
         damping: Damping of elastic teeth along their normal. (number [N s/m] of at least 0; default: 0)
         backlash: Free play of elastic teeth along their normal. (number [m] of at least 0; default: 0)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "gear_mesh", "nodes": nodes, "axes": axes, "carrier": carrier,
             "radii": radii, "position": position, "internal": internal, "pressure_angle": pressure_angle,
-            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash, **more})
+            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash,
+            "active": active, **more})
 
     def differential(self, name: str, *,
-            joints: Sequence[Any], ratio: float | str | None = None, **more: Any) -> None:
+            joints: Sequence[Any], ratio: float | str | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """Angles of an input shaft and of two others that share its motion.
 
         joints: Angles of the input, the left and the right shaft. (list of 3: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         ratio: Rate of the input over the mean of the other two; not 0. (number; default: 1)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "differential", "joints": joints, "ratio": ratio, **more})
+        self.add("joints", name, {"type": "differential", "joints": joints, "ratio": ratio, "active": active, **more})
 
     def rack_and_pinion(self, name: str, *,
-            joints: Sequence[Any], radius: float | str, **more: Any) -> None:
+            joints: Sequence[Any], radius: float | str, active: bool | None = None, **more: Any) -> None:
         """A displacement that is a radius times an angle.
 
         joints: Angle of the pinion and displacement of the rack. (list of 2: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         radius: Displacement of the rack over the angle of the pinion; not 0. (number [m])
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "rack_and_pinion", "joints": joints, "radius": radius, **more})
+        self.add("joints", name, {"type": "rack_and_pinion", "joints": joints, "radius": radius, "active": active,
+            **more})
 
     def cam(self, name: str, *,
             joints: Sequence[Any], lift: str | None = None, profile: str | None = None, follower: str | None = None,
             radius: float | str | None = None, at: Sequence[Any] | None = None, normal: Sequence[Any] | None = None,
-            friction: Mapping[str, Any] | None = None, **more: Any) -> None:
+            friction: Mapping[str, Any] | None = None, active: bool | None = None, **more: Any) -> None:
         """A disk cam and its follower, by the contour of the cam or by the lift.
 
         joints: Angle of the camshaft and coordinate of the follower. (list of 2: name of a joint; or formula of
@@ -1364,14 +1432,17 @@ class Entries:
         normal: Normal of a flat face, away from the cam, as drawn; it needs one. (list of 3: number)
         friction: Friction of the contact, or of a roller on its pin. (keys of `friction`; or map by coordinate: keys
         of `friction`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "cam", "joints": joints, "lift": lift, "profile": profile,
-            "follower": follower, "radius": radius, "at": at, "normal": normal, "friction": friction, **more})
+            "follower": follower, "radius": radius, "at": at, "normal": normal, "friction": friction,
+            "active": active, **more})
 
     def belt(self, name: str, *,
             nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, pretension: float | str | None = None,
-            damping: float | str | None = None, **more: Any) -> None:
+            damping: float | str | None = None, active: bool | None = None, **more: Any) -> None:
         """A closed belt or chain that grips its pulleys.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
@@ -1383,15 +1454,17 @@ class Entries:
         [m]; or `~`; default: the nodes)
         pretension: Tension as drawn. (number [N] of at least 0; default: 0)
         damping: Time constant of Kelvin-Voigt damping. (number [s] of at least 0; default: 0)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "belt", "nodes": nodes, "radii": radii, "EA": EA, "axis": axis, "at": at,
-            "pretension": pretension, "damping": damping, **more})
+            "pretension": pretension, "damping": damping, "active": active, **more})
 
     def cable(self, name: str, *,
             nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, pretension: float | str | None = None,
             damping: float | str | None = None, grips: Sequence[Any] | None = None,
-            turns: Sequence[Any] | None = None, **more: Any) -> None:
+            turns: Sequence[Any] | None = None, active: bool | None = None, **more: Any) -> None:
         """A rope from the first node to the last, over pulleys on which it slides without friction.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
@@ -1406,14 +1479,17 @@ class Entries:
         grips: Nodes of pulleys that the rope grips. (list: name of a node)
         turns: Whole turns round each pulley in addition to the rope as drawn; `~` is none. (list: whole number of at
         least 0; or `~`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "cable", "nodes": nodes, "radii": radii, "EA": EA, "axis": axis, "at": at,
-            "pretension": pretension, "damping": damping, "grips": grips, "turns": turns, **more})
+            "pretension": pretension, "damping": damping, "grips": grips, "turns": turns, "active": active, **more})
 
     def contact(self, name: str, *,
             stiffness: float | str, shapes: Sequence[Any] | None = None, between: Sequence[Any] | None = None,
             exponent: float | str | None = None, damping: float | str | None = None,
-            restitution: float | str | None = None, friction: Mapping[str, Any] | None = None, **more: Any) -> None:
+            restitution: float | str | None = None, friction: Mapping[str, Any] | None = None,
+            active: bool | None = None, **more: Any) -> None:
         """Shapes on nodes that push each other apart when they touch.
 
         stiffness: Stiffness k of the force k p^n (1 + d pdot) at the depth p, in N/m^n with the `exponent` n.
@@ -1430,9 +1506,12 @@ class Entries:
         the speed at which a pair touches, of at least 1 mm/s, and does not change until it parts. (number greater
         than 0 and at most 1)
         friction: Friction of the surfaces. (keys of the friction of a contact)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "contact", "stiffness": stiffness, "shapes": shapes, "between": between,
-            "exponent": exponent, "damping": damping, "restitution": restitution, "friction": friction, **more})
+            "exponent": exponent, "damping": damping, "restitution": restitution, "friction": friction,
+            "active": active, **more})
 
     def assembly(self, *,
             keep: Sequence[Any] | None = None, **more: Any) -> None:
