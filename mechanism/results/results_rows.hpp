@@ -87,7 +87,7 @@ class ResultsRows {
   template <class To>
   void write_member(std::size_t member, const ResultsPart& part, const State& state, const std::vector<Slots>& slots,
                     const Environment& environment, double* output, const To& to) const;
-  void clear_forces(std::size_t member, double* output) const;
+  void write_released(std::size_t member, const LocalState& local, double* output) const;
   static void fill_totals(const StepRecord& step, double* values);
   std::vector<double> read_entry(const ResultsEntry& entry, std::size_t field, const State& state,
                                  const std::vector<Slots>& slots, const Environment& environment) const;

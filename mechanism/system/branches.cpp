@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "mechanism/model/event_actions.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
@@ -72,8 +73,13 @@ void Branches::begin(State& state, const Environment& environment, const std::ve
       if (const MemberEventFunction& crossing = crossings_[static_cast<std::size_t>(*next)]; crossing.member == m)
         own.push_back(crossing.index);
     const Slots& slots = unknowns_.slots()[m];
-    model_.members()[m].component->begin_branch(local(state, m, environment), own,
-                                                memory.segment(slots.memory_begin, slots.memories));
+    auto own_memory = memory.segment(slots.memory_begin, slots.memories);
+    try {
+      model_.members()[m].component->begin_branch(local(state, m, environment), own, own_memory);
+    } catch (const ComputationError&) {
+      if (unknowns_.is_active(state, m)) throw;  // see accept
+      own_memory = local(state, m, environment).memory();
+    }
   }
   state.memory = memory;
 }
@@ -98,7 +104,13 @@ bool Branches::accept(State& state, const Environment& environment) const {
     const Slots& slots = unknowns_.slots()[m];
     const LocalState view = local(state, m, environment);
     if (unknowns_.is_active(state, m) && component.leaves_branch(view)) left = true;
-    component.accept(view, memory.segment(slots.memory_begin, slots.memories));
+    try {
+      component.accept(view, memory.segment(slots.memory_begin, slots.memories));
+    } catch (const ComputationError&) {
+      // A released part may be anywhere, also where it cannot be evaluated: it keeps its memory there.
+      if (unknowns_.is_active(state, m)) throw;
+      memory.segment(slots.memory_begin, slots.memories) = view.memory();
+    }
   };
   const auto accept_costly = [&](std::size_t k) {
     if (unknowns_.slots()[work_.costly()[k]].memories > 0) accept_one(work_.costly()[k]);
