@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/model/event_actions.hpp"
 #include "mechanism/session/computation.hpp"
 #include "mechanism/session/time_grid.hpp"
 #include "mechanism/solvers/dynamics/event_locator.hpp"
@@ -97,6 +98,18 @@ bool contains(const std::vector<double>& times, double time, double rounding) {
   return from != times.end() && *from <= time + rounding;
 }
 
+/// Refuses events that switch parts on or off: without inertia, nothing tells how the motion goes on.
+void check_events(const Model& model) {
+  for (const Member& member : model.members())
+    if (const auto* actions = dynamic_cast<const EventActions*>(member.component.get());
+        actions && actions->switches_parts())
+      throw InputError(
+          fmt::format("{} locks, releases or activates something: a prescribed motion has no inertia by which it would "
+                      "go on; take a "
+                      "dynamic analysis (actions `set` and `stop` are possible here)",
+                      describe(member)));
+}
+
 constexpr double same_time = 1e-9;  // relative to the step
 
 /// Returns the times of equal steps, the times to record, and the kinks of the laws of drives (at which velocities
@@ -156,7 +169,11 @@ class CrossedMotion {
   CrossedMotion& operator=(const CrossedMotion&) = delete;
 
   /// Call it before each step. @returns the events that occur because velocities or forces have jumped
-  std::vector<int> begin(const State& state) { return watch_.begin(state, environment_, passed_); }
+  std::vector<int> begin(State& state) {
+    const std::vector<int> jumped = watch_.begin(state, environment_, passed_);
+    if (!jumped.empty()) system_.begin_branch(state, environment_, jumped);
+    return jumped;
+  }
   /// Advances a state to a time or, if an event that ends steps occurs before, to just after the event: by at most a
   /// billionth of the step.
   /// @param jumps  whether velocities may jump at that time
@@ -231,6 +248,7 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
   if (!(options.duration > 0) || !(options.step > 0))
     throw InputError("kinematics needs a duration and a step greater than 0");
   const System& system = session.system();
+  check_events(session.model());
   const Environment& environment = session.environment();
   const Recording& recording = session.recording();
   KinematicsReport report;

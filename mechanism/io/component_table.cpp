@@ -33,8 +33,24 @@
 #include "mechanism/joints/pairs/slider.hpp"
 #include "mechanism/joints/pairs/universal.hpp"
 #include "mechanism/joints/pairs/wheel.hpp"
+#include "mechanism/reading/read_activity.hpp"
 
 namespace bielle::mechanism {
+
+namespace {
+
+/// The table of a type whose entries can be inactive.
+template <const KeyTable& (*keys)()>
+const KeyTable& with_activity() {
+  static const KeyTable table = [] {
+    KeyTable whole = keys();
+    whole.keys.push_back(activity_key());
+    return whole;
+  }();
+  return table;
+}
+
+}  // namespace
 
 const std::vector<ComponentType>& component_table() {
   static const std::vector<ComponentType> table = {
@@ -42,44 +58,44 @@ const std::vector<ComponentType>& component_table() {
       {Section::elements, "point_mass", read_point_mass, point_mass_keys},
       {Section::elements, "beam", read_beam, beam_keys},
       {Section::elements, "superelement", read_superelement_body, superelement_keys},
-      {Section::elements, "spring_damper", read_spring_damper, spring_damper_keys},
-      {Section::elements, "node_force", read_node_force, node_force_keys},
-      {Section::elements, "stiffness_field", read_stiffness_field, stiffness_field_keys},
-      {Section::elements, "hydraulic_actuator", read_hydraulic_actuator, hydraulic_actuator_keys},
-      {Section::joints, "rigid", read_rigid, rigid_keys},
-      {Section::joints, "hinge", read_hinge, hinge_keys},
-      {Section::joints, "prismatic", read_prismatic, prismatic_keys},
-      {Section::joints, "cylindrical", read_cylindrical, cylindrical_keys},
-      {Section::joints, "spherical", read_spherical, spherical_keys},
-      {Section::joints, "planar", read_planar, planar_keys},
-      {Section::joints, "screw", read_screw, screw_keys},
-      {Section::joints, "universal", read_universal, universal_keys},
-      {Section::joints, "constant_velocity", read_constant_velocity, constant_velocity_keys},
-      {Section::joints, "distance", read_distance, distance_keys},
-      {Section::joints, "spherical_spherical", read_spherical_spherical, spherical_spherical_keys},
-      {Section::joints, "revolute_spherical", read_revolute_spherical, revolute_spherical_keys},
-      {Section::joints, "point_on_line", read_point_on_line, point_on_line_keys},
-      {Section::joints, "point_on_plane", read_point_on_plane, point_on_plane_keys},
-      {Section::joints, "point_on_curve", read_point_on_curve, point_on_curve_keys},
-      {Section::joints, "slider", read_slider, slider_keys},
-      {Section::joints, "wheel", read_wheel, wheel_keys},
-      {Section::joints, "bushing", read_bushing, bushing_keys},
-      {Section::joints, "bearing", read_bearing, bearing_keys},
-      {Section::joints, "ball_bearing", read_ball_bearing, ball_bearing_keys},
-      {Section::joints, "roller_bearing", read_roller_bearing, roller_bearing_keys},
-      {Section::joints, "journal_bearing", read_journal_bearing, journal_bearing_keys},
-      {Section::joints, "clearance_hinge", read_clearance_hinge, clearance_hinge_keys},
-      {Section::joints, "clearance_spherical", read_clearance_spherical, clearance_spherical_keys},
-      {Section::joints, "gear", read_gear, gear_keys},
-      {Section::joints, "gear_mesh", read_gear_mesh, gear_mesh_keys},
-      {Section::joints, "differential", read_differential, differential_keys},
-      {Section::joints, "rack_and_pinion", read_rack_and_pinion, rack_and_pinion_keys},
-      {Section::joints, "cam", read_cam, cam_keys},
-      {Section::joints, "belt", read_belt, belt_keys},
-      {Section::joints, "cable", read_cable, cable_keys},
-      {Section::joints, "contact", read_contact, contact_keys},
+      {Section::elements, "spring_damper", read_spring_damper, with_activity<spring_damper_keys>},
+      {Section::elements, "node_force", read_node_force, with_activity<node_force_keys>},
+      {Section::elements, "stiffness_field", read_stiffness_field, with_activity<stiffness_field_keys>},
+      {Section::elements, "hydraulic_actuator", read_hydraulic_actuator, with_activity<hydraulic_actuator_keys>},
+      {Section::joints, "rigid", read_rigid, with_activity<rigid_keys>},
+      {Section::joints, "hinge", read_hinge, with_activity<hinge_keys>},
+      {Section::joints, "prismatic", read_prismatic, with_activity<prismatic_keys>},
+      {Section::joints, "cylindrical", read_cylindrical, with_activity<cylindrical_keys>},
+      {Section::joints, "spherical", read_spherical, with_activity<spherical_keys>},
+      {Section::joints, "planar", read_planar, with_activity<planar_keys>},
+      {Section::joints, "screw", read_screw, with_activity<screw_keys>},
+      {Section::joints, "universal", read_universal, with_activity<universal_keys>},
+      {Section::joints, "constant_velocity", read_constant_velocity, with_activity<constant_velocity_keys>},
+      {Section::joints, "distance", read_distance, with_activity<distance_keys>},
+      {Section::joints, "spherical_spherical", read_spherical_spherical, with_activity<spherical_spherical_keys>},
+      {Section::joints, "revolute_spherical", read_revolute_spherical, with_activity<revolute_spherical_keys>},
+      {Section::joints, "point_on_line", read_point_on_line, with_activity<point_on_line_keys>},
+      {Section::joints, "point_on_plane", read_point_on_plane, with_activity<point_on_plane_keys>},
+      {Section::joints, "point_on_curve", read_point_on_curve, with_activity<point_on_curve_keys>},
+      {Section::joints, "slider", read_slider, with_activity<slider_keys>},
+      {Section::joints, "wheel", read_wheel, with_activity<wheel_keys>},
+      {Section::joints, "bushing", read_bushing, with_activity<bushing_keys>},
+      {Section::joints, "bearing", read_bearing, with_activity<bearing_keys>},
+      {Section::joints, "ball_bearing", read_ball_bearing, with_activity<ball_bearing_keys>},
+      {Section::joints, "roller_bearing", read_roller_bearing, with_activity<roller_bearing_keys>},
+      {Section::joints, "journal_bearing", read_journal_bearing, with_activity<journal_bearing_keys>},
+      {Section::joints, "clearance_hinge", read_clearance_hinge, with_activity<clearance_hinge_keys>},
+      {Section::joints, "clearance_spherical", read_clearance_spherical, with_activity<clearance_spherical_keys>},
+      {Section::joints, "gear", read_gear, with_activity<gear_keys>},
+      {Section::joints, "gear_mesh", read_gear_mesh, with_activity<gear_mesh_keys>},
+      {Section::joints, "differential", read_differential, with_activity<differential_keys>},
+      {Section::joints, "rack_and_pinion", read_rack_and_pinion, with_activity<rack_and_pinion_keys>},
+      {Section::joints, "cam", read_cam, with_activity<cam_keys>},
+      {Section::joints, "belt", read_belt, with_activity<belt_keys>},
+      {Section::joints, "cable", read_cable, with_activity<cable_keys>},
+      {Section::joints, "contact", read_contact, with_activity<contact_keys>},
       {Section::drives, "drive", read_drive, drive_keys},
-      {Section::loads, "load", read_load, load_keys},
+      {Section::loads, "load", read_load, with_activity<load_keys>},
       {Section::states, "state", read_state, state_keys},
   };
   return table;
@@ -115,8 +131,11 @@ void read_component(Section section, const std::string& name, const YamlValue& e
   const bool has_types = section == Section::elements || section == Section::joints;
   const std::string wanted = has_types ? entry.at("type").text() : names.front();
   for (const ComponentType& type : component_table())
-    if (type.section == section && wanted == type.name)
-      return type.read(name, type.keys ? entry.keyed(type.keys()) : entry, model);
+    if (type.section == section && wanted == type.name) {
+      const YamlValue keyed = type.keys ? entry.keyed(type.keys()) : entry;
+      type.read(name, keyed, model);
+      return read_activity(keyed, {section, name}, model);
+    }
   entry.at("type").fail(fmt::format("'{}' is not a type of the {}{}", wanted, section_name(section),
                                     where_it_belongs(section, wanted).value_or(did_you_mean(wanted, names))));
 }

@@ -6,9 +6,9 @@
 #include "mechanism/io/component_table.hpp"
 #include "mechanism/io/node_reader.hpp"
 #include "mechanism/io/output_options.hpp"
+#include "mechanism/joints/actions/event_reader.hpp"
 #include "mechanism/language/language_keys.hpp"
 #include "mechanism/measures/input_measure.hpp"
-#include "mechanism/measures/measure_event.hpp"
 #include "mechanism/measures/read_measure.hpp"
 
 namespace bielle::mechanism {

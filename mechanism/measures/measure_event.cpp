@@ -1,41 +1,103 @@
 #include "mechanism/measures/measure_event.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 #include <fmt/format.h>
 
-#include "mechanism/measures/read_measure.hpp"
 #include "mechanism/model/description.hpp"
+#include "mechanism/reading/names.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
-MeasureEvent::MeasureEvent(std::string name, const Measure& measure, double value, EventFunction::Direction direction,
-                           Action action)
-    : Component("event", std::move(name)), measure_(measure), value_(value), direction_(direction), action_(action) {
+MeasureEvent::MeasureEvent(const EventRecord& record, const Measure& measure, double value,
+                           EventFunction::Direction direction, Action action)
+    : Component("event", record.name()),
+      record_(record),
+      measure_(measure),
+      value_(value),
+      direction_(direction),
+      action_(action) {
   references_.add(measure);
+  of_record_ = references_.add(record);
+}
+
+void MeasureEvent::occur_after(const EventRecord& other) {
+  after_ = &other;
+  of_after_ = references_.add(other);
 }
 
 void MeasureEvent::declare(Declaration& declaration) const {
   declaration.passive = true;
   references_.declare(declaration);
   EventFunction crossing;
+  crossing.name = effects();
   crossing.direction = direction_;
-  crossing.restarts = action_ == Action::restart;
+  crossing.restarts = action_ == Action::restart || record_.is_used();
   crossing.stops = action_ == Action::stop;
-  crossing.reads_reaction = measure_.reads_reactions();
+  crossing.reads_reaction =
+      measure_.reads_reactions() ||
+      std::any_of(writes_.begin(), writes_.end(), [](const Write& write) { return write.value.reads_reactions(); });
   declaration.event_functions = {crossing};
 }
 
+bool MeasureEvent::is_armed(const LocalState& state) const {
+  if (once_ && EventRecord::has_happened(state.of(of_record_))) return false;
+  return !after_ || EventRecord::has_happened(state.of(of_after_));
+}
+
+/// The value of an event that cannot occur is zero: it has no side that could be left.
 void MeasureEvent::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
-  values[0] = measure_.value(state.of(0)) - value_;
+  values[0] = is_armed(state) ? measure_.value(state.of(0)) - value_ : 0;
+}
+
+void MeasureEvent::act(const LocalState& state, std::span<const int> /*crossed*/,
+                       const ReferencedMemory& memory) const {
+  if (!record_.is_used()) return;
+  EventRecord::happen(state.time(), memory.of(of_record_));
+  const double t = state.time();
+  for (const Write& write : writes_) {
+    const double value = write.value.value(state, {&t, 1});
+    if (!std::isfinite(value))
+      throw ComputationError(
+          fmt::format("t = {:.6g} s: event '{}' {}, which has no finite value", t, name(), write.description));
+    memory.of(write.reference)[write.place] = value;
+  }
+}
+
+bool MeasureEvent::switches_parts() const {
+  return std::any_of(writes_.begin(), writes_.end(), [](const Write& write) { return write.switches; });
+}
+
+std::string MeasureEvent::effects() const {
+  std::string text;
+  for (const Write& write : writes_) text += (text.empty() ? "" : ", ") + write.description;
+  if (!writes_.empty() && action_ == Action::stop) text += ", stops the run";
+  return text;
 }
 
 void MeasureEvent::describe(const LocalState& /*state*/, Description& description) const {
   const char* way = direction_ == EventFunction::Direction::rising    ? "rises through"
                     : direction_ == EventFunction::Direction::falling ? "falls through"
                                                                       : "crosses";
-  description.add(fmt::format("{} {} {:.6g} {}", measure_.name(), way, value_, measure_.units()));
-  description.add(action_ == Action::stop      ? "stops the run"
+  std::string when = fmt::format("{} {} {:.6g} {}", measure_.name(), way, value_, measure_.units());
+  if (after_) when += fmt::format(", after '{}'", after_->name());
+  if (once_) when += ", once";
+  description.add(when);
+  description.add(!writes_.empty()             ? effects()
+                  : action_ == Action::stop    ? "stops the run"
                   : action_ == Action::restart ? "ends a step and restarts the motion"
+                  : record_.is_used()          ? "is counted, and restarts the motion"
                                                : "is noted");
+}
+
+const MeasureEvent& measure_event_named_by(const YamlValue& value, const Model& model) {
+  component_named_by(Section::events, value, model);  // which refuses names of other things
+  for (const Component* component : model.components_of({Section::events, value.text()}))
+    if (const auto* event = dynamic_cast<const MeasureEvent*>(component)) return *event;
+  throw std::logic_error("an event is asked for before events have been read");
 }
 
 namespace {
@@ -55,36 +117,6 @@ EventFunction::Direction read_crossing_direction(const YamlValue& entry) {
   return chosen == "rising"    ? EventFunction::Direction::rising
          : chosen == "falling" ? EventFunction::Direction::falling
                                : EventFunction::Direction::both;
-}
-
-const KeyTable& event_keys() {
-  using namespace keys;
-  static const KeyTable table{
-      "an event",
-      "A measure that crosses a value.",
-      {{"when", state_formula("any", {"t"}), required, "Measure that is watched, or a formula of measures."},
-       {"crosses", number("any"), otherwise("0"), "Value that is crossed."},
-       crossing_direction_key(),
-       {"action", word({"note", "restart", "stop"}, "an action"), otherwise("note"),
-        "Action at the crossing: `note` lists its time and does not change the motion; `restart` ends a step there and "
-        "solves for accelerations and reactions again, as at a kink of a load; `stop` ends the analysis, and those "
-        "that follow go on from there."}}};
-  return table;
-}
-
-void read_event(const std::string& name, const YamlValue& given, Model& model) {
-  const YamlValue entry = given.keyed(event_keys());
-  const YamlValue when = entry.at("when");
-  const double value = entry.at("crosses").number();
-  const EventFunction::Direction direction = read_crossing_direction(entry);
-  const std::string word = entry.at("action").word();
-  const MeasureEvent::Action action = word == "stop"      ? MeasureEvent::Action::stop
-                                      : word == "restart" ? MeasureEvent::Action::restart
-                                                          : MeasureEvent::Action::note;
-  model.when_read(Model::Stage::formulas, [=, &model] {
-    model.add(std::make_unique<MeasureEvent>(name, measure_named_by(when, model), value, direction, action),
-              Entry{Section::events, name}, Recorded::no);
-  });
 }
 
 }  // namespace bielle::mechanism

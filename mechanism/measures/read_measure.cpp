@@ -7,7 +7,9 @@
 #include <fmt/ranges.h>
 
 #include "mechanism/measures/combined_measure.hpp"
+#include "mechanism/measures/event_record.hpp"
 #include "mechanism/measures/node_measures.hpp"
+#include "mechanism/measures/released_measure.hpp"
 #include "mechanism/reading/functions_of_names.hpp"
 #include "mechanism/reading/names.hpp"
 #include "reduce/common/formula/formula_parser.hpp"
@@ -30,7 +32,11 @@ class Lookup {
 
   const Measure* named(const std::string& name) {
     try {
-      return model_.find_measure(name);
+      if (const Measure* found = model_.find_measure(name)) return found;
+      EventRecord* const event = find_event_record(model_, name);
+      if (!event) return nullptr;
+      event->use();
+      return &model_.add_measure(event->make_measure(name, ""), false);
     } catch (const InputError& error) {
       if (std::string(error.what()).rfind("the measure", 0) != 0) throw;  // the error already has a location
       value_.fail(error.what());
@@ -68,7 +74,8 @@ class Lookup {
   }
 
   bool exists(const std::string& name) const {
-    return !model_.components_named(name).empty() || model_.find_node(name).has_value();
+    return !model_.components_named(name).empty() || model_.find_node(name).has_value() ||
+           find_event_record(model_, name);
   }
 
   /// Splits "blade_2.tip.position.x" into the longest name of something in the model, which may have dots, and the
@@ -83,6 +90,16 @@ class Lookup {
     return {reference.subjects.front(), fmt::format("{}", fmt::join(path, "."))};
   }
 
+  /// Returns a measure of a component; forces are zero while its entry is released.
+  std::unique_ptr<Measure> make_of(const Component& component, const std::string& name,
+                                   const std::string& measure) const {
+    std::unique_ptr<Measure> made = component.make_measure(name, measure);
+    if (!are_units_of_forces(made->units())) return made;
+    std::vector<const Activity*> activities = activities_of(model_, component);
+    if (activities.empty()) return made;
+    return std::make_unique<ReleasedMeasure>(std::move(made), std::move(activities));
+  }
+
   std::unique_ptr<Measure> make_dotted(const FormulaReference& reference, const std::string& name) const {
     const auto [subject, wanted] = subject_and_quantity(reference);
     const auto has = [&](const std::vector<std::string>& names) {
@@ -93,8 +110,15 @@ class Lookup {
       available.insert(available.end(), names.begin(), names.end());
     };
     for (const Component* component : model_.components_named(subject)) {
-      if (has(component->measure_names())) return component->make_measure(name, wanted);
+      if (has(component->measure_names())) return make_of(*component, name, wanted);
       offer(component->measure_names());
+    }
+    if (EventRecord* const event = find_event_record(model_, subject)) {
+      if (has(event->measure_names())) {
+        event->use();
+        return event->make_measure(name, wanted);
+      }
+      offer(event->measure_names());
     }
     if (const auto index = model_.find_node(subject)) {
       if (has(node_measure_names())) return make_node_measure(name, model_, *index, wanted);
@@ -147,7 +171,8 @@ ReadFormula read_formula(const YamlValue& value, const std::vector<std::string>&
   ReadFormula result;
   std::vector<std::string> names = variables;
   for (const std::string& word : words_in(formula.replaced)) {
-    if (!model.announces_measure(word) || is_in(variables, word) || value.parameters().count(word)) continue;
+    const bool known = model.announces_measure(word) || find_event_record(model, word);
+    if (!known || is_in(variables, word) || value.parameters().count(word)) continue;
     names.push_back(word);
     result.measures.push_back(lookup.named(word));
   }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "mechanism/math/so3.hpp"
 #include "mechanism/model/mesh_fields.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
@@ -26,7 +28,8 @@ bool outputs_together(const Member& member) {
 
 const char* layout_name(ResultsLayout layout) { return layout == ResultsLayout::named ? "named" : "stacked"; }
 
-ResultsRows::ResultsRows(const Model& model, Extent extent) : kinds_(model, extent == Extent::all), model_(model) {
+ResultsRows::ResultsRows(const Model& model, Extent extent)
+    : kinds_(model, extent == Extent::all), model_(model), activities_(model) {
   add_node_places();
   add_together();
   std::size_t largest = 0;
@@ -233,13 +236,34 @@ std::vector<double> ResultsRows::read_entry(const ResultsEntry& entry, std::size
   return values;
 }
 
+/// Writes the outputs of a released member: positions and rates as if it acted, forces zero. A member that cannot be
+/// evaluated where it is now (a contact whose bodies have passed through each other) has no positions: nan.
+void ResultsRows::write_released(std::size_t member, const LocalState& local, double* output) const {
+  const Component& component = *model_.members()[member].component;
+  const std::vector<OutputField> fields = component.output_fields();
+  try {
+    component.write_output(local, output);
+  } catch (const ComputationError&) {
+    double* values = output;
+    for (const OutputField& field : fields)
+      values = std::fill_n(values, field.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  for (const OutputField& field : fields) {
+    if (are_units_of_forces(field.units)) std::fill_n(output, field.size(), 0.0);
+    output += field.size();
+  }
+}
+
 template <class To>
 void ResultsRows::write_member(std::size_t member, const ResultsPart& part, const State& state,
                                const std::vector<Slots>& slots, const Environment& environment, double* output,
                                const To& to) const {
   if (part.empty()) return;
   const LocalState local(state, slots[member], environment);
-  model_.members()[member].component->write_output(local, output);
+  if (activities_.is_active(state, slots, member))
+    model_.members()[member].component->write_output(local, output);
+  else
+    write_released(member, local, output);
   for (const ResultsTarget& target : part) {
     if (double* values = to(target)) {
       if (target.summed)

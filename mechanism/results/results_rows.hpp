@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/model/activity.hpp"
 #include "mechanism/model/archive.hpp"
 #include "mechanism/results/results_kinds.hpp"
 #include "mechanism/results/step_record.hpp"
@@ -86,12 +87,14 @@ class ResultsRows {
   template <class To>
   void write_member(std::size_t member, const ResultsPart& part, const State& state, const std::vector<Slots>& slots,
                     const Environment& environment, double* output, const To& to) const;
+  void write_released(std::size_t member, const LocalState& local, double* output) const;
   static void fill_totals(const StepRecord& step, double* values);
   std::vector<double> read_entry(const ResultsEntry& entry, std::size_t field, const State& state,
                                  const std::vector<Slots>& slots, const Environment& environment) const;
 
   ResultsKinds kinds_;
   const Model& model_;
+  Activities activities_;
   std::vector<NodePlace> nodes_;
   std::vector<ResultsColumn> totals_;  ///< columns of energies and of the solver; last in the row
   std::size_t size_ = 0;

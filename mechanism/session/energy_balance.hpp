@@ -44,15 +44,18 @@ class EnergyBalance {
     scheme_loss_ = scheme_loss;
     note_largest();
   }
-  /// Adds a discontinuity at the time of the last `advance`: energy lost in impulses is dissipated, and powers continue
-  /// from their values after it. @param work  work of drives and supports whose rate jumps [J]
+  /// Adds a discontinuity at the time of the last `advance`: energy lost in impulses and in released parts is
+  /// dissipated, energy that appears with an activated part is supplied, and powers continue from their values after
+  /// it.
+  /// @param work  work of drives and supports whose rate jumps [J]
   void jump(const Energy& before, const Energy& after, double work) {
-    const double input = totals_.input + work;
-    const double dissipation = totals_.dissipation + stored(before) - stored(after) + work;
+    const double lost = stored(before) - stored(after) + work, supplied = work + std::max(0.0, -lost);
+    const double input = totals_.input + supplied;
+    const double dissipation = totals_.dissipation + std::max(0.0, lost);
     totals_ = last_ = after;
     totals_.input = input;
     totals_.dissipation = dissipation;
-    flow(std::abs(work), std::abs(stored(before) - stored(after) + work));
+    flow(std::abs(supplied), std::max(0.0, lost));
     note_largest();
   }
   /// Present stored energies, input and dissipation since the start [J].

@@ -164,7 +164,7 @@ void Motion::take_step(bool seen) {
   const double before = time();
   last_begin_ = std::numeric_limits<double>::infinity();  // in case the step fails
   const EnergyBalance balance_before = parts_.energy_balance;
-  const MarchStep step = parts_.march->advance();
+  MarchStep step = parts_.march->advance();
   ++parts_.steps;
   last_begin_ = before;
   last_on_grid_ = step.on_grid;
@@ -179,6 +179,7 @@ void Motion::take_step(bool seen) {
   computation_->set_report(row(step, parts_.energy_balance));
   record_step(step, before, balance_before);
   session_.gather(state(), session_.environment());
+  parts_.march->settle(step);  // the last row is recorded before, as all rows at jumps are
   const auto& crossings = session_.system().event_functions();
   for (const Passed& passed : step.passed) {
     last_event_ = crossings[static_cast<std::size_t>(passed.crossing)].name;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <atomic>
 
+#include "mechanism/model/event_actions.hpp"
+#include "reduce/common/error.hpp"
+
 namespace bielle::mechanism {
 
 void Branches::add(const Declaration& declaration) {
@@ -26,14 +29,18 @@ void Branches::calc_event_functions(const State& state, const Environment& envir
     std::size_t end = k;
     while (end < crossings_.size() && crossings_[end].member == member) ++end;
     const auto count = static_cast<Eigen::Index>(end - k);
-    model_.members()[member].component->calc_event_functions(local(state, member, environment),
-                                                             values.segment(static_cast<Eigen::Index>(k), count));
+    if (unknowns_.is_active(state, member))
+      model_.members()[member].component->calc_event_functions(local(state, member, environment),
+                                                               values.segment(static_cast<Eigen::Index>(k), count));
+    else
+      values.segment(static_cast<Eigen::Index>(k), count).setZero();  // no event occurs in a released part
     k = end;
   }
 }
 
 double Branches::calc_crossing(const State& state, const Environment& environment, int crossing) const {
   const auto k = static_cast<std::size_t>(crossing);
+  if (!unknowns_.is_active(state, crossings_[k].member)) return 0;
   const std::size_t member = crossings_[k].member, begin = k - static_cast<std::size_t>(crossings_[k].index);
   std::size_t end = k;
   while (end < crossings_.size() && crossings_[end].member == member) ++end;
@@ -42,10 +49,23 @@ double Branches::calc_crossing(const State& state, const Environment& environmen
   return values[crossings_[k].index];
 }
 
+void Branches::do_actions(State& state, const Environment& environment, const std::vector<int>& ascending) const {
+  std::vector<int> own;
+  for (auto next = ascending.begin(); next != ascending.end();) {
+    const std::size_t m = crossings_[static_cast<std::size_t>(*next)].member;
+    own.clear();
+    for (; next != ascending.end() && crossings_[static_cast<std::size_t>(*next)].member == m; ++next)
+      own.push_back(crossings_[static_cast<std::size_t>(*next)].index);
+    if (const auto* actions = dynamic_cast<const EventActions*>(model_.members()[m].component.get()))
+      actions->act(local(state, m, environment), own, ReferencedMemory(state.memory, unknowns_.slots()[m]));
+  }
+}
+
 void Branches::begin(State& state, const Environment& environment, const std::vector<int>& crossed) const {
-  VectorX memory = state.memory;
   std::vector<int> ascending = crossed, own;  // ordered by member, as the event functions are
   std::sort(ascending.begin(), ascending.end());
+  do_actions(state, environment, ascending);
+  VectorX memory = state.memory;
   auto next = ascending.begin();
   for (const std::size_t m : remembering_) {
     own.clear();
@@ -53,8 +73,13 @@ void Branches::begin(State& state, const Environment& environment, const std::ve
       if (const MemberEventFunction& crossing = crossings_[static_cast<std::size_t>(*next)]; crossing.member == m)
         own.push_back(crossing.index);
     const Slots& slots = unknowns_.slots()[m];
-    model_.members()[m].component->begin_branch(local(state, m, environment), own,
-                                                memory.segment(slots.memory_begin, slots.memories));
+    auto own_memory = memory.segment(slots.memory_begin, slots.memories);
+    try {
+      model_.members()[m].component->begin_branch(local(state, m, environment), own, own_memory);
+    } catch (const ComputationError&) {
+      if (unknowns_.is_active(state, m)) throw;  // see accept
+      own_memory = local(state, m, environment).memory();
+    }
   }
   state.memory = memory;
 }
@@ -78,8 +103,14 @@ bool Branches::accept(State& state, const Environment& environment) const {
     const Component& component = *model_.members()[m].component;
     const Slots& slots = unknowns_.slots()[m];
     const LocalState view = local(state, m, environment);
-    if (component.leaves_branch(view)) left = true;
-    component.accept(view, memory.segment(slots.memory_begin, slots.memories));
+    if (unknowns_.is_active(state, m) && component.leaves_branch(view)) left = true;
+    try {
+      component.accept(view, memory.segment(slots.memory_begin, slots.memories));
+    } catch (const ComputationError&) {
+      // A released part may be anywhere, also where it cannot be evaluated: it keeps its memory there.
+      if (unknowns_.is_active(state, m)) throw;
+      memory.segment(slots.memory_begin, slots.memories) = view.memory();
+    }
   };
   const auto accept_costly = [&](std::size_t k) {
     if (unknowns_.slots()[work_.costly()[k]].memories > 0) accept_one(work_.costly()[k]);

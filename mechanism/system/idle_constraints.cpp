@@ -8,8 +8,11 @@ namespace bielle::mechanism {
 void IdleConstraints::add(const Declaration& declaration) {
   const std::size_t member = unknowns_.slots().size() - 1;
   const int begin = unknowns_.slots()[member].multiplier_begin;
-  for (int k = 0; k < static_cast<int>(declaration.multipliers.size()); ++k)
-    if (declaration.multipliers[static_cast<std::size_t>(k)].switched) switched_.push_back({member, k, begin + k});
+  const bool governed = unknowns_.activities().is_governed(member);
+  for (int k = 0; k < static_cast<int>(declaration.multipliers.size()); ++k) {
+    const bool by_itself = declaration.multipliers[static_cast<std::size_t>(k)].switched;
+    if (by_itself || governed) switched_.push_back({member, k, begin + k, by_itself});
+  }
 }
 
 std::vector<bool> IdleConstraints::possible() const {
@@ -23,7 +26,8 @@ void IdleConstraints::switch_constraints(State& state, const Environment& enviro
   state.idle.assign(static_cast<std::size_t>(unknowns_.multipliers()), Idle::active);
   for (const Switched& each : switched_) {
     const LocalState local(state, unknowns_.slots()[each.member], environment);
-    if (model_.members()[each.member].component->is_on(local, each.row)) continue;
+    const bool on = !each.by_itself || model_.members()[each.member].component->is_on(local, each.row);
+    if (on && unknowns_.is_active(state, each.member)) continue;
     state.idle[static_cast<std::size_t>(each.multiplier)] = Idle::switched_off;
     state.multiplier[each.multiplier] = 0;
   }

@@ -22,7 +22,8 @@ class IdleConstraints {
   IdleConstraints(const IdleConstraints&) = delete;
   IdleConstraints& operator=(const IdleConstraints&) = delete;
 
-  /// Adds the switchable constraints of the member that was numbered last.
+  /// Adds the switchable constraints of the member that was numbered last: those that its component switches, or all if
+  /// its entry can be released.
   void add(const Declaration& declaration);
   void set_aside(const std::vector<int>& multipliers) { set_aside_ = multipliers; }
 
@@ -42,7 +43,8 @@ class IdleConstraints {
     for (int multiplier = 0; multiplier < static_cast<int>(state.idle.size()); ++multiplier)
       if (state.idle[static_cast<std::size_t>(multiplier)] != Idle::active) act(multiplier);
   }
-  /// Sets `idle` of the switched constraints from the memory of their components; the others count as active.
+  /// Sets `idle` of the switched constraints from the memory of their components and the activity of their entries; the
+  /// others count as active.
   void switch_constraints(State& state, const Environment& environment) const;
 
   /// Finds the places of rows and columns of possibly idle constraints in the pattern of the tangent, which contains
@@ -59,6 +61,7 @@ class IdleConstraints {
   struct Switched {
     std::size_t member;
     int row, multiplier;  ///< local row of the component, and index among all multipliers
+    bool by_itself;       ///< its component switches it; otherwise only the activity of its entry
   };
   std::vector<Switched> switched_;
   /// Places of the row and the diagonal of each multiplier that may be idle; empty if there are none.

@@ -78,12 +78,23 @@ void ResidualAssembly::complete() {
 /// @param local  zero on entry; then the member's part, or zero if the component throws
 void ResidualAssembly::evaluate(std::size_t member, const State& state, const Environment& environment,
                                 Eigen::Ref<VectorX> local) const {
+  if (!unknowns_.is_active(state, member)) {
+    hold_first_order(LocalState(state, unknowns_.slots()[member], environment), local);
+    return;
+  }
   try {
     model_.members()[member].component->add_residual(LocalState(state, unknowns_.slots()[member], environment), local);
   } catch (...) {
     local.setZero();
     throw;
   }
+}
+
+/// Adds the equations of the first-order unknowns of a released member, which keep their values.
+void ResidualAssembly::hold_first_order(const LocalState& state, Eigen::Ref<VectorX> local) {
+  const Slots& slots = state.slots();
+  if (slots.first_orders == 0 || state.environment().statics) return;
+  local.segment(slots.first_order_row(), slots.first_orders) = state.first_order_rate();
 }
 
 void ResidualAssembly::add_small(const State& state, const Environment& environment, Sums& sums) const {

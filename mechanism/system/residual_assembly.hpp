@@ -40,6 +40,7 @@ class ResidualAssembly {
   };
   void node_forces(const State& state, const Environment& environment, VectorX& forces, Eigen::Ref<VectorX> r,
                    ResidualScale* scale) const;
+  static void hold_first_order(const LocalState& state, Eigen::Ref<VectorX> local);
   void evaluate(std::size_t member, const State& state, const Environment& environment,
                 Eigen::Ref<VectorX> local) const;
   void add_small(const State& state, const Environment& environment, Sums& sums) const;

@@ -53,7 +53,7 @@ void System::set_aside(const std::vector<int>& multipliers) {
 
 std::string System::wrong_branch(const State& state, const Environment& environment) const {
   for (std::size_t m = 0; m < slots().size(); ++m) {
-    if (slots()[m].multipliers == 0) continue;
+    if (slots()[m].multipliers == 0 || !is_active(state, m)) continue;
     const Member& member = model_.members()[m];
     if (const std::string what = member.component->wrong_branch(LocalState(state, slots()[m], environment));
         !what.empty())
@@ -108,7 +108,7 @@ void System::constraint_rates(const State& state, const Environment& environment
   acceleration.setZero();
   for (std::size_t m = 0; m < slots().size(); ++m) {
     const Slots& own = slots()[m];
-    if (own.multipliers == 0) continue;
+    if (own.multipliers == 0 || !is_active(state, m)) continue;
     model_.members()[m].component->add_constraint_rates(LocalState(state, own, environment),
                                                         velocity.segment(own.multiplier_begin, own.multipliers),
                                                         acceleration.segment(own.multiplier_begin, own.multipliers));
@@ -125,6 +125,7 @@ bool is_finite(const Energy& e) {
 [[noreturn]] void throw_without_energy(const System& system, const State& state, const Environment& environment) {
   const auto& members = system.model().members();
   for (std::size_t m = 0; m < members.size(); ++m) {
+    if (!system.is_active(state, m)) continue;
     Energy energy;
     members[m].component->add_energy(LocalState(state, system.slots()[m], environment), energy);
     if (is_finite(energy)) continue;
@@ -152,6 +153,7 @@ Energy System::energy(const State& state, const Environment& environment) const 
   std::vector<Energy>& parts = costly;  // the calling thread's buffer, in all threads
   Energy energy;
   const auto add_one = [&](std::size_t m, Energy& sum) {
+    if (!is_active(state, m)) return;
     model_.members()[m].component->add_energy(LocalState(state, slots()[m], environment), sum);
   };
   const auto add_small = [&] {

@@ -56,6 +56,9 @@ class System {
   /// if the equation does not contain the rate; m or rad for constraints, m/s or rad/s for those that relate
   /// velocities.
   std::string equation_units(int equation) const { return unknowns_.equation_units(equation); }
+  /// Whether a member is in the equations at a state; otherwise its entry has been released.
+  bool is_active(const State& state, std::size_t member) const { return unknowns_.is_active(state, member); }
+  const Activities& activities() const { return unknowns_.activities(); }
   /// Describes the first component whose position is on a wrong branch, with the reason: "joint 'main': its axes point
   /// in opposite directions"; empty if there is none.
   std::string wrong_branch(const State& state, const Environment& environment) const;

@@ -76,6 +76,12 @@ void TangentAssembly::complete() {
     pairs_.emplace_back(*coupled, kinematics_, slots);
     pairs_member_.push_back(m);
   }
+  for (std::size_t m = 0; m < placements_.size(); ++m) {
+    const Slots& slots = unknowns_.slots()[m];
+    if (unknowns_.activities().is_governed(m))
+      for (int k = 0; k < slots.first_orders; ++k)
+        held_when_released_.push_back(unknowns_.first_first_order() + slots.first_order_begin + k);
+  }
   find_lone_amplitudes();
 }
 
@@ -126,6 +132,7 @@ void TangentAssembly::build_pattern() {
       kept.for_each(m, [&](int, int row, int column) { act(row, column); });
     for (const PairTangents& each : pairs_) each.for_each_entry([&](int row, int column, bool) { act(row, column); });
     for (int i = 0; i < unknowns_.dofs(); ++i) act(i, i);  // solvers add to the diagonal
+    for (const int i : held_when_released_) act(i, i);
     for (int k = 0, row = unknowns_.first_multiplier(); row < unknowns_.size(); ++k, ++row)
       if (may_be_idle_[static_cast<std::size_t>(k)]) act(row, row);
   });
@@ -156,6 +163,7 @@ void TangentAssembly::find_intermittent(const KeptEntries& kept, SparsePattern& 
       if (lasting) last(row, column);
     });
   for (int i = 0; i < unknowns_.dofs(); ++i) last(i, i);
+  for (const int i : held_when_released_) last(i, i);
   for (std::size_t k = 0; k < may_be_idle_.size(); ++k)
     if (may_be_idle_[k])
       last(unknowns_.first_multiplier() + static_cast<int>(k), unknowns_.first_multiplier() + static_cast<int>(k));
@@ -211,6 +219,28 @@ TangentWorkspace& workspace(int rows) {
 
 bool TangentAssembly::set_values(const State& state, const Environment& environment, const TangentWeights& weights,
                                  const VectorX* dq, std::vector<double>& values) {
+  const bool again = set_values_of_members(state, environment, weights, dq, values);
+  add_held(state, environment, weights, values);
+  return again;
+}
+
+/// Adds the derivatives of the equations of first-order unknowns that released members keep.
+void TangentAssembly::add_held(const State& state, const Environment& environment, const TangentWeights& weights,
+                               std::vector<double>& values) const {
+  if (held_when_released_.empty()) return;
+  for (std::size_t m = 0; m < placements_.size(); ++m) {
+    if (!unknowns_.activities().is_governed(m) || unknowns_.is_active(state, m)) continue;
+    const Slots& slots = unknowns_.slots()[m];
+    const int begin = unknowns_.first_first_order() + slots.first_order_begin;
+    for (int i = begin; i < begin + slots.first_orders; ++i)
+      values[static_cast<std::size_t>(pattern_->whole.find(i, i))] +=
+          environment.statics ? weights.stiffness : weights.first_order;
+  }
+}
+
+bool TangentAssembly::set_values_of_members(const State& state, const Environment& environment,
+                                            const TangentWeights& weights, const VectorX* dq,
+                                            std::vector<double>& values) {
   if (add_values(state, environment, weights, dq, values)) return false;
   for (std::size_t k = 0; k < pairs_.size(); ++k)
     pairs_[k].choose(LocalState(state, unknowns_.slots()[pairs_member_[k]], environment));
@@ -236,6 +266,7 @@ bool TangentAssembly::add_values(const State& state, const Environment& environm
   std::vector<double>& waiting = waiting_entries;  // the calling thread's buffer, in all threads
   const auto evaluate_costly = [&](std::size_t k) {
     const std::size_t m = work_.costly()[k];
+    if (!unknowns_.is_active(state, m)) return;
     const LocalState local(state, unknowns_.slots()[m], environment);
     TangentWorkspace& work = workspace(largest_local_);
     if (weights.velocity_level && local.slots().multipliers > 0) work.probe = state;
@@ -259,6 +290,7 @@ bool TangentAssembly::add_small(const State& state, const Environment& environme
   if (request.weights.velocity_level) work.probe = state;
   bool complete = true;
   for (const std::size_t m : small_) {
+    if (!unknowns_.is_active(state, m)) continue;
     const LocalToGlobal& placement = placements_[m];
     const LocalState local(state, unknowns_.slots()[m], environment);
     if (const PairTangents* pairs = pairs_of(m)) {

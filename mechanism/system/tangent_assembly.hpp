@@ -50,6 +50,10 @@ class TangentAssembly {
   void build_pattern();
   void find_intermittent(const KeptEntries& kept, SparsePattern& pattern) const;
   void set_places(const KeptEntries& kept, std::size_t member);
+  bool set_values_of_members(const State& state, const Environment& environment, const TangentWeights& weights,
+                             const VectorX* dq, std::vector<double>& values);
+  void add_held(const State& state, const Environment& environment, const TangentWeights& weights,
+                std::vector<double>& values) const;
   bool add_values(const State& state, const Environment& environment, const TangentWeights& weights, const VectorX* dq,
                   std::vector<double>& values) const;
   bool add_small(const State& state, const Environment& environment, const TangentRequest& request,
@@ -71,6 +75,7 @@ class TangentAssembly {
   std::vector<PairTangents> pairs_;        ///< those of the members of pairs
   std::vector<std::size_t> pairs_member_;  ///< their members
   std::vector<int> number_of_pairs_;       ///< for each member its index among them, -1: it has none
+  std::vector<int> held_when_released_;    ///< first-order unknowns that keep their values if their entry is released
   int largest_local_ = 0;                  ///< size of the largest local matrix
   std::vector<bool> may_be_idle_;
   std::shared_ptr<const TangentPattern> pattern_;

@@ -32,7 +32,7 @@ std::string describe(const Member& member) {
 }
 
 Unknowns::Unknowns(const Model& model, const NodeKinematics& kinematics)
-    : model_(model), kinematics_(kinematics), nodes_(kinematics.unknowns()) {
+    : model_(model), kinematics_(kinematics), activities_(model), nodes_(kinematics.unknowns()) {
   slots_.reserve(model.members().size());  // references point to these elements
   member_index_.reserve(model.members().size());
 }

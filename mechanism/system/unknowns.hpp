@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "mechanism/model/activity.hpp"
 #include "mechanism/system/kind.hpp"
 #include "mechanism/system/node_kinematics.hpp"
 
@@ -38,6 +39,10 @@ class Unknowns {
   const std::vector<Slots>& slots() const { return slots_; }  ///< slots of the model's members, in their order
   /// Index of the member whose component is given; the component must belong to the model.
   std::size_t member_of(const Component& component) const { return member_index_.at(&component); }
+
+  /// Whether a member is in the equations at a state; otherwise it has been released, and nobody evaluates it.
+  bool is_active(const State& state, std::size_t member) const { return activities_.is_active(state, slots_, member); }
+  const Activities& activities() const { return activities_; }
 
   int dofs() const { return nodes_ + amplitudes_; }
   int amplitudes() const { return amplitudes_; }
@@ -79,6 +84,7 @@ class Unknowns {
 
   const Model& model_;
   const NodeKinematics& kinematics_;
+  Activities activities_;
   std::vector<Slots> slots_;
   std::unordered_map<const Component*, std::size_t> member_index_;
   int nodes_, amplitudes_ = 0, first_orders_ = 0, multipliers_ = 0, largest_local_ = 0;  ///< nodes_: unknowns of nodes

@@ -84,6 +84,15 @@ std::vector<Sample> joint_samples() {
                               {{"one_way", "{damping: 1}", "needs the `stiffness`"},
                                {"clutch", "{normal_force: 1, coefficient: 1, radius: 1}", "that turns"}}));
   list.push_back(with_actions("hinge", "one-way, elastic", "one_way: {stiffness: 3, damping: 0.4}", {}));
+  // A lock that events close and open.
+  list.push_back({Section::joints,
+                  "hinge",
+                  "locked by events",
+                  pair("  it: {type: hinge, nodes: [a, b], position: [0.5, 0.2, 0.1], axis: [1, 2, 3], locked: {from: "
+                       "{event: there}, to: {event: back}, release: 4}, active: false}\n",
+                       "events:\n  there: {when: it.angle, crosses: 1}\n  back: {when: it.angle, crosses: 0.5, do: "
+                       "[{lock: it}, {activate: it}]}\n"),
+                  {{"locked.from", "{event: the}", "no 'the' among the events"}}});
   // A point and axes in each node's own axes, and a start, whose values and rates are conditions and no components.
   list.push_back(
       {Section::joints,

@@ -1,6 +1,7 @@
 #include "mechanism/joints/actions/drive_keys.hpp"
 
 #include "mechanism/joints/actions/drive.hpp"
+#include "mechanism/reading/read_activity.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -72,7 +73,8 @@ const KeyTable& keys_of_drive() {
        {"moves",
         {name_of("node"), list_of(name_of("node"))},
         computed("all nodes that have a motion"),
-        "Nodes whose prescribed motion a sought torque or force causes."}}};
+        "Nodes whose prescribed motion a sought torque or force causes."},
+       activity_key()}};
   return table;
 }
 

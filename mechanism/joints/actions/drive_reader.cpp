@@ -86,7 +86,7 @@ void read_release(const YamlValue& value, Drive& drive, Model& model) {
     // Events are read with the formulas, after the drives: the action is deferred once more.
     model.when_read(Model::Stage::formulas, [event = *event, &drive, &model] {
       model.when_read(Model::Stage::formulas, [event, &drive, &model] {
-        const auto& found = dynamic_cast<const MeasureEvent&>(component_named_by(Section::events, event, model));
+        const MeasureEvent& found = measure_event_named_by(event, model);
         drive.release_when(found.measure(), found.value(), found.direction());
       });
     });

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/actions/event_reader.hpp"
 #include "mechanism/joints/actions/joint_clutch_reader.hpp"
 #include "mechanism/joints/friction/friction_reader.hpp"
 #include "mechanism/laws/force_law.hpp"
@@ -40,8 +41,14 @@ const KeyTable& keys_of_lock() {
   static const KeyTable table{
       "`locked`",
       "A lock, which keeps a coordinate at the value that it has when the lock closes.",
-      {{"from", number("s").non_negative(), otherwise("0"), "Time at which the lock closes."},
-       {"to", number("s"), computed("the end of the run"), "Time at which the lock opens."},
+      {{"from",
+        {number("s").non_negative(), nested(lock_event_keys)},
+        otherwise("0"),
+        "Time at which the lock closes, or {event: name}."},
+       {"to",
+        {number("s"), nested(lock_event_keys)},
+        computed("the end of the run"),
+        "Time at which the lock opens, or {event: name}: when that event occurs after the lock has closed."},
        {"release", number(units_of(moves).force).positive(), optional,
         "Force or torque at which the lock opens permanently; without it the lock holds any."}}};
   return table;

@@ -23,12 +23,8 @@ using ByKey = std::map<std::string, YamlValue>;
 
 /// Whether a map contains names of coordinates, or is the value of the only one.
 bool names_coordinates(const YamlValue& value, const std::vector<std::string>& names) {
-  if (!value.is_map()) return false;
-  const auto is_name = [&](const auto& item) {
-    return std::find(names.begin(), names.end(), item.first) != names.end();
-  };
-  const auto entries = value.entries();
-  return std::any_of(entries.begin(), entries.end(), is_name);
+  return value.is_map() &&
+         std::any_of(names.begin(), names.end(), [&](const std::string& name) { return value.has(name); });
 }
 
 std::vector<ByKey> sort_by_coordinate(const YamlValue& entry, const Joint& joint, const std::vector<std::string>& own) {
@@ -90,13 +86,29 @@ LockTimes read_lock_times(const YamlValue& given, Moves moves) {
   if (!given.is_map()) given.fail("expected `true`, or times: {from, to, release}");
   const YamlValue entry = given.keyed(lock_keys(moves));
   LockTimes times;
-  times.from = entry.at("from").number();
-  if (const auto to = entry.find("to")) {
+  const YamlValue from = entry.at("from");
+  times.from = from.is_map() ? std::numeric_limits<double>::infinity() : from.number();
+  if (const auto to = entry.find("to"); to && !to->is_map()) {
     times.to = to->number();
-    if (times.to <= times.from) to->fail("expected a time after `from`");
+    if (!from.is_map() && times.to <= times.from) to->fail("expected a time after `from`");
   }
   if (const auto release = entry.find("release")) times.release = release->number();
   return times;
+}
+
+/// Reads the events that close and open a lock in place of times.
+void read_lock_events(const YamlValue& given, Moves moves, JointLock& lock, Model& model) {
+  if (!given.is_map()) return;
+  const YamlValue entry = given.keyed(lock_keys(moves));
+  for (const char* key : {"from", "to"}) {
+    const auto end = entry.find(key);
+    if (!end || !end->is_map()) continue;
+    const YamlValue event = end->keyed(lock_event_keys()).at("event");
+    model.when_read(Model::Stage::connections, [event, closes = key == std::string("from"), &lock, &model] {
+      EventRecord& record = event_record_named_by(event, model);
+      closes ? lock.close_at(record) : lock.open_at(record);
+    });
+  }
 }
 
 }  // namespace
@@ -116,6 +128,7 @@ void read_joint_actions(const YamlValue& entry, Joint& joint, Model& model, cons
       const LockTimes times = read_lock_times(*locked, moves);
       auto lock = std::make_unique<JointLock>(joint.name(), joint, k, times);
       if (const auto start = find(sorted[k], "start"); start && times.from == 0) lock->close_at(start->number());
+      read_lock_events(*locked, moves, *lock, model);
       model.add(std::move(lock), of_joint);
       joint.use(k).locked = true;
       if (const auto rate = find(sorted[k], "start_rate"); rate && times.from == 0)

@@ -13,7 +13,7 @@ void JointLock::declare(Declaration& declaration) const {
   Declaration::Scalar row{coordinate().name + " locked", coordinate().force_units()};
   row.switched = true;
   declaration.multipliers.push_back(row);
-  declaration.memory = {open, 0};  // status, and locked value of the coordinate
+  declaration.memory = {open, 0, 0};  // status, locked value of the coordinate, command of events
   if (!std::isfinite(times_.release)) return;
   EventFunction release{coordinate().name + " is released", EventFunction::Direction::rising};
   release.begins_on = -1;
@@ -44,7 +44,13 @@ void JointLock::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX
 
 void JointLock::describe(const LocalState& /*state*/, Description& description) const {
   std::string text = coordinate().name + " locked";
-  if (times_.from > 0) text += fmt::format(" from {:.6g} s", times_.from);
+  if (from_event_ >= 0)
+    text += " from an event on";
+  else if (std::isinf(times_.from))
+    text += " by events";
+  else if (times_.from > 0)
+    text += fmt::format(" from {:.6g} s", times_.from);
+  if (to_event_ >= 0) text += " until an event";
   if (std::isfinite(times_.to)) text += fmt::format(" to {:.6g} s", times_.to);
   if (std::isfinite(times_.release))
     text += fmt::format(", released at {:.6g} {}", times_.release, coordinate().force_units());
@@ -68,18 +74,33 @@ void JointLock::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX
   if (values.size() > 0) values[0] = std::abs(state.reaction()[0]) - times_.release;
 }
 
-bool JointLock::is_due(double time) const { return time >= times_.from && time < times_.to; }
+bool JointLock::is_due(const LocalState& state) const {
+  double from = times_.from;
+  if (from_event_ >= 0) {
+    if (!EventRecord::has_happened(state.of(from_event_))) return false;
+    from = EventRecord::time(state.of(from_event_));
+  }
+  if (state.time() < from) return false;
+  if (to_event_ < 0) return state.time() < times_.to;
+  const LocalState end = state.of(to_event_);
+  return !EventRecord::has_happened(end) || EventRecord::time(end) < from;
+}
 
 /// This only occurs if steps do not end on break points.
 bool JointLock::leaves_branch(const LocalState& state) const {
   const double status = state.memory()[0];
-  return status != released && is_due(state.time()) != (status == locked);
+  return status != released && is_wanted(state, state.memory()[command_place]) != (status == locked);
 }
 
 void JointLock::begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const {
-  if (!crossed.empty()) memory[0] = released;
+  double& command = memory[command_place];
+  if (!crossed.empty()) {
+    memory[0] = released;
+    command = 0;
+  }
+  if (memory[0] == released && command > 0) memory[0] = open;  // an event closes it again
   if (memory[0] == released) return;
-  const bool now = is_due(state.time());
+  const bool now = is_wanted(state, command);
   if (now && memory[0] == open) memory[1] = start_ ? *start_ : value(state).value;
   memory[0] = now ? locked : open;
 }

@@ -2,13 +2,15 @@
 //
 // The lock is a constraint q - q_lock = 0 that is switched on and off (Component::is_on). When the lock closes,
 // relative motion is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a
-// force, even if the force jumps beyond it.
+// force, even if the force jumps beyond it. Events may take the place of times, and actions of events close and open it
+// whatever its times are.
 #pragma once
 
 #include <limits>
 #include <optional>
 
 #include "mechanism/joints/actions/coordinate_action.hpp"
+#include "mechanism/measures/event_record.hpp"
 
 namespace bielle::mechanism {
 
@@ -24,6 +26,11 @@ class JointLock final : public CoordinateAction {
       : CoordinateAction("lock", std::move(name), joint, coordinate), times_(times) {}
   /// Sets the value of a lock that is closed from the beginning, if the file gives the coordinate's start value.
   void close_at(double value) { start_ = value; }
+  /// Lets the lock close when an event has occurred, or open when one has occurred since it closed, in place of times.
+  void close_at(const EventRecord& event) { from_event_ = references().add(event); }
+  void open_at(const EventRecord& event) { to_event_ = references().add(event); }
+  /// Index in the memory of the command of events: 1 closes the lock, -1 opens it, 0 leaves it to its times.
+  static constexpr int command_place = 2;
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -41,9 +48,11 @@ class JointLock final : public CoordinateAction {
 
  private:
   static constexpr double open = 0, locked = 1, released = 2;  ///< status in the memory
-  bool is_due(double time) const;
+  bool is_due(const LocalState& state) const;
+  bool is_wanted(const LocalState& state, double command) const { return command == 0 ? is_due(state) : command > 0; }
   double distance(const LocalState& state, double value) const;
   LockTimes times_;
+  int from_event_ = -1, to_event_ = -1;  ///< numbers among the references; -1: none
   std::optional<double> start_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/event_actions.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "reduce/common/error.hpp"
 
@@ -151,6 +152,11 @@ void March::begin_step(MarchStep& step) {
   if (is_short(h)) h = size_;  // the scheme's own values are for the steps that follow
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
+  begin_branches(h, step);
+}
+
+/// Begins the branches of events and kinks at the start of a step.
+void March::begin_branches(double h, MarchStep& step) {
   std::optional<Jump> jump;  // the last one, which is followed by the step
   if (pending_ == Pending::branch) begin_branch(h, jump);
   begun_anew_ = pending_ != Pending::nothing;
@@ -158,11 +164,33 @@ void March::begin_step(MarchStep& step) {
   if (!watch_.idle()) {
     pass_jumps(h, watch_.begin(integration_.state(), integration_.environment(), crossed_), jump, step);
   }
-  crossed_.clear();
+  if (!stopped_) crossed_.clear();
   if (!jump) return;
   begun_anew_ = true;
   integration_.start_branch(h, jump->time);
   if (jump_listener_) jump_listener_(*jump);
+}
+
+bool March::has_actions_to_do() const {
+  const System& system = integration_.system();
+  const auto acts = [&](int k) {
+    const MemberEventFunction& event = system.event_functions()[static_cast<std::size_t>(k)];
+    const Component* component = system.model().members()[event.member].component.get();
+    const auto* actions = dynamic_cast<const EventActions*>(component);
+    return actions && actions->has_actions();
+  };
+  return pending_ == Pending::branch && std::any_of(crossed_.begin(), crossed_.end(), acts);
+}
+
+void March::settle(MarchStep& step) {
+  if (!done() || !has_actions_to_do()) return;
+  const bool stopped = stopped_;
+  constexpr int most = 100;  // events may follow that stop the run as well
+  for (int k = 0; k < most && has_actions_to_do(); ++k) {
+    stopped_ = false;
+    begin_branches(size_, step);
+  }
+  stopped_ = stopped_ || stopped;
 }
 
 /// Treats events that were passed by a jump, at a discontinuity or when a short span's accelerations were solved for:
@@ -174,9 +202,10 @@ void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& j
     if (k == most) throw_chattering(jumped.front());
     crossed_.clear();
     note(jumped, step);
+    if (stopped_) return;  // the events that stopped the run may still have something to do, see settle
     const bool restarts = pending_ == Pending::branch;
     pending_ = Pending::nothing;
-    if (stopped_ || !restarts) return;
+    if (!restarts) return;
     begin_branch(h, jump);
     jumped = watch_.begin(integration_.state(), integration_.environment(), {}, k >= together);
   }

@@ -84,6 +84,9 @@ class March {
   /// @throws ComputationError if Newton's method also fails with the smallest steps: 1/1024 of the fixed size, or 1e-10
   ///         of the interval
   MarchStep advance();
+  /// Does what events at the end of the march still have to do: actions, and the impulses that follow. Nothing happens
+  /// while steps are left, which begin with it. @param step  receives events that follow at the same time
+  void settle(MarchStep& step);
   /// Warnings about formulas of time that change between steps, in this program's run. Adaptive steps give no warnings:
   /// such steps are rejected.
   std::vector<std::string> warnings() const { return adaptive() ? std::vector<std::string>() : pulses_.warnings(); }
@@ -122,6 +125,8 @@ class March {
   void count(const Plan& plan, const Trial& trial);
   void pass_noted(double begin, MarchStep& step);
   void begin_step(MarchStep& step);
+  void begin_branches(double h, MarchStep& step);
+  bool has_actions_to_do() const;
   void begin_branch(double h, std::optional<Jump>& before);
   void pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& jump, MarchStep& step);
   void note(const std::vector<int>& passed, MarchStep& step);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/solvers/constraints/activated_fit.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/dynamics/stabilised_equations.hpp"
 #include "mechanism/solvers/dynamics/start_values.hpp"
@@ -146,6 +147,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.prescribed = crossed.empty() && prescribed_rates_jump(system_, environment_, state, just_off(jump.time, h));
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
+  const VectorX memory = state.memory;
   const bool balanced = event_function_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
   if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
@@ -155,6 +157,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   StartReport report;
   KktMatrix& saddle = correction_.saddle();
   try {
+    check_activated_fit(system_, environment_, state, memory);
     if (holds_stop_more(system_, environment_, state, new_holds, saddle)) {
       refuse_holds(system_, environment_, state, std::move(new_holds), Overloaded::refused, saddle);
       make_consistent_anew(report);

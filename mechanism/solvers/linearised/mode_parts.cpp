@@ -122,7 +122,7 @@ MemberEnergies member_energies(const System& system, const Environment& environm
     const int size = slots.size(), positions = slots.first_order_row();
     Declaration declaration;
     component.declare(declaration);
-    if (declaration.passive || positions == 0) continue;
+    if (declaration.passive || positions == 0 || !system.is_active(state, static_cast<std::size_t>(m))) continue;
     const bool constrains = slots.multipliers > 0;
     if (!declaration.stiffness && !declaration.mass && !constrains) continue;
     if (const auto* pairs = dynamic_cast<const CoupledPairs*>(&component)) {

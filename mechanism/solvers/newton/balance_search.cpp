@@ -58,6 +58,7 @@ void BalanceSearch::evaluate(const State& state, const Environment& environment,
   terms_.setZero();
   if (with_slopes) J_.setZero();
   for (const Member& member : members_) {
+    if (!system_.is_active(state, member.number)) continue;
     const Slots& slots = system_.slots()[member.number];
     const Component& component = *system_.model().members()[member.number].component;
     const LocalState local(state, slots, environment);

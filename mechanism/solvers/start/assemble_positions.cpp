@@ -56,7 +56,7 @@ std::optional<State> turned_right(const System& system, const Environment& envir
   bool any = false;
   for (std::size_t m = 0; m < system.slots().size(); ++m) {
     const Slots& slots = system.slots()[m];
-    if (slots.multipliers == 0) continue;
+    if (slots.multipliers == 0 || !system.is_active(drawn, m)) continue;
     const Vector3 turn = system.model().members()[m].component->misalignment(LocalState(drawn, slots, environment));
     if (turn.norm() < quarter) continue;
     // The second node is rotated if it is free, otherwise the first one, in the opposite direction.

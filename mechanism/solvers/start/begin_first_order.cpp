@@ -42,6 +42,7 @@ bool begin_first_order(const System& system, const Environment& environment, Sta
   for (std::size_t pass = 0; pass <= beginning.size(); ++pass) {
     bool now = false;
     for (const std::size_t m : beginning) {
+      if (!system.is_active(state, m)) continue;
       const Slots& slots = system.slots()[m];
       VectorX change = VectorX::Zero(slots.size());
       system.model().members()[m].component->add_start_values(LocalState(state, slots, environment), change);

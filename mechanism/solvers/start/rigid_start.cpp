@@ -144,6 +144,7 @@ class RigidStart {
     for (std::size_t m = 0; m < system_.slots().size(); ++m) {
       const Slots& slots = system_.slots()[m];
       if (std::find(slots.nodes.begin(), slots.nodes.end(), index) == slots.nodes.end()) continue;
+      if (!system_.is_active(state_, m)) continue;
       const Component& component = *system_.model().members()[m].component;
       Declaration declaration;
       component.declare(declaration);

@@ -92,7 +92,8 @@ std::string Equilibrium::what_is_open(const State& state) const {
   std::string text;
   const auto& members = system_.model().members();
   for (std::size_t m = 0; m < members.size(); ++m)
-    if (const auto* contact = dynamic_cast<const OpenContact*>(members[m].component.get()))
+    if (const auto* contact = dynamic_cast<const OpenContact*>(members[m].component.get());
+        contact && system_.is_active(state, m))
       if (const std::string open = contact->what_is_open(LocalState(state, system_.slots()[m], environment_));
           !open.empty())
         text += fmt::format("; {} {}", describe(members[m]), open);

@@ -115,7 +115,16 @@ YamlValue YamlValue::child(const YamlNode& key, std::shared_ptr<const YamlNode> 
   YamlValue below(document_, std::move(value), path_of_key(path_, key.scalar), line);
   if (table_) return below.with_forms(key_of_table(key.scalar).forms);
   const KeyForm* form = form_of(forms(), KeyForm::Kind::entries);
-  return form ? below.with_forms(form->items.front()) : below;
+  if (!form) return below;
+  // A map that may be entries or a table is the table that has all its keys.
+  for (const KeyForm& other : forms()) {
+    if (other.kind != KeyForm::Kind::table) continue;
+    const KeyTable& table = other.table().of_map(*node_);
+    const bool fits = std::all_of(node_->pairs.begin(), node_->pairs.end(),
+                                  [&](const YamlNode::Pair& pair) { return table.find(pair.key->scalar) != nullptr; });
+    if (fits) return below.with_forms(table.find(key.scalar)->forms);
+  }
+  return below.with_forms(form->items.front());
 }
 
 void YamlValue::check_map(const std::string& expected) const {

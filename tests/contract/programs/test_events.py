@@ -34,12 +34,22 @@ analysis:
   - {type: dynamic, duration: DURATION, step: 1e-3}
 """
 
+# Actions: the catch opens and closes, a spring is let go and comes back, a force is set by formulas of events.
+ACTIONS = """\
+  again: {when: fast.count, crosses: 1.5, do: [{lock: tip}, {release: stay}, {set: {push: 2*fast.count}}]}
+  later: {when: "t - again.time", crosses: 0.1, do: [{unlock: tip}, {activate: stay}, {set: {push: push - 1}}]}
+inputs: {push: 0}
+loads: {wind: {node: flap, force: [0, 0, push]}}
+"""
+
 
 class Events(CommandTest):
     program = "bielle-mechanism"
 
+    model = MODEL
+
     def run_model(self, name, every, duration, *arguments):
-        self.write(f"{name}.yaml", MODEL.replace("EVERY", str(every)).replace("DURATION", str(duration)))
+        self.write(f"{name}.yaml", self.model.replace("EVERY", str(every)).replace("DURATION", str(duration)))
         done = self.run_program(f"{name}.yaml", *arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
         return int(re.search(r"(\d+) rows recorded", done.stdout)[1])
@@ -72,6 +82,24 @@ class Events(CommandTest):
                 self.assertEqual(sorted(found), sorted(expected))
                 for name, data in found.items():
                     np.testing.assert_array_equal(data[:], expected[name], err_msg=f"{name}, {keep}")
+
+    def test_a_restarted_run_with_actions_equals_the_whole_one(self):
+        self.model = MODEL.replace("output:", ACTIONS + "output:").replace(
+            "joints:", "  stay: {type: spring_damper, nodes: [ground, arm], stiffness: 20, damping: 1, length: 0.3}\njoints:")
+        self.test_a_restarted_run_equals_the_whole_one_events_and_all()
+        with h5py.File(os.path.join(self.folder, "whole.h5")) as whole:
+            names = whole["crossings"][()].decode().splitlines()
+            met = [names[int(k)] for k in whole["analysis_1/events/crossing"][:]]
+            self.assertEqual(met.count("event 'again': locks 'tip', releases 'stay', sets 'push' to 2*fast.count"), 1)
+            self.assertEqual(met.count("event 'later': unlocks 'tip', activates 'stay', sets 'push' to push - 1"), 1)
+            # The rows show the force of the spring as zero between the two.
+            time, force = whole["analysis_1/time"][:], whole["analysis_1/elements/stay/force"][:]
+            events = dict(zip(met, whole["analysis_1/events/time"][:]))
+            between = [moment for name, moment in events.items() if "'stay'" in name]
+            off = (time > between[0] + 1e-9) & (time < between[1] - 1e-9)
+            self.assertGreater(off.sum(), 50)
+            self.assertTrue(np.all(force[off] == 0) and np.all(force[time < between[0]] != 0))
+            np.testing.assert_array_equal(whole["measures/push"][:][time > between[1] + 1e-9], 3)
 
     def test_an_event_that_stops_ends_the_run_as_complete(self):
         self.write("model.yaml", """\

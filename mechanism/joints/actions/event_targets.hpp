@@ -1,0 +1,20 @@
+// The things that actions of events command: locks of joints and inputs.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/joints/actions/joint_lock.hpp"
+#include "mechanism/measures/input_measure.hpp"
+#include "mechanism/model/model.hpp"
+#include "reduce/common/input/yaml_file.hpp"
+
+namespace bielle::mechanism {
+
+/// Returns the locks of the coordinates that a value names: "knee" or "knee.angle". Coordinates without a lock get one
+/// that events alone close. @throws InputError naming the nearest name
+std::vector<const JointLock*> locks_named_by(const YamlValue& value, Model& model);
+
+/// Returns the input with a name. @throws InputError naming the nearest name
+const InputMeasure& input_named_by(const std::string& name, const YamlValue& value, Model& model);
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,72 @@
+#include "mechanism/reading/read_activity.hpp"
+
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mechanism/model/sought_effort.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr std::array releasable_sections = {Section::joints, Section::elements, Section::drives, Section::loads};
+
+/// Checks that an entry joins or pushes, when everything has been read. @throws InputError
+void check_releasable(const YamlValue& value, const Entry& entry, const Model& model) {
+  for (const Component* component : model.components_of(entry)) {
+    Declaration declaration;
+    component->declare(declaration);
+    if (declaration.mass || !declaration.amplitudes.empty())
+      value.fail(fmt::format("'{}' has inertia and is always active; release what joins it", entry.name));
+    if (dynamic_cast<const SoughtEffort*>(component))
+      value.fail(fmt::format("the effort of '{}' is sought by inverse dynamics, which knows no release", entry.name));
+    for (const Declaration::Scalar& unknown : declaration.first_order)
+      if (unknown.algebraic)
+        value.fail(
+            fmt::format("'{}' has the unknown '{}' without a rate, which could not stay as it is: it is always "
+                        "active",
+                        entry.name, unknown.name));
+  }
+}
+
+const Activity& checked_activity(const YamlValue& value, const Entry& entry, bool starts_active, Model& model) {
+  model.when_read(Model::Stage::formulas, [value, entry, &model] { check_releasable(value, entry, model); });
+  return activity_of(model, entry, starts_active);
+}
+
+}  // namespace
+
+Key activity_key() {
+  return {"active", keys::boolean(), keys::otherwise("true"),
+          "`false`: the entry adds nothing until an action of an event activates it."};
+}
+
+void read_activity(const YamlValue& entry, const Entry& own, Model& model) {
+  const auto active = entry.find("active");
+  if (!active || active->boolean()) return;
+  model.when_read(Model::Stage::connections,
+                  [active = *active, own, &model] { checked_activity(active, own, false, model); });
+}
+
+const Activity& activity_named_by(const YamlValue& value, Model& model) {
+  const std::string name = value.text();
+  std::vector<Entry> found;
+  std::vector<std::string> names, sections;
+  for (const Section section : releasable_sections) {
+    const std::vector<std::string>& all = model.names_in(section);
+    names.insert(names.end(), all.begin(), all.end());
+    if (model.members_of({section, name}).empty()) continue;
+    found.push_back({section, name});
+    sections.emplace_back(section_name(section));
+  }
+  if (found.empty())
+    value.fail(fmt::format("there is no joint, element, drive or load '{}'{}", name, did_you_mean(name, names)));
+  if (found.size() > 1)
+    value.fail(fmt::format("'{}' stands in {}: give the one that is meant another name", name,
+                           fmt::join(sections, " and in ")));
+  return checked_activity(value, found.front(), true, model);
+}
+
+}  // namespace bielle::mechanism
