@@ -15,6 +15,7 @@
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
 #include "mechanism/solvers/start/refused_holds.hpp"
+#include "mechanism/system/sampling.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -45,6 +46,7 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
   start_report_ = make_consistent(system_, environment_, step_.state());
   step_.take_rates();
   system_.accept(step_.state(), environment_);
+  if (take_samples(system_, step_.state(), environment_)) make_consistent_anew(start_report_);
   step_.trial() = step_.state();
   extrapolate_from_here();
 }
@@ -114,6 +116,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.before = system_.energy(state, environment_);
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
+  take_samples(system_, state, environment_);
   const bool balanced = event_function_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
   if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
@@ -286,10 +289,22 @@ StepReport TimeIntegration::attempt_settled(double h, double end, bool kink) {
   return report;
 }
 
+/// Components update their memory at the end of the trial. Samples that change values begin another branch: they are
+/// taken when it begins, so that the accepted state is the one just before them.
+/// @returns whether the motion goes on on another branch
+bool TimeIntegration::accept_trial() {
+  State& trial = step_.trial();
+  const bool branch_left = system_.accept(trial, environment_);
+  trial.time = end_;
+  const VectorX before = trial.memory;
+  if (!take_samples(system_, trial, environment_)) return branch_left;
+  trial.memory = before;
+  return true;
+}
+
 /// The scheme's own values do not apply to a short span.
 bool TimeIntegration::accept_short() {
-  const bool branch_left = system_.accept(step_.trial(), environment_);
-  step_.trial().time = end_;
+  const bool branch_left = accept_trial();
   step_.accept();
   step_.take_rates();
   newton_.forget_factors();
@@ -303,8 +318,7 @@ bool TimeIntegration::accept() {
   loss_.add(step_, environment_);
   step_.take_algorithmic_values();
   correction_.watch(step_);
-  const bool branch_left = system_.accept(step_.trial(), environment_);
-  step_.trial().time = end_;
+  const bool branch_left = accept_trial();
   step_.accept();
   step_.get_highest(highest_);
   extrapolation_.add(end_, highest_);
