@@ -49,13 +49,7 @@ bool SampledBlock::knows_memory(const LocalState& state) const {
 VectorX SampledBlock::input(const LocalState& state) const {
   const double t = state.time();
   VectorX u(static_cast<Eigen::Index>(inputs_.size()));
-  for (std::size_t k = 0; k < inputs_.size(); ++k) {
-    const double value = inputs_[k].value(state, {&t, 1});
-    if (!std::isfinite(value))
-      throw ComputationError(fmt::format("t = {:.6g} s: {} of state '{}' is not a finite number: {}", t,
-                                         inputs_[k].text(), name(), value));
-    u[static_cast<Eigen::Index>(k)] = value;
-  }
+  for (std::size_t k = 0; k < inputs_.size(); ++k) u[static_cast<Eigen::Index>(k)] = inputs_[k].value(state, {&t, 1});
   return u;
 }
 

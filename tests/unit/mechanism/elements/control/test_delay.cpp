@@ -131,8 +131,8 @@ TEST_CASE("delayed damping makes an oscillator unstable beyond the delay of theo
 
 TEST_CASE("kinks of a delayed measure come back after the delay, and a static analysis knows no delay") {
   const std::string text = rotor(
-      "states: {late: {delay: pulse, time: 0.25}, whole: {rate: late}}\n"
-      "measures: {pulse: \"if(t < 0.1234, 1, 0) + 0*main.angle\"}\n");
+      "states: {late: {delay: switched, time: 0.25}, whole: {rate: late}}\n"
+      "measures: {switched: \"if(t < 0.1234, 1, 0) + 0*main.angle\"}\n");
   // The past is a ramp over the step that follows the jump; its integral is that of the values.
   CHECK(last_value(text, 1, 0.01, "whole") == Approx(0.25 + 0.1234).margin(0.01));
   Session session =

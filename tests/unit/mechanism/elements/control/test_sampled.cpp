@@ -72,7 +72,7 @@ TEST_CASE("a sampled controller moves a rotor as the exact map from instant to i
 TEST_CASE("the account of energy is closed although the torque jumps at the instants") {
   // With constant torques the trapezoidal rule is exact for the power.
   Session session = session_of(controlled(", delay: 0.02"));
-  Motion motion = session.dynamics(steps_of(1, 0.01));
+  Motion motion = session.dynamics(steps_of(0.3, 0.01));
   motion.finish();
   CHECK(std::abs(motion.energy().input) > 0.1);
   CHECK(std::abs(motion.balance()) < 1e-10);
@@ -245,13 +245,17 @@ TEST_CASE("an event on a sampled value happens at its instant") {
 }
 
 TEST_CASE("a sampled value that is no number ends the motion and names the state") {
-  Session session = session_of(
-      rotor("drives: {m: {joint: main, angle: t}}\n"
-            "states: {held: {sampled: \"1/(main.angle - 0.3)^0\", period: 0.1}, r: {sampled: \"exp(5000*main.angle)\", "
-            "period: 0.1}}\n"));
-  Motion motion = session.dynamics(steps_of(1, 0.1));
-  CHECK_THAT(bielle::test::message_of<ComputationError>([&] { motion.finish(); }),
-             Contains("t = 0.2 s") && Contains("'r'") && Contains("not a finite number"));
+  const auto message = [](const std::string& keys) {
+    Session session =
+        session_of(rotor("drives: {m: {joint: main, angle: t}}\nstates: {r: {period: 0.1, " + keys + "}}\n"));
+    Motion motion = session.dynamics(steps_of(1, 0.1));
+    return bielle::test::message_of<ComputationError>([&] { motion.finish(); });
+  };
+  CHECK_THAT(message("sampled: \"exp(5000*main.angle)\""),
+             Contains("states.r.sampled") && Contains("t = 0.1") && Contains("larger than anything"));
+  // States 0, 1, 1e60, 1e120, .. beyond all numbers.
+  CHECK_THAT(message("sampled: [1], state_space: {A: [[1e60]], B: [[1]]}"),
+             Contains("t = 0.7 s") && Contains("'r'") && Contains("not a finite number"));
 }
 
 TEST_CASE("wrong sampled states are refused with a sentence") {
