@@ -23,7 +23,7 @@ Contact::Contact(std::string name, std::vector<ContactShape> shapes, std::vector
       shapes_(std::move(shapes)),
       pairs_(std::move(pairs)),
       law_(std::move(law)),
-      frictionless_{law_.normal, {}},
+      frictionless_{law_.normal, {}, {}},
       near_pairs_(static_cast<int>(shapes_.size()), pairs_),
       thinnest_(std::numeric_limits<double>::infinity()) {
   for (const ContactShape& shape : shapes_) {
@@ -43,7 +43,7 @@ Contact::Contact(std::string name, std::vector<ContactShape> shapes, std::vector
 void Contact::declare(Declaration& declaration) const {
   declaration.nodes = nodes_;
   declaration.stiffness = declaration.in_blocks = declaration.kinks = true;
-  declaration.damping = law_.friction || law_.normal.damping > 0 || remembers_touches();
+  declaration.damping = law_.friction || law_.rolling || law_.normal.damping > 0 || remembers_touches();
   declaration.memory.assign(1 + 3 * shapes_.size(), std::numeric_limits<double>::quiet_NaN());
   if (remembers_touches()) declaration.memory.resize(declaration.memory.size() + pairs_.size(), apart);
   if (has_bristles())
@@ -455,6 +455,9 @@ void Contact::describe(const LocalState& state, Description& description) const 
   if (shapes_.size() > most) description.add_line(fmt::format("and {} more shapes", shapes_.size() - most));
   description.add(law_.normal.describe());
   if (law_.friction) description.add(law_.friction->describe());
+  if (law_.rolling)
+    description.add(fmt::format("rolling resistance with an arm of {:.6g} m, smooth within {:.6g} rad/s",
+                                law_.rolling->kinetic, law_.rolling->velocity));
   description.add(fmt::format("smallest gap {:.6g} m", nearest_of_all(state).found.gap));
 }
 

@@ -74,25 +74,31 @@ const KeyTable& shape_keys() {
     const KeyForm size = number("m").positive();
     return KeyTable{
         "a shape of a contact", "A shape on a node, which pushes others away.",
-        joined({{{"node", name_of("node"), required, "Node that carries the shape."},
-                 {"at", vector3("m").as_point(), otherwise("[0, 0, 0]"),
-                  "Middle of the shape, point of a plane or origin of a surface's file, in the axes of the node."}},
-                orientation_keys(),
-                {{"sphere", size, optional, "Sphere, by its radius."},
-                 {"plane", direction().as_vector(), optional,
-                  "Plane, by its normal towards the outside in the axes of the node; everything below is solid. Planes "
-                  "do not touch planes."},
-                 {"capsule", list_of(2, size), optional,
-                  "Capsule along z: radius, and length between the middles of its round ends."},
-                 {"cylinder", list_of(2, size), optional, "Cylinder along z: radius and length."},
-                 {"box", list_of(3, size), optional, "Box: lengths along x, y, z."},
-                 {"surface", file("STL"), optional,
-                  "Closed or open surface of triangles, anticlockwise seen from outside; the file is binary or text. "
-                  "Surfaces do not touch surfaces."},
-                 {"units", word({"m", "mm", "cm", "inch"}, "a unit of length"), otherwise("m"),
-                  "Unit of length of the surface's file."},
-                 {"rounding", size, computed("5 % of the thinnest dimension"),
-                  "Radius by which the edges of a box or cylinder are rounded."}}})};
+        joined(
+            {{{"node", name_of("node"), required, "Node that carries the shape."},
+              {"at", vector3("m").as_point(), otherwise("[0, 0, 0]"),
+               "Middle of the shape, point of a plane or origin of a surface's file, in the axes of the node."}},
+             orientation_keys(),
+             {{"sphere", size, optional, "Sphere, by its radius."},
+              {"plane", direction().as_vector(), optional,
+               "Plane, by its normal towards the outside in the axes of the node; everything below is solid. Planes "
+               "do not touch planes."},
+              {"capsule", list_of(2, size), optional,
+               "Capsule along z: radius, and length between the middles of its round ends."},
+              {"cylinder", list_of(2, size), optional, "Cylinder along z: radius and length."},
+              {"box", list_of(3, size), optional, "Box: lengths along x, y, z."},
+              {"surface", file("STL"), optional,
+               "Closed or open surface of triangles, anticlockwise seen from outside; the file is binary or text. "
+               "Surfaces do not touch surfaces."},
+              {"units", word({"m", "mm", "cm", "inch"}, "a unit of length"), otherwise("m"),
+               "Unit of length of the surface's file."},
+              {"rounding", size, computed("5 % of the thinnest dimension"),
+               "Radius by which the edges of a box or cylinder are rounded."},
+              {"velocity", vector3("m/s").as_vector(), otherwise("[0, 0, 0]"),
+               "Velocity of the surface's material on the node (a conveyor belt), in the node's axes, for `friction` "
+               "of the model `coulomb`."},
+              {"angular_velocity", vector3("rad/s").as_axial(), otherwise("[0, 0, 0]"),
+               "Angular velocity of the material about `at` (a turntable), likewise."}}})};
   }();
   return table;
 }
@@ -117,6 +123,8 @@ ContactShape read_shape(const YamlValue& given, const Model& model) {
     rounding->fail("belongs to a box or a cylinder");
   if (const auto units = entry.find("units"); units && shape.kind != ContactShape::Kind::surface)
     units->fail("belongs to a `surface`; all else is in metres");
+  shape.belt_velocity = shape.frame.R.transpose() * entry.at("velocity").vector3();
+  shape.belt_spin = shape.frame.R.transpose() * entry.at("angular_velocity").vector3();
   shape.complete();
   return shape;
 }
@@ -133,6 +141,18 @@ struct ReadShapes {
   std::vector<YamlValue> entries;
   std::vector<int> group;  ///< shapes of one group do not touch; -1: in no group
 };
+
+/// Materials of surfaces that move act by friction alone, and bristles do not follow them.
+void check_belts(const ReadShapes& read, const SurfaceLaw& law) {
+  for (std::size_t k = 0; k < read.shapes.size(); ++k) {
+    if (!read.shapes[k].has_belt()) continue;
+    const YamlValue& entry = read.entries[k];
+    const YamlValue given = entry.at(entry.has("velocity") ? "velocity" : "angular_velocity");
+    if (!law.friction) given.fail("has an effect only with `friction` of the contact");
+    if (law.friction->model != FrictionLaw::Model::coulomb)
+      given.fail("goes with the friction `model: coulomb`: bristles do not follow a surface that moves on its body");
+  }
+}
 
 ReadShapes read_shapes(const YamlValue& entry, const Model& model) {
   if (entry.has("shapes") == entry.has("between"))
@@ -202,7 +222,11 @@ const KeyTable& contact_keys() {
                  {"between", list_of(2, list_of(shape).items_at_least(1)), optional,
                   "Two lists of shapes, in place of `shapes`: those of one list touch those of the other alone."}},
                 keys_of_normal_law(),
-                {{"friction", nested(contact_friction_keys), optional, "Friction of the surfaces."}}})};
+                {{"friction", nested(contact_friction_keys), optional, "Friction of the surfaces."},
+                 {"rolling_resistance", number("m").non_negative(), optional,
+                  "Arm b of a couple against rolling, b times the normal force."},
+                 {"rolling_rate", number("rad/s").positive(), otherwise("0.01"),
+                  "Angular velocity w_0 within which the couple is smooth, b N tanh(w/w_0)."}}})};
   }();
   return table;
 }
@@ -213,7 +237,16 @@ void read_contact(const std::string& name, const YamlValue& entry, Model& model)
   if (const auto friction = entry.find("friction")) {
     law.friction = read_friction_law(*friction);
   }
+  if (const auto rolling = entry.find("rolling_resistance")) {
+    law.rolling.emplace();
+    law.rolling->kinetic = law.rolling->sticking = rolling->number();
+    law.rolling->velocity = entry.at("rolling_rate").number();
+    if (law.rolling->kinetic == 0) law.rolling.reset();
+  } else if (const auto rate = entry.find("rolling_rate")) {
+    rate->fail("belongs to a `rolling_resistance`");
+  }
   ReadShapes read = read_shapes(entry, model);
+  check_belts(read, law);
   std::vector<std::pair<int, int>> pairs = pairs_of(read, entry, model);
   auto contact = std::make_unique<Contact>(name, std::move(read.shapes), std::move(pairs), law);
   std::string depth;

@@ -87,6 +87,27 @@ Triple<T> velocity_at(const SeenFromFirst<T>& seen, const Triple<T>& place) {
   return seen.s_rate + cross(seen.turning, place - seen.s);
 }
 
+/// Velocity of a surface's material relative to its node.
+template <class T>
+Triple<T> belt_at(const PlacedShape<T>& placed, const Triple<T>& place) {
+  Triple<T> velocity, spin;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    velocity += T(placed.shape->belt_velocity[i]) * placed.axes[k];
+    spin += T(placed.shape->belt_spin[i]) * placed.axes[k];
+  }
+  return velocity + cross(spin, place - placed.origin);
+}
+
+/// Velocity of the second surface's material relative to the first one's that their motion on the bodies adds.
+template <class T>
+Triple<T> velocity_of_belts(const SeenFromFirst<T>& seen, const Triple<T>& place) {
+  Triple<T> u;
+  if (seen.second.shape->has_belt()) u += belt_at(seen.second, place);
+  if (seen.first.shape->has_belt()) u = u - belt_at(seen.first, place);
+  return u;
+}
+
 /// The motion from the last accepted state to this one, seen from the first body.
 template <class T>
 class StepOfPair {
@@ -170,10 +191,19 @@ void add_touch(const Touch<T>& touch, const SeenFromFirst<T>& seen, const Surfac
     wrench.input -= value_of(load) * stored;
     wrench.dissipation += value_of(load) * (value_of(dot(pull, across)) - stored);
   } else if (law.friction && value_of(touch.load) > 0) {
-    const Triple<T> across = v - along * touch.normal;
+    const Triple<T> belts = velocity_of_belts(seen, touch.place), moving = v + belts;
+    const Triple<T> across = moving - dot(touch.normal, moving) * touch.normal;
     const T squared = dot(across, across);
     const T slope = touch.load * push * friction_slope(*law.friction, squared);
     force = force - slope * across;
+    wrench.dissipation += value_of(slope) * value_of(squared);
+    wrench.input += value_of(slope) * value_of(dot(across, belts));
+  }
+  if (law.rolling && value_of(touch.load) > 0) {
+    const Triple<T> rolls = seen.turning - dot(touch.normal, seen.turning) * touch.normal;
+    const T squared = dot(rolls, rolls);
+    const T slope = touch.load * push * friction_slope(*law.rolling, squared);
+    wrench.moment = wrench.moment - slope * rolls;
     wrench.dissipation += value_of(slope) * value_of(squared);
   }
   wrench.force += force;

@@ -19,6 +19,11 @@
 // z^2/mu + sigma_1 u . v_t + sigma_2 v_t^2] >= 0; the power stored and returned by bristles, L sigma_0 z . u, counts as
 // input. If a corner touches a surface at several places, each place takes over the bristle of the nearest earlier
 // place on the surface, provided that it is also the nearest place to that one.
+//
+// A surface whose material moves on its body (a conveyor belt, a turntable) adds the difference u of the two surfaces'
+// velocities to v_t; the power of the friction force along u is input of the belts' motors.
+// Rolling resistance is a couple -L max(0, 1 + d pdot) b tanh(w/w_0) w_t/w against the part w_t, normal to n, of the
+// relative angular velocity, w = |w_t|; b [m] is the arm by which the normal force is displaced.
 #pragma once
 
 #include <optional>
@@ -33,6 +38,7 @@ namespace bielle::mechanism {
 struct SurfaceLaw {
   NormalLaw normal;
   std::optional<FrictionLaw> friction;
+  std::optional<FrictionLaw> rolling;  ///< `coulomb` with the arm b [m] as coefficient, w_0 [rad/s] as velocity
 };
 
 /// The bristle of a place of contact at the end of the last accepted step.

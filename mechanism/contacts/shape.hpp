@@ -27,6 +27,10 @@ struct ContactShape {
   Vector3 half = Vector3::Zero();  ///< half the edges of a box [m]
   double rounding = 0;             ///< rounding radius of a box or cylinder [m]
   std::shared_ptr<const TriangleSurface> surface;
+  /// Velocity of the surface's material relative to the node (a conveyor belt), at the frame's origin, and its angular
+  /// velocity about it (a turntable), in the frame's axes [m/s], [rad/s].
+  Vector3 belt_velocity = Vector3::Zero(), belt_spin = Vector3::Zero();
+  bool has_belt() const { return !belt_velocity.isZero(0) || !belt_spin.isZero(0); }
 
   const char* kind_name() const;
   std::string describe() const;

@@ -204,6 +204,19 @@ std::vector<Sample> contact_samples() {
                           {{"friction.bristle_stiffness", "", ""}, {"friction.velocity", "1", "model: coulomb"}},
                           "stiffness: 3, damping: 0.1, friction: {model: lugre, coefficient: 0.4, static: 0.6, "
                           "stribeck_velocity: 2, viscous: 0.1, bristle_stiffness: 1.5, bristle_damping: 0.8}"));
+  // Surfaces whose material moves on their bodies, and rolling resistance.
+  list.push_back(touching(
+      "belts and rolling resistance",
+      "shapes: [{node: a, sphere: 1.1, at: [0.1, 0, 0], velocity: [0.5, -0.4, 0.3], angular_velocity: [0.2, 0.3, "
+      "-0.6]}, "
+      "{node: b, box: [1.2, 1.1, 1.3], rounding: 0.3, angular_velocity: [-0.5, 0.1, 0.7]}], rolling_resistance: 0.3, "
+      "rolling_rate: 1.2",
+      {{"shapes.0.velocity", "[1, 2]", ""},
+       {"friction.model", "lugre", ""},
+       {"friction", "", "has an effect only with `friction`"},
+       {"rolling_resistance", "-1", ""},
+       {"rolling_resistance", "", "belongs to a `rolling_resistance`"},
+       {"rolling_rate", "0", "greater than 0"}}));
   // Quantities of a contact in formulas: a spring between the nodes uses them.
   Sample measured{Section::elements,
                   "spring_damper",

@@ -86,10 +86,36 @@ std::vector<Sample> controllers() {
   return list;
 }
 
+std::vector<Sample> motors() {
+  std::vector<Sample> list;
+  list.push_back(with_keys("hinge", "motor",
+                           "motor: {voltage: \"2*sin(t) - 0.3*axle.angle - 0.1*axle.angle.rate - 0.4*it.current\", "
+                           "resistance: 0.7, inductance: 0.4, torque_constant: 0.6, back_emf: 0.5, gear_ratio: 1.5, "
+                           "friction: 0.2}, release: 2",
+                           {{"motor.voltage", "x", "x"},
+                            {"motor.voltage", "", "voltage"},
+                            {"motor.voltage", "it.power", ""},
+                            {"motor.resistance", "0", "greater than 0"},
+                            {"motor.inductance", "-1", ""},
+                            {"motor.torque_constant", "0", "no torque"},
+                            {"motor.gear_ratio", "0", "no torque"},
+                            {"motor.friction", "-1", ""},
+                            {"motor.coordinate", "angel", "did you mean 'angle'"},
+                            {"limit", "3", "limit its voltage"},
+                            {"coordinate", "angle", "within `motor`"}}));
+  list.push_back(with_keys("cylindrical", "motor without inductance",
+                           "motor: {coordinate: displacement, voltage: \"t - axle.angle\", resistance: 0.7, "
+                           "torque_constant: 0.6}",
+                           {{"motor.coordinate", "", "several coordinates"}}));
+  list.back().has_no_power = true;  // in random states the current is not that of its algebraic equation
+  return list;
+}
+
 }  // namespace
 
 std::vector<Sample> drive_samples() {
   std::vector<Sample> list = controllers();
+  for (Sample& each : motors()) list.push_back(std::move(each));
   // Formulas of the state: every kind of measure.
   const std::string everything =
       "2 + axle.angle*sin(t) - 0.3*axle.angle.rate + 0.1*axle.reaction.x - 0.2*axle.reaction.rz + "

@@ -262,6 +262,33 @@ elements:
   return sample;
 }
 
+/// Aerodynamic forces on a curved and twisted beam.
+Sample airfoil() {
+  Sample sample{Section::elements,
+                "beam",
+                "airfoil",
+                two_nodes + R"yaml(
+elements:
+  it:
+    type: beam
+    nodes: [a, b]
+    elements: 2
+    arc_through: [0.7, 0.5, 0.3]
+    twist: 0.4
+    section: {EA: 4, GAy: 2, GAz: 3, GJ: 1, EIy: 2, EIz: 1}
+    airfoil: {chord: "0.5 + 0.3*s", twist: "0.2 - 0.4*s", at: [0.1, -0.05], lift: "2*sin(2*alpha)", drag: "0.1 + sin(alpha)^2", moment: "-0.1*cos(alpha)", density: 0.8, wind: ["3 + s", "7*cos(t)", "5 - s*t"]}
+)yaml",
+                {{"airfoil.chord", "s", "chord greater than 0"},
+                 {"airfoil.chord", "", "chord"},
+                 {"airfoil.lift", "2*beta", "beta"},
+                 {"airfoil.lift", "", "lift"},
+                 {"airfoil.density", "-1", ""},
+                 {"airfoil.wind", "[1, 2]", ""},
+                 {"airfoil.at", "[1]", ""}}};
+  sample.inertial = true;  // the wind
+  return sample;
+}
+
 Sample dead_line_load() {
   return loaded_beam(
       "dead line load",
@@ -474,6 +501,7 @@ loads:
 }  // namespace
 
 std::vector<Sample> element_samples() {
+<<<<<<< HEAD
   std::vector<Sample> list = {
       rigid_body(),
       turned_body(),
@@ -504,6 +532,32 @@ std::vector<Sample> element_samples() {
       superelement_with_points("named points", "point: core", "point: rim"),
       dead_load(),
       follower_load()};
+=======
+  std::vector<Sample> list = {rigid_body(),
+                              turned_body(),
+                              solid_body(),
+                              drilled_body(),
+                              shaped_body(),
+                              point_mass(),
+                              beam(),
+                              curved_beam(),
+                              tapered_beam(),
+                              tapered_shape(),
+                              dead_line_load(),
+                              follower_line_load(),
+                              airfoil(),
+                              spring(),
+                              spring_by_formula(),
+                              timed_spring(),
+                              following_spring(),
+                              superelement_with_followers(),
+                              superelement_with_dead_load(),
+                              superelement_with_free_directions(),
+                              superelement_with_points("points", "at: [0.55, -0.07, 0.17]", "at: [0.92, 0.09, 0.25]"),
+                              superelement_with_points("named points", "point: core", "point: rim"),
+                              dead_load(),
+                              follower_load()};
+>>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
   for (Sample& sample : beams_of_sections()) list.push_back(std::move(sample));
   return list;
 }

@@ -90,6 +90,27 @@ Sample state_space() {
        {"units", "[N]", "one for each output"}}};
 }
 
+Sample sampled(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
+  bad.push_back({"period", "0", "at least"});
+  bad.push_back({"period", "", "period"});
+  bad.push_back({"delay", "0.3", "exceeds the period"});
+  bad.push_back({"limit", "[2, 1]", "lower limit first"});
+  return {Section::states, "state", variant, states("  it: {period: 0.2, " + keys + "}\n"), std::move(bad)};
+}
+
+Sample delay() {
+  return {Section::states,
+          "state",
+          "delay",
+          states("  it: {delay: \"axle.angle*axle.angle.rate\", time: 0.2, points: 20}\n"
+                 "  other: {rate: \"it - other\"}\n"),
+          {{"delay", "axle.angel", "did you mean 'angle'"},
+           {"delay", "it", "refers to itself"},
+           {"time", "0", "greater than 0"},
+           {"time", "", "time"},
+           {"points", "3", "between 4"}}};
+}
+
 }  // namespace
 
 std::vector<Sample> state_samples() {
@@ -103,7 +124,21 @@ std::vector<Sample> state_samples() {
               {"damping", "0.5", "frequency"}}),
       filter("filter of second order", "frequency: 0.3, damping: 0.6, start: 0.4, scale: 3", {{"start", "much", ""}}),
       transfer_function(),
+<<<<<<< HEAD
       state_space()};
+=======
+      state_space(),
+      delay(),
+      sampled("sampled", "sampled: \"axle.angle*(1 + t) + 0.1*it\", delay: 0.1, quantum: 0.01, start: 0.3",
+              {{"sampled", "axle.angel", "did you mean 'angle'"}, {"start", "[1, 2]", "a list of 1"}}),
+      sampled("sampled PID controller",
+              "sampled: axle.angle, pid: {kp: 2, ki: 3, kd: 0.1, filter: 0.1}, "
+              "limit: [-1, 1]",
+              {{"pid", "{}", "at least one"}, {"pid.filter", "-1", ""}}),
+      sampled("sampled state space",
+              "sampled: [axle.angle, it.y2], state_space: {A: [[0.5, 1], [0, 0.3]], B: [[1, 0], [0, 1]]}",
+              {{"sampled", "[it.y3, t]", "has no 'y3'"}, {"units", "[N]", "one for each output"}})};
+>>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
 }
 
 }  // namespace bielle::laws

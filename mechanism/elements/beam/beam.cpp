@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "mechanism/elements/beam/airfoil_load.hpp"
 #include "mechanism/elements/beam/beam_element.hpp"
 #include "mechanism/elements/beam/beam_geometry.hpp"
 #include "mechanism/elements/beam/distributed_load.hpp"
@@ -76,7 +78,8 @@ const KeyTable& beam_keys() {
        {"distributed",
         {nested(line_load_keys), list_of(nested(line_load_keys)).items_at_least(1)},
         optional,
-        "Load per length, or a list of such loads."}}};
+        "Load per length, or a list of such loads."},
+       {"airfoil", nested(airfoil_keys), optional, "Aerodynamic forces along the beam."}}};
   return table;
 }
 
@@ -89,6 +92,8 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   const SectionLaw section(entry.at("section"));
   const auto distributed = entry.find("distributed");
   const std::vector<LineLoad> loads = distributed ? read_line_loads(*distributed, count) : std::vector<LineLoad>{};
+  std::optional<Airfoil> airfoil;
+  if (const auto given = entry.find("airfoil")) airfoil = read_airfoil(*given);
   const BeamLine line = read_beam_line(entry, model.node(ends[0]).frame.x, model.node(ends[1]).frame.x);
   const Matrix6 stiffness = section.at(0.5).stiffness;
   if (const double thickness = 2 * std::sqrt(std::max(stiffness(4, 4), stiffness(5, 5)) / stiffness(0, 0));
@@ -126,7 +131,13 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
                                             section.over(s_A, s_B), damping_time, law),
               own, Recorded::stacked);
     const BeamSpan span{nodes[i], nodes[i + 1], R_A, R_B, {line.length() / count, 0, 0}, s_A, s_B};
+<<<<<<< HEAD
     for (const LineLoad& load : loads) model.add(std::make_unique<DistributedLoad>(name, span, load), own);
+=======
+    for (const LineLoad& load : loads)
+      model.add(std::make_unique<DistributedLoad>(name, span, load), own, Recorded::no);
+    if (airfoil) model.add(std::make_unique<AirfoilLoad>(name, span, *airfoil), own, Recorded::no);
+>>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
   }
   model.add_chain(own, nodes);
   std::vector<std::vector<double>> turns;  // from the axes of the end nodes to those of the sections

@@ -50,122 +50,59 @@ double integral(const std::vector<double>& ends, int parts, const Value& value) 
   return sum;
 }
 
-/// W_B: maps a small rotation of end B to that of the section at z.
-Matrix3 end_share(double z, const Vector3& psi) { return z * tangent(z * psi) * tangent_inverse(psi); }
-
-/// d(W_B^T n)/dpsi with n fixed:  W_B^T n = z T^-T(psi) p,   p = T(z psi)^T n.
-Matrix3 end_share_gradient(double z, const Vector3& psi, const Vector3& n) {
-  const Matrix3 T = tangent(z * psi);
-  Matrix3 p_gradient;
-  for (int j = 0; j < 3; ++j) p_gradient.col(j) = z * tangent_derivative(z * psi, Vector3::Unit(j)).transpose() * n;
-  return z * (inverse_transpose_gradient(psi, T.transpose() * n) + tangent_inverse(psi).transpose() * p_gradient);
-}
-
 }  // namespace
 
 DistributedLoad::DistributedLoad(std::string name, const BeamSpan& span, LineLoad load)
-    : Component("beam", std::move(name)), span_(span), load_(std::move(load)) {
-  const double L = span.chord.norm();
-  const std::vector<double> ends = pieces(load_, span.s_A, span.s_B);
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-    for (std::size_t g = 0; g < 3; ++g) {
-      const double part = ends[k + 1] - ends[k], z = ends[k] + part * Gauss3::place[g];
-      const Vector3 bubble = 0.5 * z * (1 - z) * span.chord;
-      points_.push_back({L * part * Gauss3::weight[g], z, {1 - z, z}, {span.R_A * bubble, -(span.R_B * bubble)}});
-    }
-}
+    : Component("beam", std::move(name)),
+      span_(span),
+      load_(std::move(load)),
+      points_(span_points(span, pieces(load_, span.s_A, span.s_B))) {}
 
 void DistributedLoad::declare(Declaration& declaration) const {
   declaration.nodes = {span_.node_a, span_.node_b};
   declaration.stiffness = true;
 }
 
-/// The section at a point: its axes and load.
-struct DistributedLoad::Section {
-  Vector3 psi;
-  Matrix3 S;                 ///< section axes -> inertial
-  std::array<Matrix3, 2> W;  ///< maps dTheta of the section frames at the ends to that of the section
-  Vector3 F, M;              ///< as given, multiplied by the load factor
-  Vector3 f, n;              ///< force (inertial) and moment about the line (section axes), per length
-};
-
-DistributedLoad::Section DistributedLoad::section(const LocalState& state, const Point& p) const {
-  Section at;
-  const Matrix3 S_A = state.node(0).R * span_.R_A, S_B = state.node(1).R * span_.R_B;
-  at.psi = log_so3(S_A.transpose() * S_B);
-  at.S = S_A * exp_so3(p.z * at.psi);
-  at.W = {end_share(1 - p.z, -at.psi), end_share(p.z, at.psi)};
-  const double s = span_.s_A + p.z * (span_.s_B - span_.s_A), factor = state.environment().load_factor;
-  at.F = factor * evaluate(load_.force, s, state.time());
-  at.M = factor * evaluate(load_.moment, s, state.time());
-  at.f = load_.follower ? Vector3(at.S * at.F) : at.F;
-  at.n = (load_.follower ? at.M : Vector3(at.S.transpose() * at.M)) + load_.at.cross(at.S.transpose() * at.f);
-  return at;
+DistributedLoad::Load DistributedLoad::load(const LocalState& state, const SpanPoint& point,
+                                            const SpanSection& at) const {
+  Load load;
+  const double s = point.along(span_), factor = state.environment().load_factor;
+  load.F = factor * evaluate(load_.force, s, state.time());
+  load.M = factor * evaluate(load_.moment, s, state.time());
+  load.on_line.f = load_.follower ? Vector3(at.S * load.F) : load.F;
+  load.on_line.n = (load_.follower ? load.M : Vector3(at.S.transpose() * load.M)) +
+                   load_.at.cross(at.S.transpose() * load.on_line.f);
+  return load;
 }
 
 void DistributedLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
-  for (const Point& p : points_) {
-    const Section at = section(state, p);
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto x = static_cast<Eigen::Index>(6 * k);
-      r.segment<3>(x) -= p.w * p.N[k] * at.f;
-      r.segment<3>(x + 3) -= p.w * (p.a[k].cross(state.node(static_cast<int>(k)).R.transpose() * at.f) +
-                                    R_S[k] * at.W[k].transpose() * at.n);
-    }
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    add_span_residual(span_, point, at, load(state, point, at).on_line, state, r);
   }
 }
 
-// clang-format off
-// Columns dTheta_j, with  dTheta(z) = W_j R_Sj^T dTheta_j  and  dpsi = -T^-T R_SA^T dTheta_A + T^-1 R_SB^T dTheta_B:
-//   row x_i       -w N_i df                                            df = -S F~ dTheta(z)  for followers, else 0
-//   row Theta_i   -w [ a_i~ (R_i^T f)~ dTheta_i + a_i~ R_i^T df + R_Si (W_i^T dn + d(W_i^T n)/dpsi dpsi) ]
-//                                            dn = ((S^T M)~ + c~ (S^T F)~) dTheta(z)  for dead loads, else 0
-// clang-format on
+/// df = -S F~ dTheta(z) for followers, else 0;  dn = ((S^T M)~ + c~ (S^T F)~) dTheta(z) for dead loads, else 0.
 void DistributedLoad::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
-  auto K = tangent.K.dense();
-  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
-  for (const Point& p : points_) {
-    const Section at = section(state, p);
-    Matrix3 f_gradient = Matrix3::Zero(), n_gradient = Matrix3::Zero();
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    const Load here = load(state, point, at);
+    Matrix3 f_turn = Matrix3::Zero(), n_turn = Matrix3::Zero();
     if (load_.follower)
-      f_gradient = -at.S * skew(at.F);
+      f_turn = -at.S * skew(here.F);
     else
-      n_gradient = skew(at.S.transpose() * at.M) + skew(load_.at) * skew(at.S.transpose() * at.F);
-    const Matrix3 T_inverse = tangent_inverse(at.psi);
-    const std::array<Matrix3, 2> psi_gradient{-T_inverse.transpose(), T_inverse};
-    const std::array<Matrix3, 2> W_gradient{-end_share_gradient(1 - p.z, -at.psi, at.n),
-                                            end_share_gradient(p.z, at.psi, at.n)};
-    for (std::size_t i = 0; i < 2; ++i) {
-      const auto x_i = static_cast<Eigen::Index>(6 * i), Theta_i = x_i + 3;
-      const Matrix3& R_i = state.node(static_cast<int>(i)).R;
-      const Matrix3 a_i = skew(p.a[i]);
-      for (std::size_t j = 0; j < 2; ++j) {
-        const auto Theta_j = static_cast<Eigen::Index>(6 * j + 3);
-        const Matrix3 section_turn = at.W[j] * R_S[j].transpose();
-        K.block<3, 3>(x_i, Theta_j) -= p.w * p.N[i] * f_gradient * section_turn;
-        K.block<3, 3>(Theta_i, Theta_j) -=
-            p.w * (a_i * R_i.transpose() * f_gradient * section_turn +
-                   R_S[i] * (at.W[i].transpose() * n_gradient * at.W[j] + W_gradient[i] * psi_gradient[j]) *
-                       R_S[j].transpose());
-      }
-      K.block<3, 3>(Theta_i, Theta_i) -= p.w * a_i * skew(R_i.transpose() * at.f);
-    }
+      n_turn = skew(at.S.transpose() * here.M) + skew(load_.at) * skew(at.S.transpose() * here.F);
+    add_span_tangent(span_, point, at, here.on_line, f_turn, n_turn, state, tangent.K.dense());
   }
 }
 
 void DistributedLoad::add_energy(const LocalState& state, Energy& energy) const {
-  const std::array<Matrix3, 2> R_S{span_.R_A, span_.R_B};
-  for (const Point& p : points_) {
-    const Section at = section(state, p);
-    Vector3 v = Vector3::Zero(), Omega = Vector3::Zero();
-    for (std::size_t k = 0; k < 2; ++k) {
-      const NodeState& node = state.node(static_cast<int>(k));
-      v += p.N[k] * node.v + node.R * node.Omega.cross(p.a[k]);
-      Omega += at.W[k] * R_S[k].transpose() * node.Omega;
-    }
-    energy.input += p.w * (at.f.dot(v) + at.n.dot(Omega));
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    const SpanForce here = load(state, point, at).on_line;
+    energy.input +=
+        point.w * (here.f.dot(span_velocity(point, state)) + here.n.dot(span_angular_velocity(span_, at, state)));
   }
 }
 

@@ -1,19 +1,14 @@
 // Force and moment per length along a beam: weight, wind, stream pressure, thrust.
 //
-// At z in [0, 1] of an element between nodes A and B (section axes S_k = R_k R_Sk, psi = log(S_A^T S_B), length L of
-// the reference) the load acts on the line and on the section
-//     x(z) = (1-z) x_A + z x_B + z (1-z) L (S_A e_x - S_B e_x)/2,     S(z) = S_A exp(z psi)
-//     dx = sum_k (N_k dx_k - R_k a_k~ dTheta_k),    dTheta(z) = sum_k W_k R_Sk^T dTheta_k
-//     W_B = z T(z psi) T^-1(psi),   W_A similarly with 1-z and -psi.
-// The line is that of the element's inertia (beam_inertia.hpp): a force m g per length is the weight of the beam, up to
-// rounding. With the force f, and the moment n about the line in section axes, per length,
+// The load acts on the line of an element (span_load.hpp), which is that of its inertia: a force m g per length is the
+// weight of the beam, up to rounding. The force f, and the moment n about the line in section axes, per length, are
 //     dead (default)  F, M inertial:      f = F,       n = S^T M + c~ S^T F
 //     follower        F, M section axes:  f = S F,     n = M + c~ F           (c: the point (0, y, z) of the section)
-// the residual is  -L int [ N_k f ;  a_k~ R_k^T f + R_Sk W_k^T n ]_k dz,  by three Gauss points between the places at
-// which the load jumps along the beam. A uniform force on a straight beam with the residual bending flexibility gives
-// the exact linear displacements of the nodes; moments, varying and follower loads converge with the second power of L
-// or better. Loads are multiplied by the environment's load factor; their power is counted as input. A dead force on
-// the line has a potential (symmetric tangent except for the moments at nodes); follower loads in general have none.
+// They are integrated by three Gauss points between the places at which the load jumps along the beam. A uniform force
+// on a straight beam with the residual bending flexibility gives the exact linear displacements of the nodes; moments,
+// varying and follower loads converge with the second power of L or better. Loads are multiplied by the environment's
+// load factor; their power is counted as input. A dead force on the line has a potential (symmetric tangent except for
+// the moments at nodes); follower loads in general have none.
 #pragma once
 
 #include <array>
@@ -21,7 +16,7 @@
 #include <vector>
 
 #include "mechanism/elements/beam/formula_vector.hpp"
-#include "mechanism/math/se3.hpp"
+#include "mechanism/elements/beam/span_load.hpp"
 #include "mechanism/model/component.hpp"
 #include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/input/yaml_file.hpp"
@@ -41,14 +36,6 @@ const KeyTable& line_load_keys();
 /// @param elements  number of elements of the beam: three points on each, and between its kinks, must integrate the
 /// load to 1 % @throws InputError
 std::vector<LineLoad> read_line_loads(const YamlValue& value, int elements);
-
-/// One element of a beam: its nodes and position.
-struct BeamSpan {
-  int node_a = 0, node_b = 0;
-  Matrix3 R_A = Matrix3::Identity(), R_B = Matrix3::Identity();  ///< section frames in the axes of the nodes
-  Vector3 chord = Vector3::UnitX();                              ///< its length [m] along x of the section axes
-  double s_A = 0, s_B = 1;                                       ///< its ends along the beam, 0 .. 1
-};
 
 /// One line load on one element. See the head of this file.
 class DistributedLoad : public Component, public TimeDependent {
@@ -71,17 +58,15 @@ class DistributedLoad : public Component, public TimeDependent {
   void write_output(const LocalState& state, double* values) const override;
 
  private:
-  struct Point {
-    double w, z;               ///< fraction of the length [m], position in the element
-    std::array<double, 2> N;   ///< shape functions
-    std::array<Vector3, 2> a;  ///< [m], node axes
+  struct Load {
+    Vector3 F, M;       ///< as given, multiplied by the load factor
+    SpanForce on_line;  ///< force (inertial) and moment about the line (section axes)
   };
-  struct Section;
-  Section section(const LocalState& state, const Point& point) const;
+  Load load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const;
 
   BeamSpan span_;
   LineLoad load_;
-  std::vector<Point> points_;
+  std::vector<SpanPoint> points_;
 };
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,6 @@
 // Keys of the section `states` of the mechanism file.
+#include "mechanism/elements/control/delayed_measure.hpp"
+#include "mechanism/elements/control/sampled_reader.hpp"
 #include "mechanism/elements/control/state_reader.hpp"
 
 namespace bielle::mechanism {
@@ -16,23 +18,28 @@ const KeyTable& transfer_function_keys() {
   using namespace keys;
   static const KeyTable table{
       "`transfer_function`",
-      "A transfer function as a quotient of two polynomials in s.",
+      "A transfer function as a quotient of two polynomials in s, of a sampled block in z.",
       {{"numerator", list_of(number()), required,
-        "Coefficients in descending powers of s, of at most the degree of the denominator."},
-       {"denominator", list_of(number()), required, "Coefficients in descending powers of s."}}};
+        "Coefficients in descending powers of s or z, of at most the degree of the denominator."},
+       {"denominator", list_of(number()), required, "Coefficients in descending powers of s or z."}}};
   return table;
 }
+
+}  // namespace
 
 Key transfer_function_key() {
   return {"transfer_function", keys::nested(transfer_function_keys), keys::required,
           "Numerator and denominator of the transfer function."};
 }
 
+namespace {
+
 const KeyTable& matrices_keys() {
   using namespace keys;
   const KeyForm rows = list_of(list_of(number()));
   static const KeyTable table{"`state_space`",
-                              "Matrices of x' = A x + B u, y = C x + D u, by rows.",
+                              "Matrices of x' = A x + B u, y = C x + D u, by rows; of a sampled block, A and B lead "
+                              "from the state x of one instant to that of the next.",
                               {{"A", rows, required, "Square matrix of the states."},
                                {"B", rows, required, "Matrix of the inputs."},
                                {"C", rows, computed("the identity"), "Matrix of the outputs."},
@@ -40,7 +47,11 @@ const KeyTable& matrices_keys() {
   return table;
 }
 
+}  // namespace
+
 Key state_space_key() { return {"state_space", keys::nested(matrices_keys), keys::required, "Matrices of the block."}; }
+
+namespace {
 
 /// Returns the keys of one kind of state, followed by those that all kinds have.
 /// @param units  default of the recorded units
@@ -118,10 +129,16 @@ const KeyTable& state_keys() {
       [] {
         std::vector<Key> kinds = {rate_key(), filter_key(), transfer_function_key(), state_space_key()};
         for (Key& kind : kinds) kind.presence = optional;
+        for (Key kind : {sampled_key(), delay_key()}) {
+          kind.presence = optional;
+          kinds.push_back(std::move(kind));
+        }
         kinds.push_back({"start", {number("any"), text()}, optional, "Value at the start."});
         return with_common_keys(std::move(kinds), optional);
       }(),
-      {{"rate", "", rate_keys},
+      {{"sampled", "", sampled_keys},
+       {"delay", "", delay_keys},
+       {"rate", "", rate_keys},
        {"filter", "", filter_keys},
        {"transfer_function", "", transfer_keys},
        {"state_space", "", state_space_keys}}};

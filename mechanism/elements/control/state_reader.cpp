@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/elements/control/block_reading.hpp"
+#include "mechanism/elements/control/delayed_measure.hpp"
+#include "mechanism/elements/control/sampled_reader.hpp"
 #include "mechanism/elements/control/state_equation.hpp"
 #include "mechanism/elements/control/state_output.hpp"
 #include "mechanism/measures/read_measure.hpp"
@@ -70,33 +73,16 @@ StateSetup read_filter(const std::string& name, const YamlValue& entry) {
   return setup;
 }
 
-/// Reads coefficients in descending powers; leading zeros are removed.
-std::vector<double> read_coefficients(const YamlValue& list) {
-  const VectorX all = list.vector();
-  std::vector<double> coefficients(all.begin(), all.end());
-  const auto first = std::find_if(coefficients.begin(), coefficients.end(), [](double each) { return each != 0; });
-  coefficients.erase(coefficients.begin(), first);
-  if (coefficients.empty()) list.fail("expected coefficients in descending powers of s, not all of them zero");
-  return coefficients;
-}
-
 void name_unknowns(StateSetup& setup) {
   for (Eigen::Index k = 0; k < setup.block.A.rows(); ++k) setup.unknowns.push_back(fmt::format("x{}", k + 1));
 }
 
 StateSetup read_transfer_function(const std::string& name, const YamlValue& entry) {
-  const YamlValue function = entry.at("transfer_function");
-  const std::vector<double> numerator = read_coefficients(function.at("numerator")),
-                            denominator = read_coefficients(function.at("denominator"));
-  if (denominator.size() < 2)
-    function.at("denominator").fail("has no power of s: what is proportional to its input is a formula of `measures`");
-  if (numerator.size() > denominator.size())
-    function.at("numerator")
-        .fail(fmt::format("its degree, {}, exceeds that of the denominator, {}: such a function has derivatives of its "
-                          "input; add poles to the denominator (a filter)",
-                          numerator.size() - 1, denominator.size() - 1));
-  StateSetup setup{"transfer_function", "", realisation(numerator, denominator), {entry.at("input")}, {}};
-  setup.about = fmt::format("transfer function of order {} of", denominator.size() - 1);
+  LinearBlock block =
+      read_quotient(entry.at("transfer_function"), "s",
+                    "such a function has derivatives of its input; add poles to the denominator (a filter)");
+  StateSetup setup{"transfer_function", "", std::move(block), {entry.at("input")}, {}};
+  setup.about = fmt::format("transfer function of order {} of", setup.block.A.rows());
   name_unknowns(setup);
   setup.start = VectorX::Zero(setup.block.A.rows());
   setup.outputs = {{name, setup.block.C.row(0).transpose(), setup.block.D.row(0).transpose(), true}};
@@ -109,20 +95,13 @@ StateSetup read_state_space(const std::string& name, const YamlValue& entry) {
   StateSetup setup{"state_space", "", {}, entry.at("inputs").items(), {}};
   const auto inputs = static_cast<Eigen::Index>(setup.inputs.size());
   if (inputs == 0) entry.at("inputs").fail("expected at least one input");
-  const auto n = static_cast<Eigen::Index>(matrices.at("A").size());
-  if (n == 0) matrices.at("A").fail("expected a square matrix, row by row");
-  setup.block.A = matrices.at("A").matrix(n, n);
-  setup.block.B = matrices.at("B").matrix(n, inputs);
-  const auto C = matrices.find("C"), D = matrices.find("D");
-  const auto outputs = C ? static_cast<Eigen::Index>(C->size()) : n;
-  setup.block.C = C ? MatrixX(C->matrix(outputs, n)) : MatrixX(MatrixX::Identity(n, n));
-  if (outputs == 0) C->fail("expected at least one row, an output");
-  setup.block.D = D ? MatrixX(D->matrix(outputs, inputs)) : MatrixX(MatrixX::Zero(outputs, inputs));
+  setup.block = read_matrices(matrices, inputs);
+  const Eigen::Index n = setup.block.A.rows(), outputs = setup.block.C.rows();
   setup.about = fmt::format("state space of order {} of", n);
   name_unknowns(setup);
   for (Eigen::Index k = 0; k < outputs; ++k)
-    setup.outputs.push_back({outputs == 1 ? name : fmt::format("{}.y{}", name, k + 1), setup.block.C.row(k).transpose(),
-                             setup.block.D.row(k).transpose(), true});
+    setup.outputs.push_back(
+        {name_of_output(name, outputs, k), setup.block.C.row(k).transpose(), setup.block.D.row(k).transpose(), true});
   for (Eigen::Index k = 0; k < n; ++k)
     setup.outputs.push_back({fmt::format("{}.x{}", name, k + 1), VectorX::Unit(n, k), {}, false});
   setup.start = VectorX::Zero(n);
@@ -138,17 +117,9 @@ StateSetup read_state_space(const std::string& name, const YamlValue& entry) {
 /// Reads units: one text, or a list with one for each of the recorded outputs.
 void read_units(const YamlValue& entry, StateSetup& setup) {
   if (setup.type == "filter" && !entry.has("units")) return;
-  const YamlValue units = entry.at("units");
-  if (!units.is_sequence()) {
-    setup.units = std::vector<std::string>{units.text()};
-    return;
-  }
-  const auto recorded = static_cast<std::size_t>(
-      std::count_if(setup.outputs.begin(), setup.outputs.end(), [](const auto& output) { return output.recorded; }));
-  setup.units.emplace();
-  for (const YamlValue& each : units.items()) setup.units->push_back(each.text());
-  if (setup.units->size() != recorded)
-    units.fail(fmt::format("expected {}, one for each output, found {}", recorded, setup.units->size()));
+  const auto recorded =
+      std::count_if(setup.outputs.begin(), setup.outputs.end(), [](const auto& output) { return output.recorded; });
+  setup.units = read_block_units(entry.at("units"), static_cast<std::size_t>(recorded));
 }
 
 std::string per_second(const std::string& units) { return units == "-" ? "1/s" : units + "/s"; }
@@ -192,13 +163,17 @@ StateSetup read_setup(const std::string& name, const YamlValue& entry) {
   if (entry.has("filter")) return read_filter(name, entry);
   if (entry.has("transfer_function")) return read_transfer_function(name, entry);
   if (entry.has("state_space")) return read_state_space(name, entry);
-  entry.fail("a state needs a `rate`, or it is a `filter`, a `transfer_function` or a `state_space`");
+  entry.fail(
+      "a state needs a `rate`, or it is `sampled`, a `delay`, a `filter`, a `transfer_function` or a "
+      "`state_space`");
 }
 
 }  // namespace
 
 void read_state(const std::string& name, const YamlValue& entry, Model& model) {
   check_measure_name(name, entry, model);
+  if (entry.has("sampled")) return read_sampled(name, entry, model);
+  if (entry.has("delay")) return read_delay(name, entry, model);
   StateSetup setup = read_setup(name, entry);
   read_units(entry, setup);
   std::optional<MatrixX> rest;

@@ -5,6 +5,7 @@
 //   torque or force:            a formula of t and the state, force_drive.hpp
 //   torque or force, sought:    determined by inverse dynamics for the motion of nodes, sought_drive.hpp
 //   pid:                        a controller with its own states, pid_drive.hpp
+//   motor:                      a direct-current motor with its current, motor_drive.hpp
 //
 // Each drive may release its joint: at a time, or when a measure crosses a value. From then on it has no effect.
 #pragma once

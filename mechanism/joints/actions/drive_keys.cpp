@@ -44,7 +44,8 @@ const KeyTable& keys_of_drive() {
   const KeyForm sought = word({"sought"}, "a torque or force that inverse dynamics finds");
   static const KeyTable table{
       "a drive",
-      "A motor on a coordinate of a joint, by one of the laws angle, rate, torque, displacement, speed, force, pid.",
+      "A motor on a coordinate of a joint, by one of the laws angle, rate, torque, displacement, speed, force, pid, "
+      "motor.",
       {{"joint", name_of("joint"), required, "Joint that is driven."},
        {"coordinate", text(), computed("the only one of the law's kind"), "Coordinate that is driven."},
        {"angle", formula("rad", {"t"}), optional, "Angle as a formula of t, kept by a constraint."},
@@ -64,6 +65,7 @@ const KeyTable& keys_of_drive() {
                : moves == Moves::turns ? keys_of_pid<Moves::turns>
                                        : keys_of_pid<Moves::both>),
         optional, "Torque or force of a controller."},
+       {"motor", nested(motor_keys), optional, "Torque or force of a direct-current motor at a voltage."},
        limit_key(moves),
        {"release",
         {number("s").positive(), nested(release_keys)},
@@ -79,6 +81,24 @@ const KeyTable& keys_of_drive() {
 }
 
 }  // namespace
+
+const KeyTable& motor_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "`motor`",
+      "A direct-current motor, whose current follows from a voltage and from the motion.",
+      {{"coordinate", text(), computed("the only one of the joint"), "Coordinate on which the motor acts."},
+       {"voltage", state_formula("V", {"t"}), required, "Voltage as a formula of t and measures."},
+       {"resistance", number("ohm").positive(), required, "Resistance of the winding."},
+       {"inductance", number("H").non_negative(), otherwise("0"), "Inductance of the winding."},
+       {"torque_constant", number("N m/A or N/A"), required, "Torque or force of the motor per current."},
+       {"back_emf", number("V s/rad or V s/m"), computed("the torque constant"),
+        "Voltage that the motion induces, per rate of the motor."},
+       {"gear_ratio", number(), otherwise("1"), "Rate of the motor per rate of the coordinate."},
+       {"friction", number("N m s/rad or N s/m").non_negative(), otherwise("0"),
+        "Viscous friction of the motor, per rate of the motor."}}};
+  return table;
+}
 
 const KeyTable& release_keys() {
   using namespace keys;

@@ -9,6 +9,8 @@ namespace bielle::mechanism {
 const KeyTable& drive_keys(Moves moves);
 /// Returns the table of `pid`, likewise.
 const KeyTable& pid_keys(Moves moves);
+/// Returns the table of `motor`.
+const KeyTable& motor_keys();
 /// Returns the table of `release`.
 const KeyTable& release_keys();
 

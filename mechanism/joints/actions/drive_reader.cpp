@@ -9,6 +9,7 @@
 #include "mechanism/joints/actions/drive_keys.hpp"
 #include "mechanism/joints/actions/force_drive.hpp"
 #include "mechanism/joints/actions/motion_drive.hpp"
+#include "mechanism/joints/actions/motor_drive.hpp"
 #include "mechanism/joints/actions/pid_drive.hpp"
 #include "mechanism/joints/actions/sought_drive.hpp"
 #include "mechanism/measures/measure_event.hpp"
@@ -19,7 +20,11 @@
 namespace bielle::mechanism {
 namespace {
 
-const std::vector<std::string> drive_laws = {"angle", "rate", "torque", "displacement", "speed", "force", "pid"};
+const std::vector<std::string> drive_laws = {"angle", "rate",  "torque", "displacement",
+                                             "speed", "force", "pid",    "motor"};
+
+/// Whether a law stands in a map of its own, with the coordinate, and may act on a coordinate of any kind.
+bool is_nested(const std::string& law) { return law == "pid" || law == "motor"; }
 
 bool is_turning(const std::string& law) { return law == "angle" || law == "rate" || law == "torque"; }
 
@@ -33,16 +38,16 @@ std::string find_law(const YamlValue& entry) {
   }
   if (law.empty())
     entry.fail(
-        "a drive needs one of angle, rate, torque (turning joints), displacement, speed, force (sliding joints) or "
-        "pid");
+        "a drive needs one of angle, rate, torque (turning joints), displacement, speed, force (sliding joints), pid "
+        "or motor");
   return law;
 }
 
 /// Returns the coordinate that a law drives. @param place  the map that may contain `coordinate`: the drive, or its
-/// `pid`
+/// `pid` or `motor`
 std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, const std::string& law,
                             const Joint& joint) {
-  const bool any = law == "pid", turning = is_turning(law);
+  const bool any = is_nested(law), turning = is_turning(law);
   std::vector<std::string> names;
   for (const JointCoordinate& coordinate : joint.coordinates())
     if (any || (coordinate.kind != JointCoordinate::Kind::displacement) == turning) names.push_back(coordinate.name);
@@ -175,21 +180,24 @@ void read_drive(const std::string& name, const YamlValue& given, Model& model) {
   auto* joint = dynamic_cast<Joint*>(&component_named_by(Section::joints, given.at("joint"), model));
   if (!joint) given.at("joint").fail("is no joint with coordinates that can be driven");
   const std::string law = find_law(given);
-  const YamlValue entry = given.keyed(drive_keys(law == "pid"      ? Moves::both
+  const YamlValue entry = given.keyed(drive_keys(is_nested(law)    ? Moves::both
                                                  : is_turning(law) ? Moves::turns
                                                                    : Moves::slides));
   const YamlValue value = entry.at(law);
-  const bool pid = law == "pid", by_motion = !pid && law != "torque" && law != "force";
-  const bool sought = !pid && !by_motion && is_sought(value);
+  const bool pid = law == "pid", nested = is_nested(law), by_motion = !nested && law != "torque" && law != "force";
+  const bool sought = !nested && !by_motion && is_sought(value);
   if (const auto moves = entry.find("moves"); moves && !sought)
     moves->fail("belongs to a `torque` or `force` that is `sought`");
-  if (pid)
+  if (nested)
     for (const char* key : {"coordinate", "limit"})
-      if (const auto outside = entry.find(key)) outside->fail("stands within `pid`");
+      if (const auto outside = entry.find(key))
+        outside->fail(law == "motor" && std::string(key) == "limit"
+                          ? "does not go with a `motor`: limit its voltage by the formula"
+                          : fmt::format("stands within `{}`", law));
   if (by_motion)
     if (const auto limit = entry.find("limit"))
       limit->fail("limits a torque or force; a drive by motion takes what the motion needs");
-  const std::size_t coordinate = find_coordinate(entry, pid ? value : entry, law, *joint);
+  const std::size_t coordinate = find_coordinate(entry, nested ? value : entry, law, *joint);
   take_coordinate(entry, name,
                   by_motion ? "a drive by motion contradicts"
                   : sought  ? "leaves no effort to be sought"
@@ -198,6 +206,7 @@ void read_drive(const std::string& name, const YamlValue& given, Model& model) {
 
   const auto controller = [&] { return value.keyed(pid_keys(moves_of(joint->coordinates()[coordinate]))); };
   std::unique_ptr<Drive> drive = pid         ? make_pid(name, controller(), *joint, coordinate, model)
+                                 : nested    ? make_motor(name, value, *joint, coordinate, model)
                                  : by_motion ? make_motion(name, law, value, *joint, coordinate)
                                  : sought    ? make_sought(name, entry, *joint, coordinate, model)
                                              : make_force(name, entry, value, *joint, coordinate, model);

@@ -60,7 +60,7 @@ class Entries:
             orientation: Sequence[Any] | None = None, twist: float | str | None = None,
             damping: float | str | None = None, bending: str | None = None, arc_centre: Sequence[Any] | None = None,
             arc_through: Sequence[Any] | None = None, distributed: Mapping[str, Any] | Sequence[Any] | None = None,
-            **more: Any) -> None:
+            airfoil: Mapping[str, Any] | None = None, **more: Any) -> None:
         """A straight or curved beam between two nodes, cut into elements of equal length.
 
         nodes: The nodes at the start and at the end. (list of 2: name of a node)
@@ -79,10 +79,12 @@ class Entries:
         arc_through: Point of a circular arc from start to end, in place of `arc_centre`. (list of 3: number [m])
         distributed: Load per length, or a list of such loads. (keys of a distributed load; or list of at least 1:
         keys of a distributed load)
+        airfoil: Aerodynamic forces along the beam. (keys of an airfoil)
         """
         self.add("elements", name, {"type": "beam", "nodes": nodes, "section": section, "elements": elements,
             "orientation": orientation, "twist": twist, "damping": damping, "bending": bending,
-            "arc_centre": arc_centre, "arc_through": arc_through, "distributed": distributed, **more})
+            "arc_centre": arc_centre, "arc_through": arc_through, "distributed": distributed, "airfoil": airfoil,
+            **more})
 
     def superelement(self, name: str, *,
             file: str, nodes: Mapping[str, Any] | None = None, position: Sequence[Any] | None = None,
@@ -1489,7 +1491,12 @@ class Entries:
             stiffness: float | str, shapes: Sequence[Any] | None = None, between: Sequence[Any] | None = None,
             exponent: float | str | None = None, damping: float | str | None = None,
             restitution: float | str | None = None, friction: Mapping[str, Any] | None = None,
+<<<<<<< HEAD
             active: bool | None = None, **more: Any) -> None:
+=======
+            rolling_resistance: float | str | None = None, rolling_rate: float | str | None = None,
+            **more: Any) -> None:
+>>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
         """Shapes on nodes that push each other apart when they touch.
 
         stiffness: Stiffness k of the force k p^n (1 + d pdot) at the depth p, in N/m^n with the `exponent` n.
@@ -1506,12 +1513,22 @@ class Entries:
         the speed at which a pair touches, of at least 1 mm/s, and does not change until it parts. (number greater
         than 0 and at most 1)
         friction: Friction of the surfaces. (keys of the friction of a contact)
+<<<<<<< HEAD
         active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
         true)
         """
         self.add("joints", name, {"type": "contact", "stiffness": stiffness, "shapes": shapes, "between": between,
             "exponent": exponent, "damping": damping, "restitution": restitution, "friction": friction,
             "active": active, **more})
+=======
+        rolling_resistance: Arm b of a couple against rolling, b times the normal force. (number [m] of at least 0)
+        rolling_rate: Angular velocity w_0 within which the couple is smooth, b N tanh(w/w_0). (number [rad/s]
+        greater than 0; default: 0.01)
+        """
+        self.add("joints", name, {"type": "contact", "stiffness": stiffness, "shapes": shapes, "between": between,
+            "exponent": exponent, "damping": damping, "restitution": restitution, "friction": friction,
+            "rolling_resistance": rolling_resistance, "rolling_rate": rolling_rate, **more})
+>>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
 
     def assembly(self, *,
             keep: Sequence[Any] | None = None, **more: Any) -> None:

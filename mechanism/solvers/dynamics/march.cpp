@@ -8,6 +8,7 @@
 
 #include "mechanism/model/event_actions.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
+#include "mechanism/system/sampling.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -52,11 +53,15 @@ MarchLog MarchLog::followed_by(const MarchLog& next) const {
   return both;
 }
 
-/// The times at which steps have to end: the grid of fixed steps, kinks, and the end.
+/// The times at which steps have to end: the grid of fixed steps, kinks, instants of samplers, and the end.
 class March::Stops {
  public:
-  Stops(double begin, double end, const StepOptions& options)
-      : begin_(begin), end_(end), rounding_(0.5e-12 * options.size), kinks_(options.break_points) {
+  Stops(double begin, double end, const StepOptions& options, std::vector<Sampler::Instants> instants)
+      : begin_(begin),
+        end_(end),
+        rounding_(0.5e-12 * options.size),
+        kinks_(options.break_points),
+        instants_(std::move(instants)) {
     std::sort(kinks_.begin(), kinks_.end());
     if (options.tolerance > 0) return;
     steps_ = std::max(1L, std::lround((end - begin) / options.size));
@@ -74,6 +79,12 @@ class March::Stops {
     at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding(stop_);
     // A kink at a stop, up to rounding, is identified with that stop.
     if (at_kink_ && kinks_[kink_] < stop_ - rounding(stop_)) stop_ = kinks_[kink_];
+    // So is an instant: equal steps that divide a period stay as they are.
+    for (const Sampler::Instants& each : instants_)
+      if (const double at = next_instant(each, time, rounding(time)); at < stop_ - rounding(stop_)) {
+        stop_ = at;
+        at_kink_ = false;
+      }
   }
   double time() const { return stop_; }
   bool at_kink() const { return at_kink_; }
@@ -88,6 +99,7 @@ class March::Stops {
   double begin_, end_, rounding_, size_ = 0, stop_ = 0;
   long steps_ = 0, k_ = 1;  ///< number of steps of the grid, and next; 0: no grid
   std::vector<double> kinks_;
+  std::vector<Sampler::Instants> instants_;
   std::size_t kink_ = 0;
   bool at_kink_ = false;
 };
@@ -100,7 +112,7 @@ March::March(TimeIntegration& integration, double begin, double end, StepOptions
       watch_(integration.system()),
       pulses_(integration.system(), begin, end - begin, norm_.length()) {
   const bool adaptive = options_.tolerance > 0;
-  stops_ = std::make_unique<Stops>(begin, end, options_);
+  stops_ = std::make_unique<Stops>(begin, end, options_, sample_instants(integration.system()));
   stops_->advance(integration.state().time);
   size_ = adaptive ? std::min(options_.size, options_.largest) : stops_->step_size();
   smallest_ = adaptive ? 1e-10 * (end - begin) : size_ / 1024;

@@ -16,6 +16,7 @@
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
 #include "mechanism/solvers/start/refused_holds.hpp"
+#include "mechanism/system/sampling.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -77,6 +78,7 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
   start_report_ = make_consistent(system_, environment_, step_.state());
   step_.take_rates();
   system_.accept(step_.state(), environment_);
+  if (take_samples(system_, step_.state(), environment_)) make_consistent_anew(start_report_);
   step_.trial() = step_.state();
   extrapolate_from_here();
 }
@@ -147,7 +149,11 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.prescribed = crossed.empty() && prescribed_rates_jump(system_, environment_, state, just_off(jump.time, h));
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
+<<<<<<< HEAD
   const VectorX memory = state.memory;
+=======
+  take_samples(system_, state, environment_);
+>>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
   const bool balanced = event_function_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
   if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
@@ -321,10 +327,22 @@ StepReport TimeIntegration::attempt_settled(double h, double end, bool kink) {
   return report;
 }
 
+/// Components update their memory at the end of the trial. Samples that change values begin another branch: they are
+/// taken when it begins, so that the accepted state is the one just before them.
+/// @returns whether the motion goes on on another branch
+bool TimeIntegration::accept_trial() {
+  State& trial = step_.trial();
+  const bool branch_left = system_.accept(trial, environment_);
+  trial.time = end_;
+  const VectorX before = trial.memory;
+  if (!take_samples(system_, trial, environment_)) return branch_left;
+  trial.memory = before;
+  return true;
+}
+
 /// The scheme's own values do not apply to a short span.
 bool TimeIntegration::accept_short() {
-  const bool branch_left = system_.accept(step_.trial(), environment_);
-  step_.trial().time = end_;
+  const bool branch_left = accept_trial();
   step_.accept();
   step_.take_rates();
   newton_.forget_factors();
@@ -338,8 +356,7 @@ bool TimeIntegration::accept() {
   loss_.add(step_, environment_);
   step_.take_algorithmic_values();
   correction_.watch(step_);
-  const bool branch_left = system_.accept(step_.trial(), environment_);
-  step_.trial().time = end_;
+  const bool branch_left = accept_trial();
   step_.accept();
   step_.get_highest(highest_);
   extrapolation_.add(end_, highest_);

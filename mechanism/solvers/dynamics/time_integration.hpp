@@ -125,6 +125,7 @@ class TimeIntegration {
   void choose_start(double h, double end, StepReport& report);
   StepReport attempt_plainly(double h, double trial_end);
   StepReport attempt_again(const StepReport& before, double h, double end);
+  bool accept_trial();
   bool accept_short();
   StepReport attempt_from(double h, double end, bool extrapolated);
 

@@ -67,6 +67,13 @@ double interpolation(const char* file, double operand) {
   return building->tree.add_interpolation(std::move(function), index_of(operand));
 }
 
+template <Interpolation::Kind kind>
+double surface(const char* file, double x, double y) {
+  const std::filesystem::path path = std::filesystem::path(building->folder) / file;
+  auto function = std::make_shared<const Surface>(Surface::from_file(path.lexically_normal().string(), kind));
+  return building->tree.add_surface(std::move(function), index_of(x), index_of(y));
+}
+
 /// Recognises a number at the start of `text`. (from_chars also takes "inf" and "nan", which are refused as names.)
 int read_number(const char* text, int* position, double* handle) {
   if (!std::isdigit(static_cast<unsigned char>(*text)) && *text != '.') return 0;
@@ -151,6 +158,8 @@ void define_functions_of_several_numbers(mu::Parser& parser) {
   parser.DefineFun("pulse", ternary<pulse>, false);
   parser.DefineFun("table", interpolation<Interpolation::Kind::linear>, false);
   parser.DefineFun("spline", interpolation<Interpolation::Kind::cubic>, false);
+  parser.DefineFun("table2", surface<Interpolation::Kind::linear>, false);
+  parser.DefineFun("spline2", surface<Interpolation::Kind::cubic>, false);
 }
 
 void define_language(mu::Parser& parser) {
@@ -268,7 +277,7 @@ std::string explanation(const mu::ParserError& error, std::string token, const s
     case mu::ecSTR_RESULT:
     case mu::ecVAL_EXPECTED:
     case mu::ecUNTERMINATED_STRING:
-      return "a quoted file name is expected in table and spline, and there alone" + place();
+      return "a quoted file name is expected in table, spline, table2 and spline2, and there alone" + place();
     default:
       return error.GetMsg();
   }

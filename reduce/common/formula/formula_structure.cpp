@@ -131,6 +131,14 @@ void FormulaTree::add_break_points(int index, int argument, std::vector<double>&
         for (const double x : function.points()) where_zero({g.valid, g.slope, g.offset - x});
       break;
     }
+    case Operation::on_surface: {
+      const Linear gx = linear_in(t.operand[0], argument), gy = linear_in(t.operand[1], argument);
+      const Surface& function = *surfaces_[static_cast<std::size_t>(t.index)];
+      if (function.kind() != Interpolation::Kind::linear) break;
+      for (const double x : function.x_points()) where_zero({gx.valid, gx.slope, gx.offset - x});
+      for (const double y : function.y_points()) where_zero({gy.valid, gy.slope, gy.offset - y});
+      break;
+    }
     default:
       break;
   }

@@ -130,6 +130,12 @@ int FormulaTree::add_interpolation(std::shared_ptr<const Interpolation> function
   return static_cast<int>(terms_.size()) - 1;
 }
 
+int FormulaTree::add_surface(std::shared_ptr<const Surface> function, int first, int second) {
+  surfaces_.push_back(std::move(function));
+  terms_.push_back({Operation::on_surface, {first, second, -1}, 0, static_cast<int>(surfaces_.size()) - 1});
+  return static_cast<int>(terms_.size()) - 1;
+}
+
 int FormulaTree::add(Operation operation, int first, int second, int third) {
   terms_.push_back({operation, {first, second, third}, 0, 0});
   return static_cast<int>(terms_.size()) - 1;
@@ -208,6 +214,27 @@ struct FormulaTree::Evaluation {
     return chain(x, values.value, values.slope, values.curvature);
   }
 
+  Number on_surface(const Surface& function, const Number& x, const Number& y) const {
+    const double u = value_of(x), v = value_of(y);
+    if constexpr (std::is_same_v<Number, double>) {
+      return function(u, v).value;
+    } else if constexpr (has_slopes) {
+      const auto at_line = [](const Number& of, const Eigen::VectorXd& points) {
+        return varies(of) && std::binary_search(points.begin(), points.end(), of.value);
+      };
+      at_kink |= function.kind() == Interpolation::Kind::linear &&
+                 (at_line(x, function.x_points()) || at_line(y, function.y_points()));
+      const Surface::Values z = function(u, v);
+      return compose(x, y, z.value, z.x, z.y);
+    } else {
+      const Surface::Values z = function(u, v, rises(x), rises(y));
+      const double x1 = first(x), y1 = first(y);
+      return formula_number::jet(z.value, product(z.x, x1) + product(z.y, y1),
+                                 product(z.xx, x1 * x1) + 2 * product(z.xy, x1 * y1) + product(z.yy, y1 * y1) +
+                                     product(z.x, second(x)) + product(z.y, second(y)));
+    }
+  }
+
   bool is_true(int index) const { return sign_of(of(index)) != 0; }
 
   Number unchecked(const Term& term) const {
@@ -259,6 +286,8 @@ struct FormulaTree::Evaluation {
         return power_of(operand(0), operand(1));
       case Operation::atan2:
         return atan2_of(operand(0), operand(1));
+      case Operation::on_surface:
+        return on_surface(*tree.surfaces_[static_cast<std::size_t>(term.index)], operand(0), operand(1));
       case Operation::modulo: {
         const Number a = operand(0), b = operand(1);
         return a - floor_of(over(a, b)) * b;

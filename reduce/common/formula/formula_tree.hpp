@@ -13,6 +13,7 @@
 
 #include "reduce/common/formula/formula_number.hpp"
 #include "reduce/common/formula/interpolation.hpp"
+#include "reduce/common/formula/surface.hpp"
 
 namespace bielle {
 
@@ -47,6 +48,7 @@ enum class Operation {
   round,
   interpolate,
   // two operands
+  on_surface,
   add,
   subtract,
   multiply,
@@ -77,13 +79,14 @@ class FormulaTree {
     Operation operation;
     std::array<int, 3> operand;
     double number = 0;  ///< value of a constant
-    int index = 0;      ///< index of an argument or interpolation
+    int index = 0;      ///< index of an argument, an interpolation or a surface
   };
 
   /// Each function returns the index of the new term; operands are indices of earlier terms.
   int add_constant(double value);
   int add_argument(int index);
   int add_interpolation(std::shared_ptr<const Interpolation> function, int operand);
+  int add_surface(std::shared_ptr<const Surface> function, int first, int second);
   int add(Operation operation, int first, int second = -1, int third = -1);
 
   /// The term whose value the formula is. Replaces constant parts by their values.
@@ -125,6 +128,7 @@ class FormulaTree {
 
   std::vector<Term> terms_;
   std::vector<std::shared_ptr<const Interpolation>> functions_;
+  std::vector<std::shared_ptr<const Surface>> surfaces_;
   int root_ = -1;
 };
 

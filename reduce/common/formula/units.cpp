@@ -134,6 +134,7 @@ class Inference {
       case Operation::sqrt:
         return power(operand(0), 0.5);
       case Operation::interpolate:
+      case Operation::on_surface:
         return unknown;
       default:
         return pure_number;

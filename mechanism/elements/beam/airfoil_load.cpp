@@ -1,0 +1,177 @@
+#include "mechanism/elements/beam/airfoil_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mechanism/math/so3.hpp"
+#include "mechanism/model/description.hpp"
+#include "mechanism/reading/read_numbers.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr std::size_t wind_along = 0, wind_in_time = 1;  // argument numbers of the wind's formulas
+
+/// A coefficient with its derivative by the angle of attack.
+struct Coefficient {
+  double value, slope;
+};
+
+Coefficient coefficient(const Expression& formula, double alpha) {
+  double slope = 0;
+  const double value = formula.value_and_gradient({&alpha, 1}, {&slope, 1});
+  return {value, slope};
+}
+
+}  // namespace
+
+AirfoilLoad::AirfoilLoad(std::string name, const BeamSpan& span, Airfoil airfoil)
+    : Component("beam", std::move(name)),
+      span_(span),
+      airfoil_(std::move(airfoil)),
+      points_(span_points(span, {0, 1})) {}
+
+void AirfoilLoad::declare(Declaration& declaration) const {
+  declaration.nodes = {span_.node_a, span_.node_b};
+  declaration.stiffness = declaration.damping = true;
+}
+
+AirfoilLoad::Strip AirfoilLoad::strip(const LocalState& state, const SpanPoint& point, const SpanSection& at) const {
+  const double s = point.along(span_);
+  const std::array<double, 2> place{s, state.time()};
+  const Vector3 wind(airfoil_.wind[0](place), airfoil_.wind[1](place), airfoil_.wind[2](place));
+  Strip strip{at.S.transpose() * (wind - span_velocity(point, state)), Vector3::Zero(), Vector3::Zero(),
+              Matrix3::Zero(), Matrix3::Zero()};
+  const double twist = airfoil_.twist(s), chord = airfoil_.chord(s);
+  const Vector3 e_c(0, std::cos(twist), std::sin(twist)), e_n(0, -std::sin(twist), std::cos(twist));
+  const Vector3 u(0, strip.u.y(), strip.u.z());
+  const double U = u.norm();
+  if (U == 0) return strip;
+  const double alpha = std::atan2(u.dot(e_n), u.dot(e_c));
+  const Coefficient cl = coefficient(airfoil_.lift, alpha), cd = coefficient(airfoil_.drag, alpha),
+                    cm = coefficient(airfoil_.pitch, alpha);
+  const double pressure = 0.5 * state.environment().load_factor * airfoil_.density * chord;
+  const Vector3 across = Vector3::UnitX().cross(u), along = cd.value * u + cl.value * across;
+  const Vector3 alpha_by_u = across / (U * U);  // a turn of u about x
+  Matrix3 in_plane = Matrix3::Identity();
+  in_plane(0, 0) = 0;
+  strip.F = pressure * U * along;
+  strip.F_by_u =
+      pressure * (along * u.transpose() / U + U * (cd.value * in_plane + cl.value * skew(Vector3::UnitX()) * in_plane +
+                                                   (cd.slope * u + cl.slope * across) * alpha_by_u.transpose()));
+  const Vector3 e_x = Vector3::UnitX();
+  strip.M = -pressure * chord * U * U * cm.value * e_x + airfoil_.at.cross(strip.F);
+  strip.M_by_u = -pressure * chord * e_x * (2 * cm.value * u + U * U * cm.slope * alpha_by_u).transpose() +
+                 skew(airfoil_.at) * strip.F_by_u;
+  return strip;
+}
+
+void AirfoilLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    const Strip here = strip(state, point, at);
+    add_span_residual(span_, point, at, {at.S * here.F, here.M}, state, r);
+  }
+}
+
+/// f = S F(u), n = M(u), and du = u~ dTheta(z) - S^T dv.
+void AirfoilLoad::add_tangent(const LocalState& state, LocalTangent& tangent) const {
+  if (!tangent.wants_K && !tangent.wants_C) return;
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    const Strip here = strip(state, point, at);
+    const Matrix3 turn = skew(here.u), f_turn = at.S * (here.F_by_u * turn - skew(here.F)), n_turn = here.M_by_u * turn;
+    if (tangent.wants_K)
+      add_span_tangent(span_, point, at, {at.S * here.F, here.M}, f_turn, n_turn, state, tangent.K.dense());
+    const Matrix3 f_rate = -at.S * here.F_by_u * at.S.transpose(), n_rate = -here.M_by_u * at.S.transpose();
+    add_span_rate_tangent(span_, point, at, f_rate, n_rate, state, tangent);
+  }
+}
+
+void AirfoilLoad::add_energy(const LocalState& state, Energy& energy) const {
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    const Strip here = strip(state, point, at);
+    energy.input += point.w * ((at.S * here.F).dot(span_velocity(point, state)) +
+                               here.M.dot(span_angular_velocity(span_, at, state)));
+  }
+}
+
+void AirfoilLoad::add_break_points(std::vector<double>& times) const {
+  mechanism::add_break_points(airfoil_.wind, wind_in_time, times);
+}
+
+std::vector<TimeDependent::Formula> AirfoilLoad::time_formulas() const {
+  std::vector<Formula> formulas;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (airfoil_.wind[k].uses(wind_in_time)) formulas.push_back({fmt::format("wind {}", "xyz"[k]), "m/s"});
+  return formulas;
+}
+
+void AirfoilLoad::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  const std::array<double, 2> middle{0.5 * (span_.s_A + span_.s_B), state.time()};
+  std::size_t next = 0;
+  for (const Expression& component : airfoil_.wind)
+    if (component.uses(wind_in_time)) values[next++] = component(middle);
+}
+
+void AirfoilLoad::describe(const LocalState& /*state*/, Description& description) const {
+  if (span_.s_A > 0) return;  // equal on all elements
+  description.add_line(fmt::format("airfoil: chord {} m, twist {} rad, wind {} m/s, air of {:.6g} kg/m^3",
+                                   airfoil_.chord.text(), airfoil_.twist.text(), format_vector(airfoil_.wind),
+                                   airfoil_.density));
+}
+
+const KeyTable& airfoil_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "an airfoil",
+      "Aerodynamic forces along a beam, by the angle of attack alpha in each section. Formulas of s go from 0 at its "
+      "start to 1 at its end.",
+      {{"chord", formula("m", {"s"}), required, "Chord as a formula of s."},
+       {"twist", formula("rad", {"s"}).as_pseudoscalar(), otherwise("0"),
+        "Angle about the section's x axis from its y axis to the direction from the leading to the trailing edge, as a "
+        "formula of s."},
+       {"at", list_of(2, number("m")), otherwise("[0, 0]"),
+        "Point of the section at which lift and drag act, from the node line along y and z."},
+       {"lift", formula("-", {"alpha"}), required, "Coefficient of lift as a formula of alpha [rad]."},
+       {"drag", formula("-", {"alpha"}), otherwise("0"), "Coefficient of drag, likewise."},
+       {"moment", formula("-", {"alpha"}), otherwise("0"),
+        "Coefficient of the moment, likewise; positive towards larger alpha."},
+       {"density", number("kg/m^3").non_negative(), otherwise("1.225"), "Density of the air."},
+       {"wind", list_of(3, formula("m/s", {"s", "t"})).as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),
+        "Velocity of the air as formulas of s and the time t."}}};
+  return table;
+}
+
+Airfoil read_airfoil(const YamlValue& value) {
+  Airfoil airfoil;
+  airfoil.density = value.at("density").number();
+  airfoil.wind = read_formula_vector(value.at("wind"), "three components, numbers or expressions of s and t");
+  airfoil.chord = value.at("chord").expression();
+  airfoil.twist = value.at("twist").expression();
+  airfoil.lift = value.at("lift").expression();
+  airfoil.drag = value.at("drag").expression();
+  airfoil.pitch = value.at("moment").expression();
+  const Vector2 point = read_numbers(value.at("at"), 2, "the point [y, z] of the section, from the node line");
+  airfoil.at = {0, point[0], point[1]};
+  constexpr int samples = 32;
+  for (int k = 0; k <= samples; ++k) {
+    const double s = static_cast<double>(k) / samples;
+    try {
+      if (!(airfoil.chord(s) > 0))
+        value.at("chord").fail(
+            fmt::format("expected a chord greater than 0, found {:.6g} m at s = {:.6g}", airfoil.chord(s), s));
+      airfoil.twist(s);
+    } catch (const ComputationError& error) {
+      value.fail(error.what());
+    }
+  }
+  return airfoil;
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,35 @@
+// The clock of a sampled block: its instants first + k*period, and those at which its outputs follow, `delay` later.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "mechanism/model/sampler.hpp"
+
+namespace bielle::mechanism {
+
+struct SampleClock {
+  double first = 0;   ///< first instant [s] >= 0
+  double period = 1;  ///< [s] > 0
+  double delay = 0;   ///< from an instant to the change of the outputs [s], 0 to `period`
+
+  /// Whether a time has come, up to rounding of the ends of steps.
+  bool has_come(double time, double now) const {
+    return now >= time - 1e-9 * period - 32 * std::numeric_limits<double>::epsilon() * std::abs(time);
+  }
+  double instant(double k) const { return first + k * period; }
+  /// Returns the number of the first instant that has not come yet; an analysis may begin after several instants.
+  double number_after(double now) const {
+    double k = std::max(0.0, std::floor((now - first) / period));
+    while (has_come(instant(k), now)) ++k;
+    return k;
+  }
+  std::vector<Sampler::Instants> instants() const {
+    if (delay == 0 || delay == period) return {{first, period}};
+    return {{first, period}, {first + delay, period}};
+  }
+};
+
+}  // namespace bielle::mechanism

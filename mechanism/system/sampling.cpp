@@ -1,0 +1,41 @@
+#include "mechanism/system/sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bielle::mechanism {
+
+std::vector<Sampler::Instants> sample_instants(const System& system) {
+  std::vector<Sampler::Instants> all;
+  const auto add = [&](const Sampler::Instants& one) {
+    const auto same = [&](const Sampler::Instants& other) {
+      return one.first == other.first && one.period == other.period;
+    };
+    if (std::none_of(all.begin(), all.end(), same)) all.push_back(one);
+  };
+  for (const Member& member : system.model().members())
+    if (const auto* sampler = dynamic_cast<const Sampler*>(member.component.get()))
+      for (const Sampler::Instants& one : sampler->instants()) add(one);
+  return all;
+}
+
+double next_instant(const Sampler::Instants& instants, double time, double rounding) {
+  const double begun = std::max(0.0, std::floor((time - instants.first) / instants.period));
+  // The quotient may be rounded to either side of a whole number.
+  for (double k = std::max(0.0, begun - 1);; ++k)
+    if (const double at = instants.first + k * instants.period; at > time + rounding) return at;
+}
+
+bool take_samples(const System& system, State& state, const Environment& environment) {
+  bool changed = false;
+  const std::vector<Member>& members = system.model().members();
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const Slots& slots = system.slots()[m];
+    if (slots.memories == 0) continue;
+    if (const auto* sampler = dynamic_cast<const Sampler*>(members[m].component.get()))
+      changed = sampler->sample({state, slots, environment}, state.memory) || changed;
+  }
+  return changed;
+}
+
+}  // namespace bielle::mechanism
