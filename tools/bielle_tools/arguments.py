@@ -4,7 +4,7 @@ import argparse
 import math
 
 from .messages import InputError, check_names, did_you_mean
-from .results_file import Results
+from .results.results_file import Results
 
 
 class Parser(argparse.ArgumentParser):
@@ -97,7 +97,7 @@ def opened_mode(options, results, pictures):
     share = 0.1 if options.amplitude is None else options.amplitude
     if not 0 < share < 1e6:
         raise InputError("--amplitude is a positive number")
-    from .modes import Modes, ModeMotion, ModeScenery
+    from .results.modes import Modes, ModeMotion, ModeScenery
     modes = Modes(results)
     modes.check(options.mode)
     paths = superelement_paths(options, results, anywhere=True)

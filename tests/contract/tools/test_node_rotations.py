@@ -16,9 +16,9 @@ from box_mesh import REPOSITORY
 from test_results_tools import ResultsTool as _ResultsTool
 
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools import rotations  # noqa: E402
-from bielle_tools.results_columns import column_names, column_units, columns_of  # noqa: E402
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.results import rotations  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
+from bielle_tools.results.columns import column_names, column_units, columns_of  # noqa: E402
 
 AXES = {"euler": "ZXZ", "bryant": "XYZ"}
 

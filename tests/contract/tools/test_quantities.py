@@ -11,8 +11,8 @@ import synthetic_results as synthetic
 from box_mesh import InFolder
 
 from bielle_tools.messages import InputError  # box_mesh knows where
-from bielle_tools.quantities import Quantities, split_names
-from bielle_tools.results_file import Results
+from bielle_tools.quantities.quantities import Quantities, split_names
+from bielle_tools.results import Results
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 # The arm is a part; its names hold a dot. Others hold slashes, commas, spaces and the words of components.
@@ -114,7 +114,7 @@ class OfSynthetic(InFolder):
         self.assertIn("has no component 'von_mises'", str(caught.exception))
 
     def test_rows_in_blocks_are_the_rows(self):
-        from bielle_tools import quantities
+        from bielle_tools.quantities import quantities
         whole, made = self.read("shaft.resultants").values, self.read("rod.von_mises").values
         before, quantities.AT_ONCE = quantities.AT_ONCE, 600
         try:

@@ -13,9 +13,9 @@ from box_mesh import REPOSITORY, InFolder
 from python_tool import run_python_tool  # box_mesh knows where
 from study_stand_in import STUDY, WithStandIn
 
-from bielle_tools import spectra
 from bielle_tools.messages import InputError
-from bielle_tools.quantity_curves import envelope
+from bielle_tools.quantities import spectra
+from bielle_tools.quantities.curves import envelope
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-plot")
 

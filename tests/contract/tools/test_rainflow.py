@@ -13,7 +13,7 @@ from python_tool import run_python_tool
 
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 
-from bielle_tools.rainflow import count_cycles, in_bins, miner_damage, reversals, stress_signal  # noqa: E402
+from bielle_tools.quantities.rainflow import count_cycles, in_bins, miner_damage, reversals, stress_signal  # noqa: E402
 
 
 class Counting(unittest.TestCase):

@@ -15,8 +15,8 @@ import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
 from python_tool import run_python_tool  # box_mesh knows where
 
-from bielle_tools.rpc_file import write_rpc
-from bielle_tools.table_file import write_columns
+from bielle_tools.quantities.rpc_file import write_rpc
+from bielle_tools.quantities.table_file import write_columns
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-table")

@@ -17,11 +17,11 @@ from page_driver import WHY_NOT, Pages
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract"))
 from python_tool import run_python_tool
 
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.bodies.superelement_body import SuperelementBody  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
 from bielle_tools.scene.stress_scale import stress_colours  # noqa: E402
 from bielle_tools.scene.transforms import placed  # noqa: E402
-from bielle_tools.superelement_body import SuperelementBody  # noqa: E402
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-view")
 PROGRAMS = os.environ.get("BIELLE_PROGRAMS", os.path.join(REPOSITORY, "build", "release", "bin"))

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..rotations import rotation_matrices
+from ..bodies.stress_invariants import von_mises
+from ..results.quaternions import conjugate, rotated
+from ..results.rotations import rotation_matrices
 from ..scene.stress_scale import stress_colours
 from ..scene.style import marked, muted, shares_of
-from ..scene.transforms import conjugate, placed, rotated
-from ..stress_invariants import von_mises
+from ..scene.transforms import placed
 from .normals import corner_normals, split_at_edges
 
 

@@ -3,9 +3,10 @@
 import numpy as np
 
 from ..messages import InputError
+from ..results.quaternions import conjugate, from_z, product
 from . import templates as t
 from .parts import Mesh
-from .transforms import conjugate, from_z, pose, product
+from .transforms import pose
 
 
 def beam_motion(results, place, turns=None):

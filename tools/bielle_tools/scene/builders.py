@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..results.quaternions import conjugate, from_z, rotated
 from . import symbols
 from . import templates as t
 from .beams import beam_mesh, beam_motion, beam_stress, turns_of
@@ -11,7 +12,7 @@ from .links import Ends, bar_mesh, rope_mesh
 from .parts import Part, on_bones
 from .springs import coil, coil_radius, telescopic
 from .style import COLOURS, lighter, visible
-from .transforms import between, conjugate, from_z, rotated
+from .transforms import between
 
 
 class Builder:

@@ -4,10 +4,10 @@ import os
 
 import numpy as np
 
-from ..cells import triangles_of
-from ..superelement_body import find_superelement, superelement_of
+from ..bodies.superelement_body import find_superelement, superelement_of
+from ..mesh.cells import triangles_of
+from ..results.quaternions import rotated
 from .parts import FlexibleBody, FlexiblePart
-from .transforms import rotated
 
 
 class FlexibleBodies:

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..messages import InputError
-from .transforms import IDENTITY, pose, product, rotated
+from ..results.quaternions import IDENTITY, product, rotated
+from .transforms import pose
 
 
 @dataclass(frozen=True)

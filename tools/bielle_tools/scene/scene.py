@@ -3,7 +3,8 @@
 import numpy as np
 
 from ..messages import InputError
-from ..results_file import LARGEST
+from ..results.quaternions import conjugate, product
+from ..results.results_file import LARGEST
 from .attachments import attachments
 from .builders import BUILDERS, Builder
 from .drawing import Drawing, places_of
@@ -12,7 +13,7 @@ from .motion import Motion
 from .parts import Anchor, FlexiblePart
 from .planes import drawn_planes
 from .style import Palette, Style
-from .transforms import conjugate, placed, product
+from .transforms import placed
 
 SAMPLES = 24  # rows from which bounds are taken
 MANY = 800  # items from which on symbols are coarser, and bounds are taken from spheres about bones

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from ..bodies.stress_invariants import von_mises
 from ..scene.arrows import arrows_of
 from ..scene.style import marked, muted
-from ..stress_invariants import von_mises
 from .pack import quantised
 from .tracks import Tracks, in_units
 

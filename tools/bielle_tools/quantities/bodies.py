@@ -1,0 +1,153 @@
+"""Quantities of superelements that are not recorded, but follow from what is: their motion and their files.
+
+    arm.von_mises                         von Mises stress at the stress nodes of the mesh
+    arm.radiated_power                    equivalent radiated power of its surface, see radiated_power.py
+    arm.radiated_power_elastic            the same of the elastic deformation alone, without the motion of the frame
+    arm.deflection(POINT, A, B)           displacement x y z of a point relative to the chord from A to B, body axes
+
+POINT, A and B are interfaces or named points of the superelement, numbers of mesh nodes, or places `0.1 0 0.02` [m].
+"""
+
+import h5py
+import numpy as np
+
+from ..bodies.superelement_body import find_superelement, interfaces_of, superelement_of
+from ..messages import InputError, did_you_mean, note, place as shown
+from ..results.results_file import reading
+
+MADE = {"von_mises": ("Pa", "von Mises stress, recovered from the superelement"),
+        "radiated_power": ("W", "equivalent radiated power of the surface in air"),
+        "radiated_power_elastic": ("W", "equivalent radiated power of the surface in air by the deformation alone"),
+        "deflection": ("m", "displacement relative to a chord, body axes, say deflection(POINT, A, B): x, y, z")}
+
+
+def has_body(results, element):
+    """Tells whether an element of the results names a superelement file."""
+    return bool(results.text(f"elements/{element}", "file"))
+
+
+class Bodies:
+    """The superelements of open results, each read once. given: {element: path} of --superelement"""
+
+    def __init__(self, results, given=None):
+        self.results, self.given, self._bodies, self._powers = results, given or {}, {}, {}
+
+    def body(self, element):
+        if element not in self._bodies:
+            self._bodies[element] = superelement_of(self.results, element, self.given)
+        return self._bodies[element]
+
+    def path(self, element):
+        return find_superelement(self.results, element, self.given)
+
+    def columns(self, element, field):
+        """Number of columns of a quantity that is made."""
+        if field == "von_mises":
+            if self.body(element).stress is None:
+                raise InputError(f"'{self.path(element)}' keeps no stress: set 'recovery: {{stress: surface}}' in its "
+                                 "body file and reduce it again")
+            return len(self.body(element).stressed)
+        return 3 if field == "deflection" else 1
+
+    def read(self, element, field, rows, arguments=()):
+        """Values (rows, columns) of a quantity. arguments: the words of `deflection(..)`"""
+        if field == "von_mises":
+            body, q = self.body(element), self._coordinates(element, rows)
+            parts = [body.von_mises(q[block])[:, body.stressed] for block in body.blocks(np.arange(len(q)))]
+            return np.concatenate(parts) if parts else np.zeros((0, len(body.stressed)))
+        if field == "deflection":
+            return self._deflection(element, self._coordinates(element, rows), arguments)
+        return self._power(element, field == "radiated_power_elastic")[rows, None]
+
+    def _coordinates(self, element, rows):
+        return self.results.rows(f"elements/{element}/coordinates", rows)
+
+    def _power(self, element, elastic):
+        if (element, elastic) not in self._powers:
+            from ..bodies.radiated_power import IMPEDANCE, body_form, body_velocities  # SciPy takes a while
+            form = IMPEDANCE * body_form(self.body(element), self.path(element))
+            if len(self.results.time) < 2:
+                raise InputError(f"'{self.results.path}' has one time only: velocities need several")
+            everything = slice(0, len(self.results.time))
+            frame = self.results.rows(f"elements/{element}/frame")
+            w = body_velocities(self.results.time, frame, self._coordinates(element, everything))
+            first = 6 if elastic else 0
+            self._powers[element, elastic] = np.einsum("ti,ti->t", w[:, first:] @ form[first:, first:], w[:, first:])
+        return self._powers[element, elastic]
+
+    def _deflection(self, element, q, arguments):
+        if len(arguments) != 3 or not all(arguments):
+            raise InputError(f"{element}.deflection: expected a point and the two ends of the chord, '{element}."
+                             "deflection(POINT, A, B)', each an interface, a named point, the number of a mesh node, "
+                             "or its place 'x y z'")
+        (P, u), (A, u_a), (B, u_b) = (self._point(element, word) for word in arguments)
+        chord = B - A
+        length = np.linalg.norm(chord)
+        if length == 0:
+            raise InputError(f"{element}.deflection: '{arguments[1]}' and '{arguments[2]}' are at the same place: "
+                             "there is no chord")
+        share = (P - A) @ chord / length ** 2
+        a, b = A + q @ u_a.T, B + q @ u_b.T
+        offset = P - A - share * chord  # turns with the chord, by the shortest way
+        directions = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
+        return P + q @ u.T - a - share * (b - a) - _turned(chord / length, directions, offset)
+
+    def _point(self, element, word):
+        """Place of a point and its displacement (3,n) per coordinate, body axes."""
+        body = self.body(element)
+        named = self._named_points(element)
+        if word in named:
+            position, u = named[word]
+            if u is None:
+                raise InputError(f"the interface '{word}' of '{element}' does not keep its translations: it has no "
+                                 "displacement of its own")
+            return position, u
+        row = _mesh_row(body, word)
+        if row is None:
+            raise InputError(f"'{element}' has no interface or point '{word}'{did_you_mean(word, list(named))}")
+        return body.points[body.displaced[row]], body.displacement[3 * row:3 * row + 3]
+
+    def _named_points(self, element):
+        """{name: (place, displacement (3,n) per coordinate)} of interfaces and points; None for a displacement that the
+        file does not have."""
+        path, group = self.path(element), self.results.text(f"elements/{element}", "group")
+        count, found = self.body(element).displacement.shape[1], {}
+        with reading(path, "interface"), h5py.File(path, "r") as opened:
+            file = opened[group] if group else opened
+            for name, point in file["points"].items() if "points" in file else ():
+                place, shapes = (np.asarray(point[field], float) for field in ("position", "shapes"))
+                found[name] = place.reshape(3), shapes[:3].reshape(3, count)
+            has_interfaces = "interface" in file
+            positions = np.asarray(file["interface/positions"], float) if has_interfaces else ()
+        begin = 0
+        for (name, kept, R), X in zip(interfaces_of(path, group) if has_interfaces else (), positions):
+            u = np.zeros((3, count)) if kept[:3].all() and begin + 3 <= count else None
+            if u is not None:
+                u[:, begin:begin + 3] = R
+            found[name] = X.reshape(3), u
+            begin += int(kept.sum())
+        return found
+
+
+def _mesh_row(body, word):
+    """Row of the recovery of a node by number or place; None if the word is neither, or there is no such node."""
+    try:
+        numbers = [float(each) for each in word.split()]
+    except ValueError:
+        return None
+    if len(numbers) == 3 and np.isfinite(numbers).all() and len(body.displaced):
+        distances = np.linalg.norm(body.points[body.displaced] - numbers, axis=1)
+        row = int(distances.argmin())
+        if distances[row] > 1e-6 * np.ptp(body.points, axis=0).max():
+            note(f"the node nearest to {shown(numbers)} is {distances[row]:.3g} m away, at "
+                 f"{shown(body.points[body.displaced[row]])}")
+        return row
+    found = np.flatnonzero(body.displaced == int(numbers[0])) if len(numbers) == 1 and word.strip().isdigit() else []
+    return int(found[0]) if len(found) else None
+
+
+def _turned(start, ends, vector):
+    """(nt,3) the vector, turned as the unit vector `start` turns to each of `ends` by the shortest way (not through
+    half a turn)."""
+    axis, cosine = np.cross(start, ends), (ends @ start)[:, None]
+    return cosine * vector + np.cross(axis, vector) + axis * (axis @ vector)[:, None] / (1 + cosine)
