@@ -11,7 +11,7 @@ import synthetic_results as synthetic
 from box_mesh import InFolder
 
 from bielle_tools.messages import InputError  # box_mesh knows where
-from bielle_tools.quantities.quantities import Quantities, split_names
+from bielle_tools.quantities.quantities import Quantities, arguments_of, split_names
 from bielle_tools.results import Results
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
@@ -136,6 +136,13 @@ class OfSynthetic(InFolder):
             with self.subTest(text=text), self.assertRaises(InputError) as caught:
                 self.read(text)
             self.assertIn(part, str(caught.exception))
+
+    def test_words_in_brackets_keep_commas_and_brackets_in_quotes(self):
+        for text, words, rest in (("(a, 'b, c' , d).x", ("a", "b, c", "d"), ".x"), ("('b) c')", ("b) c",), ""), ("(o'brien,1 0 0)", ("o'brien", "1 0 0"), ""),
+                                  ("()", ("",), ""), ("( , a)", ("", "a"), ""), ("[1]", (), "[1]")):
+            self.assertEqual(arguments_of(text), (words, rest))
+        for text in ("(a, b", "("):
+            self.assertRaisesRegex(InputError, "is not closed", arguments_of, text)
 
     def test_names_in_lists_are_split_outside_of_brackets_and_quotes(self):
         self.assertEqual(split_names("a.x, b.deflection(p, q, 0 1 2).y , 'c, d'.z,e[1,2]"), ["a.x", "b.deflection(p, q, 0 1 2).y", "'c, d'.z", "e[1,2]"])

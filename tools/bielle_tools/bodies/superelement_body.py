@@ -50,6 +50,18 @@ class SuperelementBody:
         if "stress" in recovery:
             self.stress = _matrix(recovery["stress"], self.displacement.shape[1])
             self.stressed = _node_numbers(recovery, "stress_nodes", len(self.stress) / 6, len(self.points))
+        self._read_elasticity(recovery)
+
+    def _read_elasticity(self, recovery):
+        """elasticity (k,6,6) stress over engineering strain, and the material (s) of each stress, if the file has them."""
+        self.elasticity, self.stress_materials = None, None
+        if self.stress is not None and "elasticity" in recovery and "stress_materials" in recovery:
+            elasticity = np.asarray(recovery["elasticity"], float)
+            materials = np.asarray(recovery["stress_materials"], np.int64)
+            _check_numbers(materials, len(elasticity))
+            if elasticity.shape[1:] != (6, 6) or materials.shape != self.stressed.shape or not np.all(np.abs(elasticity) < LARGEST):
+                raise ValueError
+            self.elasticity, self.stress_materials = elasticity, materials
 
     def surface(self):
         """Boundary faces {type: (n,k)}, outward: at least one. @raises InputError for cells that leave none"""
@@ -100,6 +112,11 @@ def interfaces_of(path, group=""):
         if dofs.shape != (len(names), 6) or rotations.shape != (len(names), 3, 3):
             raise ValueError
         return list(zip(names, dofs, rotations))
+
+
+def decoded(name):
+    """The name of a load, point or group, as the file writes it: HDF5 reserves some letters."""
+    return name.replace("%2F", "/").replace("%2E", ".").replace("%25", "%")
 
 
 def _open(path, group):

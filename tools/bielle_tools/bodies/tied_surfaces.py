@@ -9,6 +9,7 @@ import yaml
 from ..mesh import cell_integrals
 from ..messages import InputError, did_you_mean
 from .interface_ties import spread_over_nodes, tie_of_interface, weighted_nodes
+from .superelement_body import decoded
 
 
 @dataclass
@@ -28,7 +29,7 @@ def tied_surfaces(path, group, body, interfaces, positions, given):
         opened = file[group] if group else file
         text = (opened["input"] if "input" in opened else file["input"])[()]
         body_file = yaml.safe_load(text.decode() if isinstance(text, bytes) else text)
-        groups = {name.replace("%2F", "/").replace("%2E", ".").replace("%25", "%"): np.asarray(nodes, int)
+        groups = {decoded(name): np.asarray(nodes, int)
                   for name, nodes in opened["mesh/groups"].items()} if "mesh/groups" in opened else {}
     faces, found, first = body.surface(), [], 0
     for name in given:

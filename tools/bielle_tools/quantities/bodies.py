@@ -4,21 +4,28 @@
     arm.radiated_power                    equivalent radiated power of its surface, see radiated_power.py
     arm.radiated_power_elastic            the same of the elastic deformation alone, without the motion of the frame
     arm.deflection(POINT, A, B)           displacement x y z of a point relative to the chord from A to B, body axes
+    arm.gauge(PLACE, DIRECTION)           strain of the surface at a place, see gauges.py
+    arm.rosette(PLACE, DIRECTION, KIND)   strains a b c of three gauges, principal strains and their direction
 
-POINT, A and B are interfaces or named points of the superelement, numbers of mesh nodes, or places `0.1 0 0.02` [m].
+POINT, A and B are interfaces or named points of the superelement, numbers of mesh nodes, or places `0.1 0 0.02` [m]; PLACE
+is a named point, a number or a place, DIRECTION `1 0 0` in body axes.
 """
 
 import h5py
 import numpy as np
 
-from ..bodies.superelement_body import find_superelement, interfaces_of, superelement_of
+from ..bodies.superelement_body import decoded, find_superelement, interfaces_of, superelement_of
 from ..messages import InputError, did_you_mean, note, place as shown
 from ..results.results_file import reading
 
 MADE = {"von_mises": ("Pa", "von Mises stress, recovered from the superelement"),
         "radiated_power": ("W", "equivalent radiated power of the surface in air"),
         "radiated_power_elastic": ("W", "equivalent radiated power of the surface in air by the deformation alone"),
-        "deflection": ("m", "displacement relative to a chord, body axes, say deflection(POINT, A, B): x, y, z")}
+        "deflection": ("m", "displacement relative to a chord, body axes, say deflection(POINT, A, B): x, y, z"),
+        "gauge": ("-", "strain of the surface along a direction, say gauge(PLACE, DIRECTION)"),
+        "rosette": ("-, -, -, -, -, rad", "strains of the surface in three directions, principal ones and the angle of the largest from "
+                    "the first direction, say rosette(PLACE, DIRECTION, KIND): a, b, c, largest, least, angle")}
+COLUMNS = {"deflection": 3, "rosette": 6}
 
 
 def has_body(results, element):
@@ -30,7 +37,7 @@ class Bodies:
     """The superelements of open results, each read once. given: {element: path} of --superelement"""
 
     def __init__(self, results, given=None):
-        self.results, self.given, self._bodies, self._powers = results, given or {}, {}, {}
+        self.results, self.given, self._bodies, self._powers, self._strains = results, given or {}, {}, {}, {}
 
     def body(self, element):
         if element not in self._bodies:
@@ -47,16 +54,20 @@ class Bodies:
                 raise InputError(f"'{self.path(element)}' keeps no stress: set 'recovery: {{stress: surface}}' in its "
                                  "body file and reduce it again")
             return len(self.body(element).stressed)
-        return 3 if field == "deflection" else 1
+        return COLUMNS.get(field, 1)
 
     def read(self, element, field, rows, arguments=()):
-        """Values (rows, columns) of a quantity. arguments: the words of `deflection(..)`"""
+        """Values (rows, columns) of a quantity. arguments: the words of `deflection(..)`. @raises InputError"""
+        if arguments and field not in ("deflection", "gauge", "rosette"):
+            raise InputError(f"{element}.{field} takes no words in brackets")
         if field == "von_mises":
             body, q = self.body(element), self._coordinates(element, rows)
             parts = [body.von_mises(q[block])[:, body.stressed] for block in body.blocks(np.arange(len(q)))]
             return np.concatenate(parts) if parts else np.zeros((0, len(body.stressed)))
         if field == "deflection":
             return self._deflection(element, self._coordinates(element, rows), arguments)
+        if field in ("gauge", "rosette"):
+            return self._gauges(element, field, self._coordinates(element, rows), arguments)
         return self._power(element, field == "radiated_power_elastic")[rows, None]
 
     def _coordinates(self, element, rows):
@@ -92,6 +103,43 @@ class Bodies:
         directions = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
         return P + q @ u.T - a - share * (b - a) - _turned(chord / length, directions, offset)
 
+    def _gauges(self, element, field, q, arguments):
+        if len(arguments) != (2 if field == "gauge" else 3) or not all(arguments):
+            raise InputError(f"{element}.{field}: expected a place and a direction" + (
+                f", '{element}.gauge(PLACE, DIRECTION)'" if field == "gauge" else
+                f" and the kind, '{element}.rosette(PLACE, DIRECTION, rectangular)' or 'delta'")
+                + "; the place is a named point, the number of a mesh node, or 'x y z' [m], the direction 'x y z' in body axes")
+        from ..bodies import gauges  # SciPy takes a while
+        angles = gauges.angles_of_rosette(arguments[2]) if field == "rosette" else np.zeros(1)
+        plane = q @ self._plane_strain(element, *arguments[:2]).T
+        strains = gauges.gauge_strains(plane, angles)
+        return strains if field == "gauge" else np.hstack([strains, gauges.principal_strains(plane)])
+
+    def _plane_strain(self, element, place, direction):
+        """(3,n) strain of the surface per coordinate, found once."""
+        if (element, place, direction) not in self._strains:
+            from ..bodies.gauges import plane_strain_of
+            along = _three(direction)
+            if along is None:
+                raise InputError(f"{element}: the direction of a gauge is three numbers, '1 0 0' in body axes, not '{direction}'")
+            self._strains[element, place, direction] = plane_strain_of(self.body(element), self._place(element, place), along)
+        return self._strains[element, place, direction]
+
+    def _place(self, element, word):
+        """Place (3) of a gauge, body axes."""
+        body, point = self.body(element), self._points(element).get(word)
+        if point is not None:
+            return point[0]
+        if word.isdigit():
+            if int(word) >= len(body.points):
+                raise InputError(f"'{element}' has no node {word}: those of its mesh are 0 to {len(body.points) - 1}")
+            return body.points[int(word)]
+        place = _three(word)
+        if place is None:
+            raise InputError(f"'{element}' has no point '{word}'{did_you_mean(word, list(self._points(element)))}; a gauge is at a named point, "
+                             "at the number of a mesh node, or at a place 'x y z' [m]")
+        return place
+
     def _point(self, element, word):
         """Place of a point and its displacement (3,n) per coordinate, body axes."""
         body = self.body(element)
@@ -111,12 +159,9 @@ class Bodies:
         """{name: (place, displacement (3,n) per coordinate)} of interfaces and points; None for a displacement that the
         file does not have."""
         path, group = self.path(element), self.results.text(f"elements/{element}", "group")
-        count, found = self.body(element).displacement.shape[1], {}
+        count, found = self.body(element).displacement.shape[1], self._points(element)
         with reading(path, "interface"), h5py.File(path, "r") as opened:
             file = opened[group] if group else opened
-            for name, point in file["points"].items() if "points" in file else ():
-                place, shapes = (np.asarray(point[field], float) for field in ("position", "shapes"))
-                found[name] = place.reshape(3), shapes[:3].reshape(3, count)
             has_interfaces = "interface" in file
             positions = np.asarray(file["interface/positions"], float) if has_interfaces else ()
         begin = 0
@@ -128,21 +173,38 @@ class Bodies:
             begin += int(kept.sum())
         return found
 
+    def _points(self, element):
+        """The same of the named points alone."""
+        path, group = self.path(element), self.results.text(f"elements/{element}", "group")
+        count, found = self.body(element).displacement.shape[1], {}
+        with reading(path, "points"), h5py.File(path, "r") as opened:
+            file = opened[group] if group else opened
+            for name, point in file["points"].items() if "points" in file else ():
+                place, shapes = (np.asarray(point[field], float) for field in ("position", "shapes"))
+                found[decoded(name)] = place.reshape(3), shapes[:3].reshape(3, count)
+        return found
+
+
+def _three(text):
+    """Three finite numbers of a text, or None."""
+    try:
+        numbers = np.array([float(each) for each in text.split()])
+    except ValueError:
+        return None
+    return numbers if len(numbers) == 3 and np.isfinite(numbers).all() else None
+
 
 def _mesh_row(body, word):
     """Row of the recovery of a node by number or place; None if the word is neither, or there is no such node."""
-    try:
-        numbers = [float(each) for each in word.split()]
-    except ValueError:
-        return None
-    if len(numbers) == 3 and np.isfinite(numbers).all() and len(body.displaced):
+    numbers = _three(word)
+    if numbers is not None and len(body.displaced):
         distances = np.linalg.norm(body.points[body.displaced] - numbers, axis=1)
         row = int(distances.argmin())
         if distances[row] > 1e-6 * np.ptp(body.points, axis=0).max():
             note(f"the node nearest to {shown(numbers)} is {distances[row]:.3g} m away, at "
                  f"{shown(body.points[body.displaced[row]])}")
         return row
-    found = np.flatnonzero(body.displaced == int(numbers[0])) if len(numbers) == 1 and word.strip().isdigit() else []
+    found = np.flatnonzero(body.displaced == int(word)) if word.isdigit() else []
     return int(found[0]) if len(found) else None
 
 

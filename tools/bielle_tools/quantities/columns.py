@@ -53,7 +53,7 @@ class Columns:
         named = names_in(description, shape[-1]) if shape else ["1"]
         unnamed = all(name.isdigit() for name in named)
         self.is_strain = "strain" in field
-        self.is_vector = six and len(set(self.units)) == 2 or \
+        self.is_vector = six and len(set(self.units)) == 2 and field != "rosette" or \
             bool(shape) and shape[-1] in (3, 6) and field in VECTORS and not along
         if shape:
             as_vector = self.is_vector and (unnamed or field in VECTORS)

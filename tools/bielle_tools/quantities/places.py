@@ -41,13 +41,14 @@ class Places:
         for end in _ends(raw):
             if raw[:end] in paths:  # a path is unique, a name with dots need not be
                 return raw[:end], None, raw[end:]
-        written = raw.replace("'", "").strip().strip("/")
-        for name in (raw, written):  # a name may have an apostrophe of its own
-            plain = name.replace("/", ".")
-            for end in _ends(plain):
-                found = self._names().get(plain[:end])
+        for quoted in (False, True):  # a name may have an apostrophe of its own
+            for end in _ends(raw, quoted):
+                name = raw[:end].replace("/", ".")
+                name = name.replace("'", "").strip() if quoted else name
+                found = self._names().get(name)
                 if found:
-                    return (*self._one(plain[:end], found), name[end:])
+                    return (*self._one(name, found), raw[end:])
+        written = raw.replace("'", "").strip().strip("/")
         raise InputError(f"'{self.results.path}' has no quantity '{text}'{self._nearest(written)}")
 
     def _one(self, name, found):
@@ -98,9 +99,10 @@ class Places:
         return advice if advice.startswith(";") or len(names) <= 12 else ": 'bielle-table --list' shows all of them"
 
 
-def _ends(text):
-    """Lengths of the beginnings of a text that may be a name, the longest first."""
-    return sorted([k for k, letter in enumerate(text) if letter in ".[("] + [len(text)], reverse=True)
+def _ends(text, quoted=False):
+    """Lengths of the beginnings of a text that may be a name, the longest first. quoted: none ends within quotes"""
+    ends = [k for k, letter in enumerate(text) if letter in ".[("] + [len(text)]
+    return sorted((k for k in ends if not quoted or text.count("'", 0, k) % 2 == 0), reverse=True)
 
 
 def _is_section(results, name):

@@ -1,7 +1,7 @@
 """Quantities over time as users name them: `main.reaction.norm`, `arm.von_mises.max`, `nodes/pin/position.x`,
 `crank.angle`.
 
-NAME[COMPONENTS], with the names of quantity_places.py and the components of quantity_columns.py: `.x .y .z .rx .ry
+NAME[COMPONENTS], with the names of places.py and the components of columns.py: `.x .y .z .rx .ry
 .rz`, names of the columns, `[3]` (counted from 1; `[3,1]` or `[3].x` of elements with components), `.norm` (of six
 components: of the first three), `.force`, `.moment`, `.max`, `.min`, `.abs` over all columns; `.von_mises` and
 `.principal` of a stress. `analysis_2/NAME` is the quantity in one analysis of several.
@@ -21,6 +21,7 @@ from .places import Places
 
 AT_ONCE = 2**27  # bytes of rows that are read together
 ALONG_COORDINATES = ("drive_force", "spring_force", "stop_force", "lock_force", "rate")
+ARGUMENT = re.compile(r"\s*(?:'([^']*)'\s*|([^,)]*))([,)])")
 OF_ANALYSIS = re.compile(r"analysis_([1-9]\d*)[/.](.+)", re.DOTALL)
 
 
@@ -96,7 +97,7 @@ class Quantities:
         _, units, description = self.described(place)
         if place in self.places.made:
             element, _, field = place.partition("/")[2].rpartition("/")
-            arguments, rest = _arguments(rest)
+            arguments, rest = arguments_of(rest)
             count = self.bodies.columns(element, field)
             shape = () if count == 1 and field != "von_mises" else (count,)
 
@@ -129,14 +130,17 @@ def _values(columns, read, rows, block):
     return np.concatenate(parts)
 
 
-def _arguments(rest):
-    """The words between brackets at the start of a text, and the text after them."""
+def arguments_of(rest):
+    """The words between brackets at the start of a text, and the text after them. Words with commas stand in quotes."""
     if not rest.startswith("("):
         return (), rest
-    inside, closed, after = rest[1:].partition(")")
-    if not closed:
-        raise InputError(f"'{rest}': a bracket is not closed")
-    return tuple(word.strip().strip("'") for word in inside.split(",")), after
+    words, end = [], 1
+    while found := ARGUMENT.match(rest, end):
+        words.append((found[1] if found[1] is not None else found[2]).strip())
+        end = found.end()
+        if found[3] == ")":
+            return tuple(words), rest[end:]
+    raise InputError(f"'{rest}': a bracket is not closed")
 
 
 def split_names(text):

@@ -22,7 +22,8 @@ TAKES = ["last", "first", "min", "max", "absmax", "mean", "rms", "peak_to_peak",
 WITHOUT_ROWS = ("eigen", "peaks", "validity", "frequency_response", "events")
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 PLACE = re.compile(r"(?P<place>[^\s\[\]\"]+/[^\s\[\]\"]+|time)(?:\[(?P<column>[^\]]*)\])?")
-QUANTITY = re.compile(r"[^\s\"]*[A-Za-z_'][^\s\"]*[.(][^\s\"]*")
+QUANTITY = re.compile(r"[^\"]*[A-Za-z_'][^\"]*[.(][^\"]*")
+WORD = re.compile(r"(?:\([^()]*\)|'[^']*'|\S)+")  # brackets and quotes may hold spaces
 OVER_ALL = {"min": ".min", "max": ".max", "absmax": ".abs",
             "time_of_min": ".min", "time_of_max": ".max", "time_of_absmax": ".abs"}
 TEXT = re.compile(r'\s*text\s+"(?P<words>[^"]+)"\s*(?:\[(?P<number>\d+)\])?\s*')
@@ -51,7 +52,7 @@ class Gathered:
         raise InputError(f"gather: {self.name}: {what}")
 
     def _read(self, words):
-        rest = words.split()
+        rest = WORD.findall(words)
         if rest and rest[0] in TAKES:
             self.take = rest.pop(0)
         elif len(rest) > 1 and "/" in rest[1] and not rest[1].startswith("["):
