@@ -15,6 +15,7 @@ Other loads inside the body (load patterns, forces on points) are not recorded: 
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import h5py
 import numpy as np
@@ -34,6 +35,7 @@ class BodyLoad:
     time: float
     interface: np.ndarray     # (nb,6) force [N] and moment [N m] about each interface
     inertia: np.ndarray       # (p,3) on the nodes [N]
+    field: np.ndarray         # (p,3) acceleration of the nodes less gravity, of which the inertia is made [m/s^2]
     angular_velocity: np.ndarray
     acceleration: np.ndarray  # (3) of the mass centre less gravity [m/s^2]
     angular_acceleration: np.ndarray
@@ -47,10 +49,10 @@ class LoadedBody:
 
     def __init__(self, results, element, superelements, surfaces=None):
         """surfaces: {interface: group of the mesh} for interfaces whose group the body file does not name."""
-        self.results, self.element = results, element
+        self.results, self.element, self.given_surfaces = results, element, surfaces or {}
         self.body = superelement_of(results, element, superelements)
         path = find_superelement(results, element, superelements)
-        group = results.text(f"elements/{element}", "group")
+        self.group = group = results.text(f"elements/{element}", "group")
         if len(self.body.displaced) != len(self.body.points):
             raise InputError(f"'{path}' keeps displacements of its surface alone: set 'recovery: {{displacement: all}}' in its body file "
                              "and reduce it again")
@@ -62,14 +64,26 @@ class LoadedBody:
             self.K, self.M = opened["reduced/stiffness"][:], opened["reduced/mass"][:]
             self.materials = densities(opened, self.body, path)
         self.mesh_mass = cell_integrals.scalar_mass(self.points, self.body.cells, self.materials.density)
-        self.surfaces = tied_surfaces(path, group, self.body, self.interfaces, self.positions, surfaces or {})
         self.T = self.body.displacement.reshape(len(self.points), 3, -1)
+        rigid = self._rigid()
+        of_mass = np.stack([self.mesh_mass @ rigid[:, :, k] for k in range(6)], axis=2)
+        self.rigid, self.rigid_inertia = rigid, np.linalg.inv(np.einsum("pka,pkb->ab", rigid, of_mass))
+        self._read = {}
+
+    @cached_property
+    def surfaces(self):
+        """Surfaces to which the interfaces are tied. @raises InputError if one is not known"""
+        return tied_surfaces(self.path, self.group, self.body, self.interfaces, self.positions, self.given_surfaces)
+
+    def _row(self, place, row):
+        if place not in self._read:
+            self._read[place] = self.results.rows(place)
+        return self._read[place][row]
 
     def at(self, row):
         """The loads of a row of the results."""
         results, place = self.results, f"elements/{self.element}"
-        frame, q = results.rows(f"{place}/frame", [row])[0], results.rows(f"{place}/coordinates", [row])[0]
-        interface = results.rows(f"{place}/interface_force", [row])[0]
+        frame, q, interface = (self._row(f"{place}/{name}", row) for name in ("frame", "coordinates", "interface_force"))
         omega = self._angular_velocity(row, frame)
         u = (self.T @ q)
         centrifugal = np.cross(omega, np.cross(omega, self.points + u))
@@ -77,10 +91,10 @@ class LoadedBody:
                                       for (_, kept, R), force in zip(self.interfaces, interface)])
         right = -self.K @ q - np.einsum("pkn,pk->n", self.T, self.mesh_mass @ centrifugal)
         right[:len(generalised)] += generalised
-        inertia = -(self.mesh_mass @ (centrifugal + self.T @ np.linalg.solve(self.M, right)))
-        inertia, change = self._balanced(interface, inertia)
+        field, change = self._balanced(interface, centrifugal + self.T @ np.linalg.solve(self.M, right))
+        inertia = -(self.mesh_mass @ field)
         acceleration, angular = self._rigid_acceleration(inertia, omega)
-        return BodyLoad(float(results.time[row]), interface, inertia, omega, acceleration, angular, change,
+        return BodyLoad(float(results.time[row]), interface, inertia, field, omega, acceleration, angular, change,
                         self._sums(interface, inertia), q)
 
     def _angular_velocity(self, row, frame):
@@ -92,8 +106,8 @@ class LoadedBody:
             place = f"nodes/{node}"
             if not self.results.has(f"{place}/velocity"):
                 raise InputError(f"'{self.results.path}' has no velocity of node '{node}': its rotation is not known. Record it (`output: only`)")
-            v = self.results.rows(f"{place}/velocity", [row])[0]
-            axes = rotation_matrices(self.results.rows(f"{place}/rotation", [row])[0])
+            v = self._row(f"{place}/velocity", row)
+            axes = rotation_matrices(self._row(f"{place}/rotation", row))
             y = X + 0.0
             cross = np.array([[0, -y[2], y[1]], [y[2], 0, -y[0]], [-y[1], y[0], 0]])
             rows += [np.hstack([np.eye(3), -cross]), np.hstack([np.zeros((3, 3)), L * np.eye(3)])]
@@ -115,17 +129,15 @@ class LoadedBody:
             rigid[:, :, 3 + k] = np.cross(np.eye(3)[k], self.points)
         return rigid
 
-    def _balanced(self, interface, inertia):
-        """Adds the inertia of a rigid acceleration that balances the remainder due to rounding, turned interfaces and
-        terms of second order."""
-        rigid = self._rigid()
-        of_mass = np.stack([self.mesh_mass @ rigid[:, :, k] for k in range(6)], axis=2)
-        inverse = np.linalg.inv(np.einsum("pka,pkb->ab", rigid, of_mass))
-        before = inertia
+    def _balanced(self, interface, field):
+        """Adds a rigid acceleration whose inertia balances the remainder due to rounding, turned interfaces and terms of
+        second order."""
+        first = inertia = -(self.mesh_mass @ field)
         for _ in range(2):  # the second time for rounding
-            inertia = inertia - of_mass @ (inverse @ np.concatenate(self._sums(interface, inertia)))
-        size = max(np.abs(interface[:, :3]).max(initial=0), np.linalg.norm(np.abs(before).sum(axis=0)), 1e-300)
-        return inertia, float(np.linalg.norm((inertia - before).sum(axis=0)) / size)
+            field = field + self.rigid @ (self.rigid_inertia @ np.concatenate(self._sums(interface, inertia)))
+            inertia = -(self.mesh_mass @ field)
+        size = max(np.abs(interface[:, :3]).max(initial=0), np.linalg.norm(np.abs(first).sum(axis=0)), 1e-300)
+        return field, float(np.linalg.norm((inertia - first).sum(axis=0)) / size)
 
     def _rigid_acceleration(self, inertia, omega):
         """Acceleration of the mass centre, and angular acceleration, by Newton's and Euler's equations of the

@@ -20,10 +20,11 @@ STEP = 1e-30
 AT_ONCE = 20000  # cells
 
 
-def simplex_points(dimension):
+@lru_cache(maxsize=None)
+def simplex_points(dimension, count=DEGREE):
     """Barycentric coordinates (m, dimension + 1) and weights (m), which add up to 1/dimension!, by conical products of Gauss
-    and Jacobi's rules (A. H. Stroud, Approximate Calculation of Multiple Integrals, 1971)."""
-    rules = [roots_jacobi(DEGREE, power, 0) for power in range(dimension - 1, -1, -1)]
+    and Jacobi's rules with `count` points along each direction (A. H. Stroud, Approximate Calculation of Multiple Integrals, 1971)."""
+    rules = [roots_jacobi(count, power, 0) for power in range(dimension - 1, -1, -1)]
     rules = [((x + 1) / 2, w / 2 ** (power + 1)) for (x, w), power in zip(rules, range(dimension - 1, -1, -1))]
     points, weights = np.ones((1, 0)), np.ones(1)
     left = np.ones(1)
@@ -60,7 +61,7 @@ def reference_rule(shape):
 
 
 def shape_functions(kind, x):
-    """N (nodes) at a point of the reference cell, real or complex."""
+    """N (nodes) at a point of the reference cell, real or complex; of simplices (..,nodes) at several points."""
     cell = CELLS[kind]
     if cell.shape in ("triangle", "tetra"):
         return _of_simplex(cell, x)
@@ -77,10 +78,11 @@ def shape_gradients(kind, x):
 
 
 def _of_simplex(cell, x):
-    L = np.concatenate([[1 - x.sum()], x])
+    L = np.concatenate([1 - x.sum(axis=-1, keepdims=True), x], axis=-1)
     if cell.order == 1:
         return L
-    return np.concatenate([L * (2 * L - 1), [4 * L[a] * L[b] for a, b in cell.edges]])
+    first, second = np.array(cell.edges).T
+    return np.concatenate([L * (2 * L - 1), 4 * L[..., first] * L[..., second]], axis=-1)
 
 
 def _of_cube(cell, s, x, at_corner):
@@ -150,6 +152,14 @@ def scalar_mass(points, cells, density):
         values.append((weights @ np.einsum("ma,mb->mab", N, N).reshape(len(N), -1)).ravel())
     size = len(points)
     return coo_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(size, size)).tocsr()
+
+
+def cell_points(points, cells):
+    """The points of integration of solid cells, one of each cell at a time: (type, first number, nodes (n,k), N (k), volumes (n)
+    that the point stands for). cells: {type: (n,k)} in VTK's order"""
+    for kind, first, nodes in _blocks(cells, 3):
+        for N, volume in zip(_rule(kind)[0], _determinants(points, kind, nodes).T):
+            yield kind, first, nodes, N, volume
 
 
 def volumes(points, cells):

@@ -12,7 +12,8 @@ from ..messages import InputError, place as shown
 from .cell_integrals import shape_functions, shape_gradients
 from .cells import CELLS
 
-DIVIDED = {"triangle": ((0, 1, 2),), "triangle6": ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)), "quad": ((0, 1, 2), (0, 2, 3)),
+DIVIDED = {"triangle": ((0, 1, 2),), "triangle6": ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+           "quad": ((0, 1, 2), (0, 2, 3)),
            "quad8": ((0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (4, 5, 6), (4, 6, 7)),
            "quad9": ((0, 4, 8), (4, 1, 8), (1, 5, 8), (5, 2, 8), (2, 6, 8), (6, 3, 8), (3, 7, 8), (7, 0, 8))}
 SAME_PLACE = 1e-6   # distance relative to the size of the surface
@@ -23,7 +24,8 @@ STEPS = 20
 
 @dataclass
 class SurfacePoint:
-    """position (3) and distance from the place [m]; normal (3), outward; nodes (k) of the face, weights (k) at the point"""
+    """position (3) and distance from the place [m]; normal (3), outward; nodes (k) of the face, weights (k) at the
+    point"""
 
     position: np.ndarray
     distance: float
@@ -44,12 +46,13 @@ def nearest_on_surface(points, faces, place):
     for row in touching[np.argsort(distance[touching], kind="stable")]:
         kind, face, inside = owners[row]
         if (kind, face) not in found:
-            found[kind, face] = _on_face(points, kind, faces[kind][face], share[row] @ CELLS[kind].reference[list(inside)], place)
+            start = share[row] @ CELLS[kind].reference[list(inside)]
+            found[kind, face] = _on_face(points, kind, faces[kind][face], start, place)
     at = list(found.values())
     nearest = min(at, key=lambda point: point.distance)
     if nearest.distance > OFF_SURFACE * size:
-        raise InputError(f"the place {shown(place)} is not on the surface of the body, the nearest point {shown(nearest.position)} of which is "
-                         f"{nearest.distance:.3g} m away: places are in m, in the axes of the mesh")
+        raise InputError(f"the place {shown(place)} is not on the surface of the body, the nearest point "
+                         f"{shown(nearest.position)} of which is {nearest.distance:.3g} m away: places are in m, in the axes of the mesh")
     normals = np.array([point.normal for point in at])
     worst = np.unravel_index(np.argmin(normals @ normals.T), (len(at), len(at)))
     if normals[worst[0]] @ normals[worst[1]] < SAME_SIDE:
@@ -103,7 +106,8 @@ def _on_face(points, kind, nodes, x, place):
     weights = shape_functions(kind, x)
     normal = np.cross(*(shape_gradients(kind, x).T @ corners))
     position = weights @ corners
-    return SurfacePoint(position, float(np.linalg.norm(position - place)), normal / np.linalg.norm(normal), nodes, weights)
+    distance = float(np.linalg.norm(position - place))
+    return SurfacePoint(position, distance, normal / np.linalg.norm(normal), nodes, weights)
 
 
 def _within(kind, x):

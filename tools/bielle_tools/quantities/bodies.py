@@ -6,26 +6,28 @@
     arm.deflection(POINT, A, B)           displacement x y z of a point relative to the chord from A to B, body axes
     arm.gauge(PLACE, DIRECTION)           strain of the surface at a place, see gauges.py
     arm.rosette(PLACE, DIRECTION, KIND)   strains a b c of three gauges, principal strains and their direction
+    arm.section(PLACE, NORMAL)            force and moment in the section by a plane, see section_forces.py
 
-POINT, A and B are interfaces or named points of the superelement, numbers of mesh nodes, or places `0.1 0 0.02` [m]; PLACE
-is a named point, a number or a place, DIRECTION `1 0 0` in body axes.
+POINT, A and B are interfaces or named points of the superelement, numbers of mesh nodes, or places `0.1 0 0.02` [m];
+PLACE is a named point, a number or a place, DIRECTION and NORMAL `1 0 0` in body axes.
 """
 
-import h5py
 import numpy as np
 
-from ..bodies.superelement_body import decoded, find_superelement, interfaces_of, superelement_of
-from ..messages import InputError, did_you_mean, note, place as shown
-from ..results.results_file import reading
+from ..bodies.superelement_body import find_superelement, interfaces_of, superelement_of
+from ..messages import InputError
+from .body_places import place_of, point_of, three_numbers
 
 MADE = {"von_mises": ("Pa", "von Mises stress, recovered from the superelement"),
         "radiated_power": ("W", "equivalent radiated power of the surface in air"),
         "radiated_power_elastic": ("W", "equivalent radiated power of the surface in air by the deformation alone"),
         "deflection": ("m", "displacement relative to a chord, body axes, say deflection(POINT, A, B): x, y, z"),
         "gauge": ("-", "strain of the surface along a direction, say gauge(PLACE, DIRECTION)"),
-        "rosette": ("-, -, -, -, -, rad", "strains of the surface in three directions, principal ones and the angle of the largest from "
-                    "the first direction, say rosette(PLACE, DIRECTION, KIND): a, b, c, largest, least, angle")}
-COLUMNS = {"deflection": 3, "rosette": 6}
+        "rosette": ("-, -, -, -, -, rad", "strains of the surface in three directions, principal ones and the angle of "
+                    "the largest from the first direction, say rosette(PLACE, DIRECTION, KIND): a, b, c, largest, least, angle"),
+        "section": ("N, N m", "force and moment about a place on the part behind the plane through it, body axes, "
+                    "say section(PLACE, NORMAL): x, y, z, rx, ry, rz")}
+COLUMNS = {"deflection": 3, "rosette": 6, "section": 6}
 
 
 def has_body(results, element):
@@ -38,6 +40,7 @@ class Bodies:
 
     def __init__(self, results, given=None):
         self.results, self.given, self._bodies, self._powers, self._strains = results, given or {}, {}, {}, {}
+        self._loaded, self._sections = {}, {}
 
     def body(self, element):
         if element not in self._bodies:
@@ -46,6 +49,16 @@ class Bodies:
 
     def path(self, element):
         return find_superelement(self.results, element, self.given)
+
+    def needs(self, element, field):
+        """The datasets of which a quantity is made."""
+        own = [f"elements/{element}/{name}" for name in ("frame", "coordinates")]
+        if field != "section":
+            return own
+        interfaces = interfaces_of(self.path(element), self.results.text(f"elements/{element}", "group"))
+        nodes = [self.results.text(f"elements/{element}", f"interface {name}") for name, _, _ in interfaces]
+        return [*own, f"elements/{element}/interface_force",
+                *(f"nodes/{node}/{name}" for node in nodes for name in ("rotation", "velocity"))]
 
     def columns(self, element, field):
         """Number of columns of a quantity that is made."""
@@ -58,7 +71,7 @@ class Bodies:
 
     def read(self, element, field, rows, arguments=()):
         """Values (rows, columns) of a quantity. arguments: the words of `deflection(..)`. @raises InputError"""
-        if arguments and field not in ("deflection", "gauge", "rosette"):
+        if arguments and field not in ("deflection", "gauge", "rosette", "section"):
             raise InputError(f"{element}.{field} takes no words in brackets")
         if field == "von_mises":
             body, q = self.body(element), self._coordinates(element, rows)
@@ -68,6 +81,9 @@ class Bodies:
             return self._deflection(element, self._coordinates(element, rows), arguments)
         if field in ("gauge", "rosette"):
             return self._gauges(element, field, self._coordinates(element, rows), arguments)
+        if field == "section":
+            section = self._section(element, arguments)
+            return np.array([section.at(row) for row in range(len(self.results.time))[rows]]).reshape(-1, 6)
         return self._power(element, field == "radiated_power_elastic")[rows, None]
 
     def _coordinates(self, element, rows):
@@ -91,7 +107,7 @@ class Bodies:
             raise InputError(f"{element}.deflection: expected a point and the two ends of the chord, '{element}."
                              "deflection(POINT, A, B)', each an interface, a named point, the number of a mesh node, "
                              "or its place 'x y z'")
-        (P, u), (A, u_a), (B, u_b) = (self._point(element, word) for word in arguments)
+        (P, u), (A, u_a), (B, u_b) = (point_of(self, element, word) for word in arguments)
         chord = B - A
         length = np.linalg.norm(chord)
         if length == 0:
@@ -108,7 +124,8 @@ class Bodies:
             raise InputError(f"{element}.{field}: expected a place and a direction" + (
                 f", '{element}.gauge(PLACE, DIRECTION)'" if field == "gauge" else
                 f" and the kind, '{element}.rosette(PLACE, DIRECTION, rectangular)' or 'delta'")
-                + "; the place is a named point, the number of a mesh node, or 'x y z' [m], the direction 'x y z' in body axes")
+                + "; the place is a named point, the number of a mesh node, or 'x y z' [m], the direction 'x y z' in body "
+                "axes")
         from ..bodies import gauges  # SciPy takes a while
         angles = gauges.angles_of_rosette(arguments[2]) if field == "rosette" else np.zeros(1)
         plane = q @ self._plane_strain(element, *arguments[:2]).T
@@ -119,93 +136,29 @@ class Bodies:
         """(3,n) strain of the surface per coordinate, found once."""
         if (element, place, direction) not in self._strains:
             from ..bodies.gauges import plane_strain_of
-            along = _three(direction)
+            along = three_numbers(direction)
             if along is None:
-                raise InputError(f"{element}: the direction of a gauge is three numbers, '1 0 0' in body axes, not '{direction}'")
-            self._strains[element, place, direction] = plane_strain_of(self.body(element), self._place(element, place), along)
+                raise InputError(f"{element}: the direction of a gauge is three numbers, '1 0 0' in body axes, not "
+                                 f"'{direction}'")
+            at = place_of(self, element, place)
+            self._strains[element, place, direction] = plane_strain_of(self.body(element), at, along)
         return self._strains[element, place, direction]
 
-    def _place(self, element, word):
-        """Place (3) of a gauge, body axes."""
-        body, point = self.body(element), self._points(element).get(word)
-        if point is not None:
-            return point[0]
-        if word.isdigit():
-            if int(word) >= len(body.points):
-                raise InputError(f"'{element}' has no node {word}: those of its mesh are 0 to {len(body.points) - 1}")
-            return body.points[int(word)]
-        place = _three(word)
-        if place is None:
-            raise InputError(f"'{element}' has no point '{word}'{did_you_mean(word, list(self._points(element)))}; a gauge is at a named point, "
-                             "at the number of a mesh node, or at a place 'x y z' [m]")
-        return place
-
-    def _point(self, element, word):
-        """Place of a point and its displacement (3,n) per coordinate, body axes."""
-        body = self.body(element)
-        named = self._named_points(element)
-        if word in named:
-            position, u = named[word]
-            if u is None:
-                raise InputError(f"the interface '{word}' of '{element}' does not keep its translations: it has no "
-                                 "displacement of its own")
-            return position, u
-        row = _mesh_row(body, word)
-        if row is None:
-            raise InputError(f"'{element}' has no interface or point '{word}'{did_you_mean(word, list(named))}")
-        return body.points[body.displaced[row]], body.displacement[3 * row:3 * row + 3]
-
-    def _named_points(self, element):
-        """{name: (place, displacement (3,n) per coordinate)} of interfaces and points; None for a displacement that the
-        file does not have."""
-        path, group = self.path(element), self.results.text(f"elements/{element}", "group")
-        count, found = self.body(element).displacement.shape[1], self._points(element)
-        with reading(path, "interface"), h5py.File(path, "r") as opened:
-            file = opened[group] if group else opened
-            has_interfaces = "interface" in file
-            positions = np.asarray(file["interface/positions"], float) if has_interfaces else ()
-        begin = 0
-        for (name, kept, R), X in zip(interfaces_of(path, group) if has_interfaces else (), positions):
-            u = np.zeros((3, count)) if kept[:3].all() and begin + 3 <= count else None
-            if u is not None:
-                u[:, begin:begin + 3] = R
-            found[name] = X.reshape(3), u
-            begin += int(kept.sum())
-        return found
-
-    def _points(self, element):
-        """The same of the named points alone."""
-        path, group = self.path(element), self.results.text(f"elements/{element}", "group")
-        count, found = self.body(element).displacement.shape[1], {}
-        with reading(path, "points"), h5py.File(path, "r") as opened:
-            file = opened[group] if group else opened
-            for name, point in file["points"].items() if "points" in file else ():
-                place, shapes = (np.asarray(point[field], float) for field in ("position", "shapes"))
-                found[decoded(name)] = place.reshape(3), shapes[:3].reshape(3, count)
-        return found
-
-
-def _three(text):
-    """Three finite numbers of a text, or None."""
-    try:
-        numbers = np.array([float(each) for each in text.split()])
-    except ValueError:
-        return None
-    return numbers if len(numbers) == 3 and np.isfinite(numbers).all() else None
-
-
-def _mesh_row(body, word):
-    """Row of the recovery of a node by number or place; None if the word is neither, or there is no such node."""
-    numbers = _three(word)
-    if numbers is not None and len(body.displaced):
-        distances = np.linalg.norm(body.points[body.displaced] - numbers, axis=1)
-        row = int(distances.argmin())
-        if distances[row] > 1e-6 * np.ptp(body.points, axis=0).max():
-            note(f"the node nearest to {shown(numbers)} is {distances[row]:.3g} m away, at "
-                 f"{shown(body.points[body.displaced[row]])}")
-        return row
-    found = np.flatnonzero(body.displaced == int(word)) if word.isdigit() else []
-    return int(found[0]) if len(found) else None
+    def _section(self, element, arguments):
+        if len(arguments) != 2 or not all(arguments):
+            raise InputError(f"{element}.section: expected a place and the normal of the plane, '{element}.section(PLACE, "
+                             "NORMAL)'; the place is a named point, the number of a mesh node, or 'x y z' [m], the normal 'x y z' in body axes")
+        if (element, *arguments) not in self._sections:
+            from ..bodies.section_forces import LoadedBody, Section
+            normal = three_numbers(arguments[1])
+            if normal is None:
+                raise InputError(f"{element}: the normal of a section is three numbers, '1 0 0' in body axes, not "
+                                 f"'{arguments[1]}'")
+            if element not in self._loaded:
+                self._loaded[element] = LoadedBody(self.results, element, self.given)
+            place = place_of(self, element, arguments[0])
+            self._sections[element, *arguments] = Section(self._loaded[element], place, normal)
+        return self._sections[element, *arguments]
 
 
 def _turned(start, ends, vector):

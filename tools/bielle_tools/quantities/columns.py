@@ -15,7 +15,7 @@ from .rainflow import stress_signal
 VECTOR = ["x", "y", "z", "rx", "ry", "rz"]
 VECTORS = ("position", "velocity", "acceleration", "reaction", "reaction_inertial", "point", "force", "moment",
            "deformation", "centre", "momentum", "angular_momentum", "displacement", "resultants", "interface_force",
-           "rotation_vector", "deflection")
+           "rotation_vector", "deflection", "section")
 STRESS = ["xx", "yy", "zz", "yz", "xz", "xy"]
 OVER_ALL = {"max": np.fmax.reduce, "min": np.fmin.reduce,
             "abs": lambda values, axis: np.fmax.reduce(np.abs(values), axis=axis)}

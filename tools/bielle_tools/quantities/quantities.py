@@ -63,7 +63,7 @@ class Quantities:
                 return [f"analysis_{of_one[1]}/{place}" for place in Quantities(one).needs(of_one[2])]
         place, _, _ = self.places.find(text)
         if place in self.places.made:
-            return [f"{place.rpartition('/')[0]}/{field}" for field in ("frame", "coordinates")]
+            return self.bodies.needs(*place.partition("/")[2].rpartition("/")[::2])
         return [made_of(place)[1]]
 
     def read(self, text, select=None):
