@@ -48,6 +48,7 @@ class FlexibleBody:
     stress: Any
     stressed: np.ndarray
     nodes: np.ndarray  # numbers of the points in the mesh of the file
+    levels: list  # of scene/levels.py: the triangles, then coarser ones of the first points
 
 
 @dataclass

@@ -87,7 +87,8 @@ class SceneData:
             self._numbers[key] = len(self.bodies)
             add = self.pack.add
             shapes, scale = self._quantised(body.shapes / self.size)
-            found = {"points": add(body.points / self.size, "f4"), "triangles": add(body.triangles, "i4"), "shapes": add(shapes, "i2"),
+            levels = [{"cell": level.cell / self.size, "count": level.count, "triangles": add(level.triangles, "i4")} for level in body.levels]
+            found = {"points": add(body.points / self.size, "f4"), "levels": levels, "shapes": add(shapes, "i2"),
                      "scale": add(scale, "f4"), "count": len(body.shapes), "nodes": add(body.nodes, "i4")}
             if body.stress is not None:
                 stress, stress_scale = self._quantised(body.stress)
