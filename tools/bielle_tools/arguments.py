@@ -73,7 +73,7 @@ def selected_rows(options):
 
 def add_motion_options(parser):
     """Options of the commands that show a motion."""
-    parser.add_argument("--scale", type=finite, default=1.0, help="magnify elastic displacements of superelements (default 1)")
+    parser.add_argument("--scale", type=finite, default=1.0, help="magnify elastic displacements of superelements and, in pictures, of beams (default 1)")
     parser.add_argument("--from", type=finite, dest="begin", metavar="T", help="first time to show [s]")
     parser.add_argument("--to", type=finite, dest="end", metavar="T", help="last time to show [s]")
 

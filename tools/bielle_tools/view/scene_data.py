@@ -22,12 +22,14 @@ class SceneData:
     def described(self, scene, rows, arrows=True):
         """The scene at these rows, for the page."""
         tracks = Tracks(len(rows))
-        parts = [(part, tracks.add(in_units(scene.poses(part, rows), self.centre, self.size))) for part in scene.parts]
+        units = lambda poses: in_units(poses, self.centre, self.size)  # noqa: E731
+        parts = [(part, tracks.add(units(scene.poses(part, rows)), units(part.rest(rows)) if part.rest else None)) for part in scene.parts]
         found = {"batch": self._batch(parts), "parts": [self._part(part, numbers) for part, numbers in parts],
                  "stressed": [self._stressed(part, rows) for part in scene.parts if part.stress],
                  "flexible": [self._flexible(part, rows, tracks) for part in scene.flexible],
                  "anchors": self._anchors(scene, parts), "arrows": self._arrows(scene, rows) if arrows else []}
         found["tracks"], position, rotation = tracks.stored(self.pack)
+        found["tracks"]["rests"] = tracks.rests
         self._largest(position=position, rotation=rotation)
         return found
 
