@@ -114,7 +114,7 @@ class InResults(_ResultsTool):
         self.refuse("bielle-plot", [self.path("run.h5"), "--rotation", "briant"], "--rotation", "bryant")
 
     def test_cycles(self):
-        self.assertIn("nodes/hub/euler", self.succeed("bielle-rainflow", self.path("run.h5"), "nodes/hub/euler", "--component", "0").stdout)
+        self.assertIn("nodes/hub/euler", self.succeed("bielle-rainflow", self.path("run.h5"), "nodes/hub/euler", "--component", "1").stdout)
 
 
 STUDIED = """\

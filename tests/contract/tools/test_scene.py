@@ -107,8 +107,10 @@ class Scenes(unittest.TestCase):
     def test_items_that_cannot_be_drawn_are_told(self):
         items = [{"entry": "a/lost", "shape": "box", "size": [1, 1, 1], "node": "absent"}, {"entry": "a/flat", "shape": "sphere", "radius": -1},
                  {"entry": "a/bare", "shape": "cylinder"}, {"shape": "box"}, 7, {"entry": "a/mesh", "shape": "mesh", "mesh": "gone"}]
+        items.append({"entry": "nodes/absent", "shape": "node", "node": "absent"})  # left out by `output: only`: it is not missed
         scene = self.scene({"n": resting(2)}, items)
         self.assertEqual(scene.parts, [])
+        self.assertNotIn("nodes/absent", dict(scene.notes))
         told = dict(scene.notes)
         self.assertIn("'absent'", told["a/lost"])
         self.assertIn("not positive", told["a/flat"])

@@ -122,7 +122,7 @@ class OfABar(InFolder):
             root = results.rows("elements/bar/interface_force")[-1, 0]
             front = quantities.read("bar.section(0.3 0.01 0.02, 1 0.3 0.2)").values[-1]
             back = quantities.read("bar.section(0.3 0.01 0.02, -1 -0.3 -0.2)").values[-1]
-            np.testing.assert_allclose(front, -back, atol=1e-8 * np.abs(root).max())  # what one part does to the other, and back
+            np.testing.assert_allclose(front, -back, atol=1e-8 * np.abs(root).max())  # action and reaction
             np.testing.assert_allclose(front[:3], -root[:3], atol=1.5 * turn * 3000)  # nothing acts between
             self.assertEqual(quantities.read("bar.section(0.3 0 0, 1 0 0).norm").units, ["N"])
             self.assertEqual(quantities.read("bar.section(0.3 0 0, 1 0 0).ry").units, ["N m"])

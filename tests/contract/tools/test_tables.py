@@ -92,6 +92,13 @@ class OfSynthetic(TableTool):
         self.assertEqual(found["elements/ram/pressure[2]"][:3], [2e5, "Pa", 0.0])
         self.assertEqual(self.peaks("--span", "0.05:")["elements/rod/von_mises"][2], 0.075)
 
+    def test_a_stress_without_any_number_is_told(self):
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            file["elements/shaft/von_mises"][...] = np.nan
+        done = self.succeed("run.h5", "--peaks")
+        self.assertEqual(done.stderr, "note: no stress of 'elements/shaft/von_mises': none of its values is a number\n")
+        self.assertNotIn("shaft", done.stdout)
+
     def test_peaks_of_recorded_fields_supports_contacts_and_of_all_steps(self):
         with h5py.File(self.path("run.h5"), "r+") as file:
             rows = len(self.time)

@@ -17,6 +17,8 @@ VECTORS = ("position", "velocity", "acceleration", "reaction", "reaction_inertia
            "deformation", "centre", "momentum", "angular_momentum", "displacement", "resultants", "interface_force",
            "rotation_vector", "deflection", "section")
 STRESS = ["xx", "yy", "zz", "yz", "xz", "xy"]
+OF_SECTION = ["xx", "xy", "xz"]  # stresses in the section of a beam
+QUATERNION = ["w", "x", "y", "z"]
 OVER_ALL = {"max": np.fmax.reduce, "min": np.fmin.reduce,
             "abs": lambda values, axis: np.fmax.reduce(np.abs(values), axis=axis)}
 SUFFIX = re.compile(r"\.([A-Za-z_]\w*)|\[([^\[\]]*)\]")
@@ -53,11 +55,16 @@ class Columns:
         named = names_in(description, shape[-1]) if shape else ["1"]
         unnamed = all(name.isdigit() for name in named)
         self.is_strain = "strain" in field
-        self.is_vector = six and len(set(self.units)) == 2 and field != "rosette" or \
+        self.is_vector = six and len(set(self.units)) == 2 and field not in ("rosette", "strain") or \
             bool(shape) and shape[-1] in (3, 6) and field in VECTORS and not along
         if shape:
-            as_vector = self.is_vector and (unnamed or field in VECTORS)
+            as_vector = (self.is_vector or six and field == "strain") and (unnamed or field in VECTORS)
             self.axes[-1] = list(STRESS) if self.is_stress else VECTOR[:shape[-1]] if as_vector else named
+            if field == "rotation" and shape[-1] == 4:
+                self.axes[-1] = list(QUATERNION)
+        if field in ("stress", "von_mises") and len(shape) == (3 if field == "stress" else 2):  # beams have stress points
+            self.axes[1] = [f"p{k + 1}" for k in range(shape[1])]
+            self.axes[2:] = [list(OF_SECTION)] if shape[2:] == (3,) else self.axes[2:]
         self.steps = []
         self.words = ""  # the components as written
 
@@ -67,8 +74,9 @@ class Columns:
             self._index(word[1:-1])
         elif word in OVER_ALL:
             self._over_all(word)
-        elif self.axes and word in self.axes[-1]:
-            self._pick(len(self.axes) - 1, self.axes[-1].index(word))
+        elif any(word in axis for axis in self.axes):
+            axis = max(k for k, names in enumerate(self.axes) if word in names)
+            self._pick(axis, self.axes[axis].index(word))
         elif self.is_vector and word in ("norm", "force", "moment"):
             self._norm(word)
         elif self.is_stress and word in self._invariants():
@@ -79,7 +87,7 @@ class Columns:
 
     def known(self):
         """The words that may follow."""
-        names = [name for name in self.axes[-1] if not name.isdigit()] if self.axes else []
+        names = [name for axis in reversed(self.axes) for name in axis if not name.isdigit()]
         norms = ["norm", "force", "moment"][:3 if len(self.axes[-1]) == 6 else 1] if self.is_vector else []
         over_all = list(OVER_ALL) if len(set(self.units)) == 1 else []
         return names + norms + self._invariants() * self.is_stress + over_all
@@ -150,9 +158,8 @@ class Columns:
         texts = [""]
         if all(len(axis) == 1 for axis in self.axes):
             return texts
-        for number, axis in enumerate(self.axes):
-            last = number == len(self.axes) - 1
-            ends = [f"[{k + 1}]" if name.isdigit() or not last else f".{name}" for k, name in enumerate(axis)]
+        for axis in self.axes:
+            ends = [f"[{k + 1}]" if name.isdigit() else f".{name}" for k, name in enumerate(axis)]
             texts = [text + end for text in texts for end in ends]
         return texts
 

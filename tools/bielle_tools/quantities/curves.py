@@ -61,10 +61,16 @@ def spectra(found, kind):
         note("; ".join([f"{curve.label}: resolution {spectrum.resolution:.4g} Hz", *spectrum.remarks]))
         if not np.any(np.nan_to_num(np.diff(curve.y)) != 0):
             note(f"{curve.label} does not change: its spectrum is zero")
-        squared = f"({curve.unit})^2/Hz" if curve.unit not in ("", "-", "1") else "1/Hz"
-        unit = curve.unit if kind == "amplitude" else squared
+        unit = curve.unit if kind == "amplitude" else density(curve.unit)
         results.append(dataclasses.replace(curve, unit=unit, axis="frequency [Hz]", x=spectrum.x, y=spectrum.values))
     return results
+
+
+def density(unit):
+    """Unit of a power spectral density: `m^2/Hz`, `(m/s)^2/Hz`."""
+    if unit in ("", "-", "1"):
+        return "1/Hz"
+    return f"{unit}^2/Hz" if unit.isalpha() else f"({unit})^2/Hz"
 
 
 def orders(runs, names, select, speed):

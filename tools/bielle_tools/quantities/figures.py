@@ -1,6 +1,8 @@
 """Figures of quantities: panels by unit, all runs over each other."""
 
+import hashlib
 import os
+import re
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,14 +13,22 @@ from .curves import with_gaps
 
 MOST_NAMED = 20  # curves in a legend
 MOST_PANELS = 12
+LONGEST_NAME = 100  # letters of the name of a figure
 plt.rcParams["agg.path.chunksize"] = 20000  # curves of a million points
 
 
-def target(options, name):
-    """Path of a figure in the folder of the options, or next to the first file."""
+def target(options, kind, names):
+    """Path of a figure in the folder of the options, or next to the first file. Figures of other quantities, kinds or files
+    have other names. kind: `spectrum`, or empty; names: of the quantities"""
     folder = options.output or os.path.splitext(options.files[0])[0] + "-plots"
     os.makedirs(folder, exist_ok=True)
-    return os.path.join(folder, f"{name}.{options.format}")
+    others = [os.path.splitext(os.path.basename(path))[0] for path in options.files[1:]]
+    over = options.against or options.orders
+    words = "+".join(names) + (f"-over-{over}" if over else "") + "".join(f"-and-{name}" for name in others)
+    text = "-".join(([kind] if kind else []) + [re.sub(r"[^\w.+-]+", "_", words).strip("_")])
+    if len(text) > LONGEST_NAME:
+        text = f"{text[:LONGEST_NAME]}-{hashlib.sha256(words.encode(errors='surrogateescape')).hexdigest()[:8]}"
+    return os.path.join(folder, f"{text}.{options.format}")
 
 
 def draw_curves(curves, title, path, logarithmic=False):

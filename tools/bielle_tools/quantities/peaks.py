@@ -81,6 +81,8 @@ class _Finder:
         column"""
         quantity = self.quantities.read(f"{place}.max", self.select)
         row = _largest(quantity.values[:, 0])
+        if row is None:
+            note(f"no stress of '{place}': none of its values is a number")
         if row is None or not quantity.values[row, 0] > 0:
             return
         number = self.row(row)

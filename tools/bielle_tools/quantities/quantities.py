@@ -13,7 +13,6 @@ import re
 import numpy as np
 
 from ..messages import InputError
-from ..results.results_file import Results
 from ..results.rotations import made_of
 from .bodies import MADE, Bodies
 from .columns import Columns, words_of
@@ -53,14 +52,18 @@ class Quantities:
 
     def __init__(self, results, superelements=None):
         self.results, self.places, self.bodies = results, Places(results), Bodies(results, superelements)
-        self.superelements = superelements
+        self.superelements, self._analyses = superelements, {}
+
+    def _analysis(self, number):
+        if number not in self._analyses:
+            self._analyses[number] = Quantities(self.results.analysis(number), self.superelements)
+        return self._analyses[number]
 
     def needs(self, text):
         """The datasets of which a quantity is made. @raises InputError for an unknown name"""
         of_one = OF_ANALYSIS.fullmatch(text.strip())
         if of_one:
-            with Results(self.results.path, int(of_one[1]), self.results.group) as one:
-                return [f"analysis_{of_one[1]}/{place}" for place in Quantities(one).needs(of_one[2])]
+            return [f"analysis_{of_one[1]}/{place}" for place in self._analysis(int(of_one[1])).needs(of_one[2])]
         place, _, _ = self.places.find(text)
         if place in self.places.made:
             return self.bodies.needs(*place.partition("/")[2].rpartition("/")[::2])
@@ -71,8 +74,7 @@ class Quantities:
         @raises InputError"""
         of_one = OF_ANALYSIS.fullmatch(text.strip())
         if of_one:
-            with Results(self.results.path, int(of_one[1]), self.results.group) as one:
-                found = Quantities(one, self.superelements).read(of_one[2], select)
+            found = self._analysis(int(of_one[1])).read(of_one[2], select)
             before = f"analysis_{of_one[1]}/"
             return dataclasses.replace(found, name=before + found.name, place=before + found.place,
                                        labels=[before + label for label in found.labels])

@@ -25,6 +25,7 @@ SHAPES = {("nodes", "position"): (3,), ("nodes", "rotation"): (4,), ("nodes", "v
 LARGEST = 1e100  # no quantity is larger
 WITHOUT_ROWS = ("eigen", "campbell", "frequency_response", "state_space")  # analyses that record nothing over time
 # Purpose of other files of Bielle.
+OF_ENTRIES = ("nodes", "joints", "elements", "supports", "contacts")  # sections with a group for each entry
 OTHERS = {"bielle superelement": "'bielle-reduce --inspect {0}' describes it",
           "bielle cut body": "'bielle-reduce --inspect {0}' describes it",
           "bielle matrices": "'bielle-exchange {0} OUT' writes them in another format",
@@ -66,7 +67,7 @@ class Results:
         with reading(self.path, group or "/"):
             self.file = self._opened[group] if group else self._opened
         self.root = self.file
-        self._warned = set()
+        self._warned, self._names, self._analyses = set(), {}, {}
         with reading(self.path, "/"):
             if analysis is not None:
                 if f"analysis_{analysis}" not in self.file:
@@ -124,7 +125,15 @@ class Results:
         return self
 
     def __exit__(self, *_):
+        for one in self._analyses.values():
+            one.__exit__()
         self._opened.close()
+
+    def analysis(self, number):
+        """One analysis of the file, open as long as these results. @raises InputError if there is none"""
+        if number not in self._analyses:
+            self._analyses[number] = Results(self.path, number, self.group)
+        return self._analyses[number]
 
     @property
     def title(self):
@@ -133,12 +142,15 @@ class Results:
 
     @_told
     def names(self, section):
-        """Names under `nodes`, `joints`, `elements`, ...; empty if there are none."""
+        """Names under `nodes`, `joints`, `elements`, ...; empty if there are none. Names of entries may contain `/`."""
         stacked = self._stacked and self._stacked.names(section)
         if stacked is not None:
             return stacked
-        group = self.root[section] if section in self.root else {}
-        return [name for name in group if group.get(name, getclass=True) is h5py.Group or section == "measures"]
+        if section not in self._names:
+            group = self.root[section] if section in self.root else {}
+            self._names[section] = list(_entries(group)) if section in OF_ENTRIES else \
+                [name for name in group if group.get(name, getclass=True) is h5py.Group or section == "measures"]
+        return list(self._names[section])
 
     @_told
     def has(self, place):
@@ -268,6 +280,20 @@ class Results:
             return rows
         wanted = np.linspace(self.time[rows[0]], self.time[rows[-1]], count)
         return np.unique(rows[np.abs(self.time[rows, None] - wanted[None, :]).argmin(axis=0)])
+
+
+def _entries(group, before=""):
+    """Names of the entries of a section in the layout by names: groups with datasets or a type. That of `left` may hold
+    that of `left/arm`."""
+    for name in group:
+        if group.get(name, getclass=True) is not h5py.Group:
+            continue
+        inner = group[name]
+        kinds = {inner.get(each, getclass=True) for each in inner}
+        if h5py.Dataset in kinds or "type" in inner.attrs:
+            yield before + name
+        if h5py.Group in kinds:
+            yield from _entries(inner, f"{before}{name}/")
 
 
 def modes_to_show(results):

@@ -17,6 +17,10 @@ class Place:
     rotation: tuple = (1.0, 0.0, 0.0, 0.0)
 
 
+class NotRecorded(InputError):
+    """The results do not have the motion of a node."""
+
+
 class Motion:
     """Positions and rotations of nodes, each read once."""
 
@@ -41,7 +45,7 @@ class Motion:
         if number.isdigit() and self.results.has(f"{place}/position") and self.results.has(f"{place}/rotation") \
                 and int(number) < self.results.shape(f"{place}/position")[1]:
             return self.results.rows(f"{place}/position")[:, int(number)], self.results.rows(f"{place}/rotation")[:, int(number)]
-        raise InputError(f"the results do not record the node '{name}'")
+        raise NotRecorded(f"the results do not record the node '{name}'")
 
     def position(self, place, rows):
         """(rows,3) of a place."""

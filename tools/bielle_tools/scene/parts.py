@@ -49,7 +49,7 @@ class FlexibleBody:
     stress: Any
     stressed: np.ndarray
     nodes: np.ndarray  # numbers of the points in the mesh of the file
-    levels: list  # of scene/levels.py: the triangles, then coarser ones of the first points
+    levels: list  # scene/levels.py: the triangles, then coarser ones on the first points
 
 
 @dataclass

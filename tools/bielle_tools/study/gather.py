@@ -102,8 +102,7 @@ class Gathered:
         if self.printed is not None:
             return self._printed(results)
         if self.analysis:
-            with Results(results.path, self.analysis) as one:
-                return self._value(one)
+            return self._value(results.analysis(self.analysis))
         return self._value(results)
 
     def _printed(self, results):
