@@ -217,6 +217,13 @@ class OfRuns(InFolder):
             self.assertEqual(sorted(results.names("nodes")), ["left", "left/arm", "left/arm/tip", "plain", "right/arm"])
             self.assertEqual(results.names("elements"), ["left/arm"])
             self.assertEqual(results.names("joints"), [])
+        with h5py.File(self.path("run.h5"), "r+") as file:  # damage that leads back
+            nodes = file["analysis_1/nodes"]
+            nodes["left/again"] = nodes["left"]
+            nodes["plain/above"] = nodes
+        with Results(self.path("run.h5")) as results:
+            self.assertEqual({"left", "left/arm", "left/arm/tip", "right/arm", "plain"} - {name.removeprefix("plain/above/") for name in results.names("nodes")}, set())
+            self.assertEqual(len(results.names("nodes")), 5)
 
     def test_a_note_is_said_once_for_quantities_of_one_analysis(self):
         synthetic.write_superelement(self.path("box.h5"))

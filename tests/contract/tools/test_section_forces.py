@@ -1,5 +1,7 @@
 """Section forces of superelements: parts of meshes in front of planes, a cantilever with a load and with its weight, a bar that spins."""
 
+import contextlib
+import io
 import os
 import shutil
 import subprocess
@@ -139,6 +141,14 @@ class OfABar(InFolder):
         self.run_model(SPUN)
         for x, found in self.sections():
             self.assertAlmostEqual(found[0] / (DENSITY * WIDTH ** 2 * 3600 * (LENGTH ** 2 - x ** 2) / 2), 1, delta=5e-4)
+
+    def test_loads_that_are_not_recorded_are_told(self):
+        for more, part in (("", ""), ("points: {mid: {element: bar, at: [0.5, 0, 0]}}\n", "forces of the point 'mid' are not recorded")):
+            self.run_model(HELD + more)
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                self.sections((0.3, 0.97))
+            self.assertEqual(said.getvalue().count("not recorded"), bool(part))
+            self.assertIn(part, said.getvalue())
 
     def test_slips(self):
         self.run_model(HELD)

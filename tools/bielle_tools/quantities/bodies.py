@@ -149,13 +149,14 @@ class Bodies:
             raise InputError(f"{element}.section: expected a place and the normal of the plane, '{element}.section(PLACE, "
                              "NORMAL)'; the place is a named point, the number of a mesh node, or 'x y z' [m], the normal 'x y z' in body axes")
         if (element, *arguments) not in self._sections:
-            from ..bodies.section_forces import LoadedBody, Section
+            from ..bodies.section_forces import LoadedBody, Section, note_unrecorded_loads
             normal = three_numbers(arguments[1])
             if normal is None:
                 raise InputError(f"{element}: the normal of a section is three numbers, '1 0 0' in body axes, not "
                                  f"'{arguments[1]}'")
             if element not in self._loaded:
                 self._loaded[element] = LoadedBody(self.results, element, self.given)
+                note_unrecorded_loads(self.results, element)
             place = place_of(self, element, arguments[0])
             self._sections[element, *arguments] = Section(self._loaded[element], place, normal)
         return self._sections[element, *arguments]

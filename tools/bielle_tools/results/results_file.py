@@ -282,18 +282,23 @@ class Results:
         return np.unique(rows[np.abs(self.time[rows, None] - wanted[None, :]).argmin(axis=0)])
 
 
-def _entries(group, before=""):
+def _entries(group, before="", known=None):
     """Names of the entries of a section in the layout by names: groups with datasets or a type. That of `left` may hold
-    that of `left/arm`."""
+    that of `left/arm`. known: addresses of the groups so far, since a damaged file may lead back to them"""
+    known = set() if known is None else known
     for name in group:
         if group.get(name, getclass=True) is not h5py.Group:
             continue
         inner = group[name]
+        address = h5py.h5o.get_info(inner.id).addr
+        if address in known:
+            continue
+        known.add(address)
         kinds = {inner.get(each, getclass=True) for each in inner}
         if h5py.Dataset in kinds or "type" in inner.attrs:
             yield before + name
         if h5py.Group in kinds:
-            yield from _entries(inner, f"{before}{name}/")
+            yield from _entries(inner, f"{before}{name}/", known)
 
 
 def modes_to_show(results):
