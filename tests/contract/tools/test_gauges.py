@@ -213,7 +213,8 @@ class OfBoxes(InFolder):
                            ("arm.gauge(-1, 1 0 0)", "no point '-1'"), ("arm.gauge(nan 0 0, 1 0 0)", "no point 'nan 0 0'"),
                            ("arm.gauge(a/b, 1 0)", "three numbers"), ("arm.gauge(a/b, nan 0 0)", "three numbers"), ("arm.gauge(a/b, 0 0 0)", "has no length"),
                            ("arm.gauge(a/b, 0 0 -3)", "is normal to the surface"), ("arm.gauge(0.1 0 0.1, 1 0 0)", "is on an edge"), ("arm.gauge(0 0 0, 1 0 0)", "is on an edge"),
-                           ("arm.gauge(100 50 100, 1 0 0)", "is not on the surface"), (f"arm.gauge({inner}, 1 0 0)", "is not on the surface"),
+                           ("arm.gauge(1e300 0 0, 1 0 0)", "no point '1e300 0 0'"), ("arm.gauge(a/b, 1e300 0 0)", "three numbers"), ("arm.gauge(1e99 0 0, 1 0 0)", "is not on the surface"),
+                           ("arm.gauge(a/b, 1e-200 0 0)", "has no length"), ("arm.gauge(100 50 100, 1 0 0)", "is not on the surface"), (f"arm.gauge({inner}, 1 0 0)", "is not on the surface"),
                            ("arm.gauge(a/b, 1 0 0", "a bracket is not closed"), ("arm.gauge(a/b, 1 0 0).x", "no component 'x'"),
                            ("arm.rosette(a/b, 1 0 0, delta).norm", "no component 'norm'"), ("arm.von_mises(3)", "takes no words in brackets")):
             with self.subTest(text=text), self.assertRaises(InputError) as caught:

@@ -159,7 +159,7 @@ class OfABar(InFolder):
                                ("bar.section(1.5 0 0, 1 0 0)", "does not cut the body"), ("bar.section(0 0 0, 1 0 0)", "does not cut the body"),
                                ("bar.section(1 0 0, 1 0 0)", "does not cut the body"), ("bar.section(0.5 0 0, 0 0 1)", "cuts the surface of the interface 'root'"),
                                ("bar.section(middle, 1 0 0)", "no point 'middle'"), ("bar.section(nan 0 0, 1 0 0)", "no point 'nan 0 0'"),
-                               ("bar.section(0.5 0 0, 1 0 inf)", "three numbers"), ("bar.section(0.5 0 0, 1 0 0).xx", "no component 'xx'")):
+                               ("bar.section(0.5 0 0, 1 0 inf)", "three numbers"), ("bar.section(1e99 0 0, 1 0 0)", "does not cut the body"), ("bar.section(0.5 0 0, 1 0 0).xx", "no component 'xx'")):
                 with self.subTest(text=text), self.assertRaises(InputError) as caught:
                     quantities.read(text)
                 self.assertIn(part, str(caught.exception))

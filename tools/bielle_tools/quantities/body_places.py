@@ -5,7 +5,7 @@ import numpy as np
 
 from ..bodies.superelement_body import decoded, interfaces_of
 from ..messages import InputError, did_you_mean, note, place as shown
-from ..results.results_file import reading
+from ..results.results_file import LARGEST, reading
 
 
 def place_of(bodies, element, word):
@@ -73,12 +73,12 @@ def _points(bodies, element):
 
 
 def three_numbers(text):
-    """Three finite numbers of a text, or None."""
+    """Three numbers of a text, less than 1e100, or None."""
     try:
         numbers = np.array([float(each) for each in text.split()])
     except ValueError:
         return None
-    return numbers if len(numbers) == 3 and np.isfinite(numbers).all() else None
+    return numbers if len(numbers) == 3 and np.all(np.abs(numbers) < LARGEST) else None
 
 
 def _mesh_row(body, word):
