@@ -26,7 +26,7 @@ from bielle_tools.figures import plot_style  # noqa: E402
 
 ARGUMENTS = {"bielle-plot": ["-o", "plots"], "bielle-animate": ["-o", "run.png", "--frames", "2"],
              "bielle-paraview": ["-o", "run.pvd", "--frames", "2"],
-             "bielle-rainflow": ["joints/main/reaction", "--component", "5"], "bielle-table": ["--peaks"]}
+             "bielle-rainflow": ["joints/main/reaction", "--component", "6"], "bielle-table": ["--peaks"]}
 
 
 def module_of(name):
