@@ -15,7 +15,8 @@ from bielle_tools import messages
 
 messages.require("numpy", "meshio")
 
-from bielle_tools import deck_materials, deck_ties, foreign_mesh, msh_file, solid_mesh  # noqa: E402
+from bielle_tools.decks import materials as deck_materials, ties as deck_ties, foreign_mesh  # noqa: E402
+from bielle_tools.mesh import msh_file, solid_mesh  # noqa: E402
 
 
 def write_json(option, source, target):

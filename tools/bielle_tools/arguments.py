@@ -4,7 +4,7 @@ import argparse
 import math
 
 from .messages import InputError, check_names, did_you_mean
-from .results_file import Results
+from .results.results_file import Results
 
 
 class Parser(argparse.ArgumentParser):
@@ -73,7 +73,7 @@ def selected_rows(options):
 
 def add_motion_options(parser):
     """Options of the commands that show a motion."""
-    parser.add_argument("--scale", type=finite, default=1.0, help="magnify elastic displacements of superelements (default 1)")
+    parser.add_argument("--scale", type=finite, default=1.0, help="magnify elastic displacements of superelements and, in pictures, of beams (default 1)")
     parser.add_argument("--from", type=finite, dest="begin", metavar="T", help="first time to show [s]")
     parser.add_argument("--to", type=finite, dest="end", metavar="T", help="last time to show [s]")
 
@@ -97,7 +97,7 @@ def opened_mode(options, results, pictures):
     share = 0.1 if options.amplitude is None else options.amplitude
     if not 0 < share < 1e6:
         raise InputError("--amplitude is a positive number")
-    from .modes import Modes, ModeMotion, ModeScenery
+    from .results.modes import Modes, ModeMotion, ModeScenery
     modes = Modes(results)
     modes.check(options.mode)
     paths = superelement_paths(options, results, anywhere=True)

@@ -14,15 +14,15 @@ import re
 
 import numpy as np
 
-from .cells import SOLIDS
-from .meshio_library import meshio_library
+from .bodies.superelement_body import superelement_of
+from .mesh.cells import SOLIDS
+from .mesh.meshio_library import meshio_library
 from .messages import InputError
-from .results_file import modes_to_show
-from .rotations import rotation_matrices
-from .rigid_bodies import rigid_bodies
+from .results.results_file import modes_to_show
+from .results.rigid_bodies import rigid_bodies
+from .results.rotations import rotation_matrices
 from .scene.beams import beam_motion, beam_stress, turns_of
 from .scene.drawing import Drawing
-from .superelement_body import superelement_of
 
 RESULTANTS = ["axial_force", "shear_force_y", "shear_force_z", "torque", "bending_moment_y", "bending_moment_z"]
 

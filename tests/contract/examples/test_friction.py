@@ -11,7 +11,7 @@ import numpy as np
 
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
 
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
 MODEL = os.path.join(REPOSITORY, "mechanism", "examples", "friction.yaml")

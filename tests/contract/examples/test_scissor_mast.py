@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 from example import EXAMPLES, PROGRAM, ExampleTest
-from bielle_tools.results_file import Results
+from bielle_tools.results import Results
 
 BAYS, BAR = 6, 1.0
 

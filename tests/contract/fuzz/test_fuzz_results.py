@@ -21,11 +21,12 @@ from box_mesh import REPOSITORY
 
 TOOLS = os.path.join(REPOSITORY, "tools")
 sys.path.insert(0, TOOLS)
-from bielle_tools import messages, plot_style  # noqa: E402
+from bielle_tools import messages  # noqa: E402
+from bielle_tools.figures import plot_style  # noqa: E402
 
 ARGUMENTS = {"bielle-plot": ["-o", "plots"], "bielle-animate": ["-o", "run.png", "--frames", "2"],
              "bielle-paraview": ["-o", "run.pvd", "--frames", "2"],
-             "bielle-rainflow": ["joints/main/reaction", "--component", "5"], "bielle-table": ["--peaks"]}
+             "bielle-rainflow": ["joints/main/reaction", "--component", "6"], "bielle-table": ["--peaks"]}
 
 
 def module_of(name):

@@ -27,8 +27,8 @@ def positions(points, time, scale=1.0):
     return stretched @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T + [SPEED * time, 0, 0]
 
 
-def write_superelement(path):
-    points, cells = box((4, 2, 2), (0.3, 0.05, 0.05))
+def write_superelement(path, divisions=(4, 2, 2)):
+    points, cells = box(divisions, (0.3, 0.05, 0.05))
     n = 2  # an idle coordinate, and the stretch
     with h5py.File(path, "w") as file:
         file.attrs.update({"format": "bielle superelement", "version": 1, "name": "box", "complete": True})

@@ -17,9 +17,10 @@ from gmsh_library import GmshFile
 from python_tool import run_python_tool  # box_mesh knows where
 from test_convert_cells import MIXTURE, SHAPES, CellConverter, area, cell_set
 
-from bielle_tools import calculix_file, cell_integrals
-from bielle_tools.cells import BY_GMSH, CELLS, FLATS, SOLIDS, boundary_faces, permutation, solid_faces
-from bielle_tools.meshio_library import meshio_library
+from bielle_tools.bodies import calculix_file
+from bielle_tools.mesh import cell_integrals
+from bielle_tools.mesh.cells import BY_GMSH, CELLS, FLATS, SOLIDS, boundary_faces, permutation, solid_faces
+from bielle_tools.mesh.meshio_library import meshio_library
 
 meshio = meshio_library()
 

@@ -238,8 +238,8 @@ class Degenerate(CellConverter):
         kinds = {}
         import sys
         sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-        from bielle_tools.cells import CELLS, six_volumes
-        from bielle_tools.repeated_nodes import without_repeated
+        from bielle_tools.mesh.cells import CELLS, six_volumes
+        from bielle_tools.mesh.repeated_nodes import without_repeated
         points = CELLS["hexahedron"].reference + 0.1 * np.random.default_rng(2).random((8, 3))
         for corners in sorted(seen):
             found = without_repeated("hexahedron", corners)

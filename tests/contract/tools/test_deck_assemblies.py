@@ -7,12 +7,12 @@ from scipy.spatial.transform import Rotation
 
 from box_mesh import InFolder, area
 from cell_decks import SIDE, SIZE, VOLUME, Box
-from bielle_tools.abaqus_file import read_abaqus
-from bielle_tools.cell_integrals import volumes
-from bielle_tools.cells import SOLIDS, permutation, triangles_of
-from bielle_tools.deck_materials import read_materials
+from bielle_tools.decks.abaqus_file import read_abaqus
+from bielle_tools.decks.materials import read_materials
+from bielle_tools.mesh.cell_integrals import volumes
+from bielle_tools.mesh.cells import SOLIDS, permutation, triangles_of
+from bielle_tools.mesh.solid_mesh import solid_mesh
 from bielle_tools.messages import InputError
-from bielle_tools.solid_mesh import solid_mesh
 
 STEEL = "*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E11, 0.3\n*DENSITY\n7850.\n"
 SHIFT, A, B, ANGLE = (0.1, -0.2, 0.35), (0.3, 0.1, -0.2), (1.3, 2.1, 0.7), 30.0

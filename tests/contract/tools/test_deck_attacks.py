@@ -4,9 +4,9 @@ import unittest
 
 from cell_decks import Box
 from test_deck_assemblies import Decks
-from bielle_tools.foreign_mesh import read_foreign
+from bielle_tools.decks.foreign_mesh import read_foreign
+from bielle_tools.mesh.solid_mesh import solid_mesh
 from bielle_tools.messages import InputError
-from bielle_tools.solid_mesh import solid_mesh
 
 CUBE = "*ELEMENT, TYPE=C3D8\n"
 

@@ -11,8 +11,8 @@ from everything_deck import Everything
 from gmsh_library import GmshFile
 from python_tool import run_python_tool
 from test_deck_assemblies import volume
-from bielle_tools.cells import SOLIDS, triangles_of
-from bielle_tools.deck_materials import read_materials
+from bielle_tools.decks.materials import read_materials
+from bielle_tools.mesh.cells import SOLIDS, triangles_of
 
 CONVERT = os.path.join(REPOSITORY, "tools", "convert_mesh.py")
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from box_mesh import area
 from test_deck_assemblies import Decks, volume
-from bielle_tools.abaqus_file import read_abaqus, read_deck
-from bielle_tools.cells import triangles_of
+from bielle_tools.decks.abaqus_file import read_abaqus, read_deck
+from bielle_tools.mesh.cells import triangles_of
 
 # The corners of a block of 4 x 2 x 2 hexahedra of 0.2 x 0.1 x 0.05: nodes 1 + i + 10 j + 100 k.
 BLOCK = ("*NODE, NSET=CORNERS\n1, 0., 0., 0.\n5, .8, 0., 0.\n21, 0., .2, 0.\n25, .8, .2, 0.\n"

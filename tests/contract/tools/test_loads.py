@@ -12,9 +12,9 @@ import numpy as np
 from box_mesh import REPOSITORY
 from python_tool import run_python_tool  # box_mesh knows where
 
-from bielle_tools import cell_integrals
-from bielle_tools.body_loads import LoadedBody
-from bielle_tools.results_file import Results
+from bielle_tools.bodies.loads import LoadedBody
+from bielle_tools.mesh import cell_integrals
+from bielle_tools.results import Results
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-loads")

@@ -13,11 +13,11 @@ from box_mesh import REPOSITORY
 from cell_decks import SIDE, SIZE, VOLUME, Box, card
 from python_tool import run_python_tool
 
-from bielle_tools import cell_integrals
-from bielle_tools.abaqus_file import read_abaqus
-from bielle_tools.body_loads import LoadedBody
-from bielle_tools.cells import CELLS
-from bielle_tools.results_file import Results
+from bielle_tools.bodies.loads import LoadedBody
+from bielle_tools.decks.abaqus_file import read_abaqus
+from bielle_tools.mesh import cell_integrals
+from bielle_tools.mesh.cells import CELLS
+from bielle_tools.results import Results
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-loads")

@@ -16,10 +16,10 @@ from box_mesh import REPOSITORY, InFolder
 from python_tool import run_python_tool  # box_mesh knows where
 from synthetic_modes import OMEGA, SIGMA, write_whirl
 
-from bielle_tools.modes import ModeMotion, Modes, ModeScenery, turned  # noqa: E402  (box_mesh knows where)
-from bielle_tools.results_file import Results  # noqa: E402
-from bielle_tools.rotations import rotation_matrices  # noqa: E402
-from bielle_tools.superelement_body import superelement_of  # noqa: E402
+from bielle_tools.bodies.superelement_body import superelement_of  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
+from bielle_tools.results.modes import ModeMotion, Modes, ModeScenery, turned  # noqa: E402  (box_mesh knows where)
+from bielle_tools.results.rotations import rotation_matrices  # noqa: E402
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 # The body's x axis along y of the mechanism; both ends are rigid, so that their surfaces move as their nodes do.

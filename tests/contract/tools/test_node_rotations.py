@@ -16,9 +16,9 @@ from box_mesh import REPOSITORY
 from test_results_tools import ResultsTool as _ResultsTool
 
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools import rotations  # noqa: E402
-from bielle_tools.results_columns import column_names, column_units, columns_of  # noqa: E402
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.results import rotations  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
+from bielle_tools.results.columns import column_names, column_units, columns_of  # noqa: E402
 
 AXES = {"euler": "ZXZ", "bryant": "XYZ"}
 
@@ -114,7 +114,7 @@ class InResults(_ResultsTool):
         self.refuse("bielle-plot", [self.path("run.h5"), "--rotation", "briant"], "--rotation", "bryant")
 
     def test_cycles(self):
-        self.assertIn("nodes/hub/euler", self.succeed("bielle-rainflow", self.path("run.h5"), "nodes/hub/euler", "--component", "0").stdout)
+        self.assertIn("nodes/hub/euler", self.succeed("bielle-rainflow", self.path("run.h5"), "nodes/hub/euler", "--component", "1").stdout)
 
 
 STUDIED = """\

@@ -19,11 +19,11 @@ from box_mesh import REPOSITORY, InFolder
 from python_tool import run_python_tool
 
 from bielle_tools.messages import InputError  # noqa: E402  (box_mesh knows where)
-from bielle_tools.modes import ModeMotion, Modes, ModeScenery  # noqa: E402
 from bielle_tools.pictures.camera import MARGIN  # noqa: E402
 from bielle_tools.pictures.frames import drawn  # noqa: E402
 from bielle_tools.pictures.shot import Look, Shot  # noqa: E402
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
+from bielle_tools.results.modes import ModeMotion, Modes, ModeScenery  # noqa: E402
 from bielle_tools.scene.stress_scale import ANCHORS, stress_colours  # noqa: E402
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-animate")

@@ -1,5 +1,7 @@
 """Names and components of quantities: against the datasets of files, in both layouts, with names that hold dots, slashes and commas."""
 
+import contextlib
+import io
 import os
 import subprocess
 import unittest
@@ -11,8 +13,8 @@ import synthetic_results as synthetic
 from box_mesh import InFolder
 
 from bielle_tools.messages import InputError  # box_mesh knows where
-from bielle_tools.quantities import Quantities, split_names
-from bielle_tools.results_file import Results
+from bielle_tools.quantities.quantities import Quantities, arguments_of, split_names
+from bielle_tools.results import Results
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 # The arm is a part; its names hold a dot. Others hold slashes, commas, spaces and the words of components.
@@ -88,6 +90,28 @@ class OfSynthetic(InFolder):
         for label in self.read("shaft.resultants").labels + self.read("main.coordinate").labels + self.read("shaft.position").labels:
             self.assertEqual(self.read(label).labels, [label])
 
+    def test_stress_points_of_beams_and_quaternions_have_names(self):
+        stress = np.arange(len(self.time) * 4 * 2 * 3).reshape(len(self.time), 4, 2, 3)
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            synthetic.put(file, "elements/shaft/stress", stress, "Pa")
+            synthetic.put(file, "elements/shaft/strain", stress.reshape(len(self.time), 4, 6), "1, 1/m")
+            file["elements/shaft/von_mises"].attrs["description"] = "sqrt(sigma^2 + 3 tau^2) at the stress points, in the middle"  # two words for two points
+        self.expect("shaft.stress[3].p2.xz", stress[:, 2, 1, 2], "Pa")
+        self.expect("shaft.stress.p1.xy", stress[:, :, 0, 1], "Pa")
+        self.expect("shaft.stress[4,2].xx", stress[:, 3, 1, 0], "Pa")
+        self.expect("hub.rotation.w", self.data["nodes/hub/rotation"][:, 0], "")
+        self.expect("shaft.rotation[2].z", self.data["elements/shaft/rotation"][:, 1, 3], "")
+        for name in ("shaft.stress", "shaft.von_mises", "hub.rotation", "shaft.strain"):
+            for label in self.read(name).labels:
+                self.assertEqual(self.read(label).labels, [label])
+        self.assertEqual(self.read("shaft.von_mises").labels[1], "shaft.von_mises[1].p2")
+        self.assertEqual(self.read("shaft.stress").labels[5], "shaft.stress[1].p2.xz")
+        self.assertEqual(self.read("hub.rotation").labels, [f"hub.rotation.{name}" for name in "wxyz"])
+        for text in ("shaft.strain.force", "shaft.strain.moment", "shaft.strain.norm", "shaft.stress.p3", "hub.rotation.norm", "shaft.stress.von_mises"):
+            with self.subTest(text=text), self.assertRaises(InputError) as caught:
+                self.read(text)
+            self.assertIn("has no component", str(caught.exception))
+
     def test_rotations_count_turns_and_stress_follows_from_the_body(self):
         np.testing.assert_allclose(self.read("hub.bryant.c").one, synthetic.OMEGA * self.time, atol=1e-12)
         np.testing.assert_allclose(self.read("hub.rotation_vector.norm").one, synthetic.OMEGA * self.time, atol=1e-7)
@@ -114,7 +138,7 @@ class OfSynthetic(InFolder):
         self.assertIn("has no component 'von_mises'", str(caught.exception))
 
     def test_rows_in_blocks_are_the_rows(self):
-        from bielle_tools import quantities
+        from bielle_tools.quantities import quantities
         whole, made = self.read("shaft.resultants").values, self.read("rod.von_mises").values
         before, quantities.AT_ONCE = quantities.AT_ONCE, 600
         try:
@@ -136,6 +160,13 @@ class OfSynthetic(InFolder):
             with self.subTest(text=text), self.assertRaises(InputError) as caught:
                 self.read(text)
             self.assertIn(part, str(caught.exception))
+
+    def test_words_in_brackets_keep_commas_and_brackets_in_quotes(self):
+        for text, words, rest in (("(a, 'b, c' , d).x", ("a", "b, c", "d"), ".x"), ("('b) c')", ("b) c",), ""), ("(o'brien,1 0 0)", ("o'brien", "1 0 0"), ""),
+                                  ("()", ("",), ""), ("( , a)", ("", "a"), ""), ("[1]", (), "[1]")):
+            self.assertEqual(arguments_of(text), (words, rest))
+        for text in ("(a, b", "("):
+            self.assertRaisesRegex(InputError, "is not closed", arguments_of, text)
 
     def test_names_in_lists_are_split_outside_of_brackets_and_quotes(self):
         self.assertEqual(split_names("a.x, b.deflection(p, q, 0 1 2).y , 'c, d'.z,e[1,2]"), ["a.x", "b.deflection(p, q, 0 1 2).y", "'c, d'.z", "e[1,2]"])
@@ -163,6 +194,47 @@ class OfRuns(InFolder):
                         np.testing.assert_array_equal(quantities.read(text).one, expected)
             self.assertEqual(len(Quantities(named).read("analysis_1/time").one), 21)
             self.assertEqual(len(Quantities(named).read("time").one), 11)
+
+    def test_deflection_takes_names_with_commas_of_a_body_whose_name_has_one(self):
+        synthetic.write_superelement(self.path("box.h5"))
+        synthetic.write_results(self.path("run.h5"), "box.h5")
+        with h5py.File(self.path("run.h5"), "r+") as file, h5py.File(self.path("box.h5"), "r+") as box:
+            file["elements"].move("rod", "rod, left")
+            for k, name in enumerate(("a, b", "c) d", "e%2Ff")):
+                synthetic.put(box, f"points/{name}/position", [0.1 * k, 0.01 * k * k, 0], "m")
+                synthetic.put(box, f"points/{name}/shapes", np.arange(12.0).reshape(6, 2) * k, "m")
+        with Results(self.path("run.h5")) as results:
+            quantities = Quantities(results)
+            found = quantities.read("'rod, left'.deflection('a, b', 'c) d', e/f)").values
+            self.assertEqual(found.shape, (41, 3))
+            np.testing.assert_array_equal(found, quantities.read("elements/rod, left/deflection('a, b','c) d','e/f')").values)
+            self.assertEqual(quantities.read("'rod, left'.deflection('a, b', 'c) d', e/f).x").labels, ["'rod, left'.deflection('a, b', 'c) d', e/f).x"])
+
+    def test_names_with_slashes_in_the_layout_by_names(self):
+        nodes = ", ".join(f"{name}: {{position: [{k}, 0, 0], fixed: [{'' if name == 'left/arm' else 'x, y, z, '}rx, ry, rz]}}" for k, name in enumerate(("left", "left/arm", "left/arm/tip", "right/arm", "plain"), 1))
+        with self.run_model(f"nodes: {{{nodes}}}\nelements: {{left/arm: {{type: point_mass, node: left/arm, mass: 1}}}}\n"
+                            "analysis: [{type: dynamic, duration: 1, step: 0.5}]\noutput: {layout: named}\n") as results:
+            self.assertEqual(sorted(results.names("nodes")), ["left", "left/arm", "left/arm/tip", "plain", "right/arm"])
+            self.assertEqual(results.names("elements"), ["left/arm"])
+            self.assertEqual(results.names("joints"), [])
+        with h5py.File(self.path("run.h5"), "r+") as file:  # damage that leads back
+            nodes = file["analysis_1/nodes"]
+            nodes["left/again"] = nodes["left"]
+            nodes["plain/above"] = nodes
+        with Results(self.path("run.h5")) as results:
+            self.assertEqual({"left", "left/arm", "left/arm/tip", "right/arm", "plain"} - {name.removeprefix("plain/above/") for name in results.names("nodes")}, set())
+            self.assertEqual(len(results.names("nodes")), 5)
+
+    def test_a_note_is_said_once_for_quantities_of_one_analysis(self):
+        synthetic.write_superelement(self.path("box.h5"))
+        synthetic.write_results(self.path("run.h5"), "box.h5", analysis="dynamic")
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            file["joints/main/reaction"][3, 0] = np.nan
+        with Results(self.path("run.h5")) as results, contextlib.redirect_stderr(io.StringIO()) as said:
+            quantities = Quantities(results)
+            for name in ("x", "y", "norm"):
+                quantities.read(f"analysis_1/main.reaction.{name}")
+        self.assertEqual(said.getvalue().count("holds values that are no numbers"), 1)
 
     def run_model(self, text):
         self.write("model.yaml", text)

@@ -13,9 +13,9 @@ from box_mesh import REPOSITORY, InFolder
 from python_tool import run_python_tool  # box_mesh knows where
 from study_stand_in import STUDY, WithStandIn
 
-from bielle_tools import spectra
 from bielle_tools.messages import InputError
-from bielle_tools.quantity_curves import envelope
+from bielle_tools.quantities import spectra
+from bielle_tools.quantities.curves import density, envelope
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-plot")
 
@@ -146,11 +146,24 @@ class Command(InFolder):
 
     def test_files_are_overlaid_and_their_numbers_written(self):
         done = self.succeed("a.h5", "b.h5", "--quantity", "s, speed", "--csv", "out.csv", "-o", "plots")
-        self.assertEqual(done.stdout.split(), ["plots/quantities.png", "out.csv"])
+        self.assertEqual(done.stdout.split(), ["plots/s+speed-and-b.png", "out.csv"])
         found = table(self.path("out.csv"))
         np.testing.assert_array_equal(found["s, a [N]"], self.signal)
         np.testing.assert_array_equal(found["s, b [N]"], 2 * self.signal[:2001])
         np.testing.assert_array_equal(found["speed, b [rad/s]"], self.speed[:2001])
+
+    def test_figures_of_other_requests_have_other_names(self):
+        requests = [("s",), ("s", "--spectrum"), ("s", "--psd"), ("s", "--orders", "speed"), ("s", "--envelope"), ("s", "--against", "speed"), ("s", "--against", "angle"), ("s,angle",),
+                    ("s, speed",), ("measures/s",), (", ".join(["s"] * 60),), (", ".join(["s"] * 61),)]
+        paths = [self.succeed("a.h5", "--quantity", *request).stdout.strip() for request in requests]
+        paths.append(self.succeed("a.h5", "b.h5", "--quantity", "s").stdout.strip())
+        self.assertEqual(len(set(paths)), len(requests) + 1, paths)
+        self.assertTrue(all(os.path.dirname(path) == "a-plots" and len(path) < 130 and os.path.getsize(self.path(path)) for path in paths), paths)
+        self.assertEqual(paths[0], self.succeed("a.h5", "--quantity", "s").stdout.strip())
+
+    def test_units_of_densities(self):
+        for unit, expected in (("m", "m^2/Hz"), ("Pa", "Pa^2/Hz"), ("m/s", "(m/s)^2/Hz"), ("N m", "(N m)^2/Hz"), ("-", "1/Hz"), ("", "1/Hz"), ("1", "1/Hz"), ("m^2", "(m^2)^2/Hz")):
+            self.assertEqual(density(unit), expected)
 
     def test_against_another_quantity(self):
         self.succeed("a.h5", "--quantity", "s", "--against", "angle", "--csv", "out.csv", "--span", "1:2", "--every", "10")
@@ -158,7 +171,7 @@ class Command(InFolder):
         with h5py.File(self.path("a.h5")) as file:
             np.testing.assert_array_equal(found["angle [rad]"], file["measures/angle"][1000:2001:10])
         np.testing.assert_array_equal(found["s [N]"], self.signal[1000:2001:10])
-        self.assertTrue(os.path.exists(self.path("a-plots/quantities.png")))
+        self.assertTrue(os.path.exists(self.path("a-plots/s-over-angle.png")))
 
     def test_spectra_and_orders_by_the_command(self):
         write_signals(self.path("sine.h5"), self.time, s=(3 * np.sin(2 * np.pi * 25 * self.time), "N"))
@@ -169,7 +182,7 @@ class Command(InFolder):
         self.assertIn("resolution 0.942", done.stderr)  # 3.77/4 s
         self.succeed("sine.h5", "--quantity", "s", "--psd", "--csv", "psd.csv")
         found = table(self.path("psd.csv"))
-        self.assertAlmostEqual(found["s [(N)^2/Hz]"].sum() * found["frequency [Hz]"][1], 4.5, delta=0.05)
+        self.assertAlmostEqual(found["s [N^2/Hz]"].sum() * found["frequency [Hz]"][1], 4.5, delta=0.05)
         self.succeed("a.h5", "--quantity", "s", "--orders", "speed", "--csv", "orders.csv")
         found = table(self.path("orders.csv"))
         np.testing.assert_allclose(found["amplitude of s [N]"][found["order"] == 2], 3, rtol=2e-3)
@@ -251,7 +264,7 @@ class InStudies(WithStandIn):
         done = run_python_tool(TOOL, ["study.h5", "--quantity", "main.rate", "--csv", "-"], self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.splitlines(), ["time [s],speed = 1,speed = 3", "0.0,0.0,0.0", "1.0,2.0,6.0"])
-        self.assertTrue(os.path.exists(self.path("study-plots/quantities.png")))
+        self.assertTrue(os.path.exists(self.path("study-plots/main.rate.png")))
 
     def test_a_wrong_quantity_ends_the_study_early(self):
         done = self.study("speed,mass\n1,2\n3,2\n", "--gather", "top=max main.rtae")

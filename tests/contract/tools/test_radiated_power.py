@@ -9,10 +9,10 @@ import numpy as np
 
 from box_mesh import REPOSITORY, InFolder, box
 
-from bielle_tools import radiated_power
+from bielle_tools.bodies import radiated_power
 from bielle_tools.messages import InputError  # box_mesh knows where
-from bielle_tools.quantities import Quantities
-from bielle_tools.results_file import Results
+from bielle_tools.quantities.quantities import Quantities
+from bielle_tools.results import Results
 from synthetic_results import VTK_TO_GMSH, put
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]

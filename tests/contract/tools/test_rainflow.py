@@ -13,7 +13,7 @@ from python_tool import run_python_tool
 
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 
-from bielle_tools.rainflow import count_cycles, in_bins, miner_damage, reversals, stress_signal  # noqa: E402
+from bielle_tools.quantities.rainflow import count_cycles, in_bins, miner_damage, reversals, stress_signal  # noqa: E402
 
 
 class Counting(unittest.TestCase):
@@ -72,9 +72,16 @@ class Command(unittest.TestCase):
             stress[:, 0] = signal
             file["elements/rod/stress_at_root"] = stress
             file["elements/rod/stress_at_root"].attrs["units"] = "Pa"
+            file["elements/rod/coordinates"] = np.column_stack([0 * signal, signal])
 
     def run_tool(self, *arguments):
         return run_python_tool(os.path.join(REPOSITORY, "tools", "bielle-rainflow"), [self.path, *arguments])
+
+    def test_columns_count_from_1(self):
+        second = self.run_tool("elements/rod/coordinates", "--component", "2")
+        self.assertEqual(second.returncode, 0, second.stderr)
+        self.assertEqual(second.stdout.splitlines()[2:], self.run_tool("elements/rod/coordinates[2]").stdout.splitlines()[2:])
+        self.assertIn("does not change", self.run_tool("elements/rod/coordinates", "--component", "1").stderr)
 
     def test_it_prints_ranges_means_counts_and_damage(self):
         done = self.run_tool("elements/rod/stress_at_root", "--component", "xx", "--sn", "4e6,100,1")
@@ -88,6 +95,9 @@ class Command(unittest.TestCase):
     def test_slips_are_answered_with_what_there_is(self):
         for arguments, words in ((["elements/rod/stress_at_rot"], "did you mean 'elements/rod/stress_at_root'"),
                                  (["elements/rod/stress_at_root", "--component", "xxx"], "did you mean 'xx'"),
+                                 (["elements/rod/coordinates", "--component", "0"], "--component, from 1; there is no number 0"),
+                                 (["elements/rod/coordinates", "--component", "99"], "by --component, from 1"),
+                                 (["elements/rod/coordinates"], "by --component, from 1"),
                                  (["elements/rod/stress_at_root", "--sn", "80e6,3"], "RANGE,CYCLES,EXPONENT")):
             done = self.run_tool(*arguments)
             self.assertEqual(done.returncode, 1)

@@ -12,7 +12,7 @@ from box_mesh import REPOSITORY
 from test_results_tools import ResultsTool as _ResultsTool
 
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
 
 
 class Layouts(_ResultsTool):

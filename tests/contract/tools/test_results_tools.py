@@ -266,7 +266,7 @@ class Refusals(ResultsTool):
             self.refuse(tool, [self.path("run.h5"), "--colour", "red"], "--colour")
 
     TOOLS = {"bielle-paraview": [], "bielle-plot": [], "bielle-animate": [],
-             "bielle-rainflow": ["joints/main/reaction", "--component", "5"], "bielle-table": ["--quantity", "main.reaction.rz"]}
+             "bielle-rainflow": ["joints/main/reaction", "--component", "6"], "bielle-table": ["--quantity", "main.reaction.rz"]}
 
     def refuse_everywhere(self, *parts):
         for tool, arguments in self.TOOLS.items():
@@ -323,7 +323,7 @@ class Refusals(ResultsTool):
         self.assertIn("'nodes/hub/position' holds values that are no numbers", self.succeed("bielle-plot", self.path("run.h5")).stderr)
         self.succeed("bielle-animate", self.path("run.h5"), "--frames", "4", "-o", self.path("run.png"))
         self.succeed("bielle-paraview", self.path("run.h5"), "--frames", "4")
-        self.refuse("bielle-rainflow", [self.path("run.h5"), "elements/ram/pressure", "--component", "0"],
+        self.refuse("bielle-rainflow", [self.path("run.h5"), "elements/ram/pressure", "--component", "1"],
                     "values that are no numbers, the first at t = 0.0075 s")
 
     def test_results_with_one_time_only(self):
@@ -339,11 +339,11 @@ class Refusals(ResultsTool):
             self.refuse(tool, [self.path("run.h5"), "-o", target], "file/run", "Not a directory")
         with open("/dev/full", "w", encoding="utf-8") as full:
             done = subprocess.run([os.path.join(REPOSITORY, "tools", "bielle-rainflow"), self.path("run.h5"), "joints/main/reaction",
-                                   "--component", "5"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                                   "--component", "6"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (2, "bielle-rainflow: cannot write: No space left on device\n"))
 
     def test_a_reader_that_goes_away_and_closed_streams(self):
-        tool = f"'{os.path.join(REPOSITORY, 'tools', 'bielle-rainflow')}' '{self.path('run.h5')}' joints/main/reaction --component 5"
+        tool = f"'{os.path.join(REPOSITORY, 'tools', 'bielle-rainflow')}' '{self.path('run.h5')}' joints/main/reaction --component 6"
         for streams in ("| true", "| head -1 >/dev/null", ">&-", "<&- >&- 2>&-"):
             done = subprocess.run(["bash", "-c", f"{tool} {streams}; exit ${{PIPESTATUS[0]}}"], stderr=subprocess.PIPE, text=True,
                                   timeout=60)

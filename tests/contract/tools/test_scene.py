@@ -12,12 +12,13 @@ import numpy as np
 REPOSITORY = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
+from bielle_tools.results.quaternions import from_axes, from_z, product, rotated  # noqa: E402
+from bielle_tools.results.rotations import rotation_matrices  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
 from bielle_tools.scene.arrows import arrows_of  # noqa: E402
 from bielle_tools.scene.templates import box, cylinder, extruded, lathe, sphere, torus, tube  # noqa: E402
-from bielle_tools.rotations import rotation_matrices  # noqa: E402
-from bielle_tools.scene.transforms import from_axes, from_z, placed, product, rotated  # noqa: E402
+from bielle_tools.scene.transforms import placed  # noqa: E402
 from drawn_results import every_shape, resting, stressed_beam, turning, write_results  # noqa: E402
 
 
@@ -106,8 +107,10 @@ class Scenes(unittest.TestCase):
     def test_items_that_cannot_be_drawn_are_told(self):
         items = [{"entry": "a/lost", "shape": "box", "size": [1, 1, 1], "node": "absent"}, {"entry": "a/flat", "shape": "sphere", "radius": -1},
                  {"entry": "a/bare", "shape": "cylinder"}, {"shape": "box"}, 7, {"entry": "a/mesh", "shape": "mesh", "mesh": "gone"}]
+        items.append({"entry": "nodes/absent", "shape": "node", "node": "absent"})  # left out by `output: only`: it is not missed
         scene = self.scene({"n": resting(2)}, items)
         self.assertEqual(scene.parts, [])
+        self.assertNotIn("nodes/absent", dict(scene.notes))
         told = dict(scene.notes)
         self.assertIn("'absent'", told["a/lost"])
         self.assertIn("not positive", told["a/flat"])

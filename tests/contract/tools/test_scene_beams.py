@@ -5,10 +5,10 @@ import unittest
 import numpy as np
 
 import box_mesh  # noqa: F401  (it knows where the tools are)
-from bielle_tools.rotations import rotation_matrices  # noqa: E402
 from bielle_tools.messages import InputError  # noqa: E402
+from bielle_tools.results.quaternions import conjugate, from_axes, product  # noqa: E402
+from bielle_tools.results.rotations import rotation_matrices  # noqa: E402
 from bielle_tools.scene.beams import beam_motion, turns_of  # noqa: E402
-from bielle_tools.scene.transforms import conjugate, from_axes, product  # noqa: E402
 
 ROWS = 4
 

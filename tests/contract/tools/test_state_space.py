@@ -11,8 +11,8 @@ import numpy as np
 from box_mesh import REPOSITORY
 
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools import state_space  # noqa: E402
 from bielle_tools.messages import InputError  # noqa: E402
+from bielle_tools.results import state_space  # noqa: E402
 
 
 def chain(stiffness=(1e4, 2e4, 3e10), damping=1e-5):

@@ -12,8 +12,8 @@ import numpy as np
 from box_mesh import REPOSITORY, InFolder
 from study_stand_in import STUDY, WithStandIn
 
-from bielle_tools import study_gather, study_values  # noqa: E402  (box_mesh knows where)
 from bielle_tools.messages import InputError  # noqa: E402
+from bielle_tools.study import gather as study_gather, values as study_values  # noqa: E402  (box_mesh knows where)
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 PENDULUM = """\

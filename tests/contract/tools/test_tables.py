@@ -15,8 +15,8 @@ import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
 from python_tool import run_python_tool  # box_mesh knows where
 
-from bielle_tools.rpc_file import write_rpc
-from bielle_tools.table_file import write_columns
+from bielle_tools.quantities.rpc_file import write_rpc
+from bielle_tools.quantities.table_file import write_columns
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-table")
@@ -91,6 +91,13 @@ class OfSynthetic(TableTool):
         self.assertEqual(found["joints/main/drive_force.angle"][:3], [7.1, "N m", 0.1])
         self.assertEqual(found["elements/ram/pressure[2]"][:3], [2e5, "Pa", 0.0])
         self.assertEqual(self.peaks("--span", "0.05:")["elements/rod/von_mises"][2], 0.075)
+
+    def test_a_stress_without_any_number_is_told(self):
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            file["elements/shaft/von_mises"][...] = np.nan
+        done = self.succeed("run.h5", "--peaks")
+        self.assertEqual(done.stderr, "note: no stress of 'elements/shaft/von_mises': none of its values is a number\n")
+        self.assertNotIn("shaft", done.stdout)
 
     def test_peaks_of_recorded_fields_supports_contacts_and_of_all_steps(self):
         with h5py.File(self.path("run.h5"), "r+") as file:

@@ -17,11 +17,11 @@ from page_driver import WHY_NOT, Pages
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract"))
 from python_tool import run_python_tool
 
-from bielle_tools.results_file import Results  # noqa: E402
+from bielle_tools.bodies.superelement_body import SuperelementBody  # noqa: E402
+from bielle_tools.results import Results  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
 from bielle_tools.scene.stress_scale import stress_colours  # noqa: E402
 from bielle_tools.scene.transforms import placed  # noqa: E402
-from bielle_tools.superelement_body import SuperelementBody  # noqa: E402
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-view")
 PROGRAMS = os.environ.get("BIELLE_PROGRAMS", os.path.join(REPOSITORY, "build", "release", "bin"))
@@ -272,6 +272,38 @@ class Viewed(Pages, InFolder):
         self.run_script("bielle.settings.magnify = 0; bielle.player.go(20)")
         flat = np.array(self.run_script("return bielle.real(bielle.shown.flexible[0].corner(0))"))
         np.testing.assert_allclose(flat, body.at(frame, 0 * q)[0][nodes[0]], atol=1e-4)
+        self.no_errors()
+
+    def test_a_body_in_motion_is_drawn_by_fewer_triangles(self):
+        points, _ = synthetic.write_superelement(self.path("box.h5"), (16, 8, 8))
+        synthetic.write_results(self.path("run.h5"), "box.h5")
+        self.page(self.path("run.h5"))
+        levels = self.run_script("return bielle.body(0).levels.map(level => [level.cell, level.count, level.index.count])")
+        self.assertGreater(len(levels), 2)
+        drawn = "const f = bielle.shown.flexible[0], i = f.geometry.index; return [f.level, i.count, Math.max(...i.array)]"
+        self.assertEqual(self.run_script(drawn)[:2], [0, levels[0][2]])
+        places = "const f = bielle.shown.flexible[0]; return Array.from(f.body.nodes, (node, k) => bielle.real(f.corner(k)))"
+        self.run_script("bielle.settings.stress = 'von_mises'; bielle.player.go(7.3)")
+        exact, stress = self.run_script(places), self.run_script("return Array.from(bielle.shown.flexible[0].values)")
+        # In motion, the points that are drawn are the same; the others are placed when they are asked for.
+        found = self.run_script(f"""bielle.player.go(3); bielle.shown.flexible[0].detail(arguments[0]); bielle.player.go(7.3); const f = bielle.shown.flexible[0], i = f.geometry.index;
+            const coarse = [f.level, i.count, Math.max(...i.array), Array.from(f.values)]; return [...coarse, (() => {{ {places} }})(), Array.from(f.values)];""", levels[-1][0])
+        self.assertEqual(found[:2], [len(levels) - 1, levels[-1][2]])
+        self.assertLess(found[2], levels[-1][1])
+        np.testing.assert_array_equal(found[3][:levels[-1][1]], stress[:levels[-1][1]])
+        self.assertNotEqual(found[3][levels[-1][1]:], stress[levels[-1][1]:])
+        np.testing.assert_array_equal(found[4], exact)
+        np.testing.assert_array_equal(found[5], stress)
+        # Cells are as large as two pixels while it plays, and the picture at rest has all triangles.
+        self.run_script("bielle.camera.height *= 40; bielle.player.toggle()")
+        self.settled()
+        self.assertEqual(self.run_script(drawn)[0], len(levels) - 1)
+        self.run_script("bielle.player.pause()")
+        self.settled()
+        self.assertEqual(self.run_script(drawn)[:2], [0, levels[0][2]])
+        self.run_script("bielle.camera.height /= 1000; bielle.player.toggle()")
+        self.settled()
+        self.assertEqual(self.run_script(drawn)[0], 0)
         self.no_errors()
 
     def beam(self):

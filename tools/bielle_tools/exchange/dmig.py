@@ -5,8 +5,8 @@ import os
 import numpy as np
 import scipy.sparse
 
+from ..decks.nastran_cards import read_cards
 from ..messages import InputError
-from ..nastran_cards import read_cards
 from .dmig_cards import arrays, read_dmig
 from .dmig_writer import write  # noqa: F401  (the second half of this format)
 from .matrix_set import sparse

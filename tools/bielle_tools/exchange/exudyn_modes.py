@@ -10,7 +10,7 @@ import os
 
 import numpy as np
 
-from ..cells import BY_GMSH, SOLIDS, boundary_faces, permutation, solid_faces, triangles_of
+from ..mesh.cells import BY_GMSH, SOLIDS, boundary_faces, permutation, solid_faces, triangles_of
 from ..messages import InputError, note
 from .free_modes import free_modes, moments
 from .inertia_moments import EPSILON, Moments, components_of, inertia_about, second_moment

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 import scipy.sparse
 
-from ..results_file import open_hdf5, reading
+from ..results.results_file import open_hdf5, reading
 from .matrix_set import MassProperties, MatrixSet, Shapes
 
 FORMAT, VERSION = "bielle matrices", 1

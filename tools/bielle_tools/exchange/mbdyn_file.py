@@ -8,7 +8,7 @@ import re
 
 import numpy as np
 
-from ..abaqus_lines import number
+from ..decks.abaqus_lines import number
 from ..messages import InputError, counted
 from ..text_lines import lines_of
 

@@ -7,9 +7,9 @@ matrix by these pairs. Unknowns in the q-set (QSET) are modal amplitudes, also w
 
 import numpy as np
 
+from ..decks.nastran_cards import mass_per_weight
+from ..decks.nastran_grids import Grids, card_number
 from ..messages import InputError
-from ..nastran_cards import mass_per_weight
-from ..nastran_grids import Grids, card_number
 
 PAIRED = ("ASET", "BSET", "CSET", "QSET", "EXTRN")     # point, components, point, components ..
 LISTED = ("ASET1", "BSET1", "CSET1", "QSET1")          # components, points

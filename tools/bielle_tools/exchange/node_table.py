@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..abaqus_contents import LABELS
-from ..abaqus_file import read_deck
-from ..abaqus_lines import number
+from ..decks.abaqus_contents import LABELS
+from ..decks.abaqus_file import read_deck
+from ..decks.abaqus_lines import number
 from ..messages import InputError, counted, did_you_mean
 from ..text_lines import lines_of
 from .matrix_set import COMPONENTS

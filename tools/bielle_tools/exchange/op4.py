@@ -7,8 +7,8 @@ points in their own axes.
 
 import os
 
+from ..decks.nastran_cards import read_cards
 from ..messages import InputError, counted
-from ..nastran_cards import read_cards
 from . import op4_binary, op4_text
 from .matrix_set import mirrored, sparse
 from .nastran_matrices import matrix_set, shapes_of

@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 
+from ..decks.nastran_cards import SHORT_EXPONENT
 from ..messages import InputError
-from ..nastran_cards import SHORT_EXPONENT
 from ..text_lines import lines_of
 from .op4_model import Columns, checked_header, columns_of, dense_part
 

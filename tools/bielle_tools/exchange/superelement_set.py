@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from ..results_file import open_hdf5, reading
+from ..results.results_file import open_hdf5, reading
 from .matrix_set import MassProperties, MatrixSet, Shapes, sparse
 
 

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from ..abaqus_lines import number
+from ..decks.abaqus_lines import number
 from ..messages import InputError, counted
 
 LARGEST = 2**53  # whole numbers up to here are exact as floating-point numbers

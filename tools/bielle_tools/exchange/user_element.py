@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..abaqus_lines import read_keywords
+from ..decks.abaqus_lines import read_keywords
 from ..messages import InputError, counted, did_you_mean
 from ..text_lines import lines_of
 from .entries import packed_matrix, packed_triangle

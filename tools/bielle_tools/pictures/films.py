@@ -13,7 +13,7 @@ from PIL import Image
 
 from ..messages import InputError
 from ..output_file import opened
-from ..results_file import Results, modes_to_show
+from ..results.results_file import Results, modes_to_show
 from .frames import drawn
 from .page import side_by_side, stacked
 from .shot import Shot

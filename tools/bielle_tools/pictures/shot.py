@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..checked_model import check_of
 from ..messages import InputError, check_names, note
+from ..results.checked_model import check_of
 from ..scene import make_scene
 from ..scene.marks import marks_of
 from ..scene.transforms import placed

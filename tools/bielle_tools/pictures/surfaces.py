@@ -8,11 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..rotations import rotation_matrices
+from ..bodies.stress_invariants import von_mises
+from ..results.quaternions import conjugate, rotated
+from ..results.rotations import rotation_matrices
+from ..scene.beam_deformation import magnified
 from ..scene.stress_scale import stress_colours
 from ..scene.style import marked, muted, shares_of
-from ..scene.transforms import conjugate, placed, rotated
-from ..stress_invariants import von_mises
+from ..scene.transforms import placed
 from .normals import corner_normals, split_at_edges
 
 
@@ -33,7 +35,7 @@ class Surfaces:
     which triangles are; highest: the largest stress over the rows [Pa], None without stresses."""
 
     def __init__(self, scene, rows, scale=1.0, paint=None, hidden=lambda part: False, marks=()):
-        """scale: magnifies elastic displacements of bodies; paint: ("#rrggbb", opacity) instead of colours and stresses; marks: entries whose
+        """scale: magnifies elastic displacements of bodies and beams; paint: ("#rrggbb", opacity) instead of colours and stresses; marks: entries whose
         colours are those of marked ones"""
         self.scale, self.paint, self.marks = scale, paint, marks
         shown = [part for part in [*scene.parts, *scene.flexible] if not hidden(part)]
@@ -45,6 +47,8 @@ class Surfaces:
         for part in scene.parts:
             if not hidden(part) and len(part.mesh.points):
                 poses.append(np.asarray(scene.poses(part, rows), float))
+                if scale != 1 and part.rest:
+                    poses[-1] = magnified(poses[-1], part.rest(rows), scale)
                 if part.stress and not paint:
                     self.stressed.append((slice(self.count, self.count + len(part.mesh.points)), part.cells, part.stress(rows)))
                 self._add_rigid(part, poses[-1], bones)

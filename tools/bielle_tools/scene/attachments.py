@@ -3,8 +3,8 @@
 import numpy as np
 
 from ..messages import InputError
+from ..results.quaternions import conjugate, rotated
 from .drawing import places_of
-from .transforms import conjugate, rotated
 
 NOT_ATTACHED = ("body", "node", "ellipsoid", "plane", "support", "mesh", "box", "cylinder", "tube", "cone", "sphere", "gear", "pulley", "tyre", "cam")
 CARRIED = ("node", "body", "ellipsoid", "mesh", "box", "cylinder", "tube", "cone", "sphere", "gear", "pulley", "tyre", "cam")  # if on a carried node

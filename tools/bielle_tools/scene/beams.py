@@ -3,9 +3,11 @@
 import numpy as np
 
 from ..messages import InputError
+from ..results.quaternions import conjugate, from_z, product
 from . import templates as t
+from .beam_deformation import undeformed_motion
 from .parts import Mesh
-from .transforms import conjugate, from_z, pose, product
+from .transforms import pose
 
 
 def beam_motion(results, place, turns=None):
@@ -20,6 +22,14 @@ def beam_motion(results, place, turns=None):
         x, q = kept[0]
         return pose(x[rows], q[rows])
     return poses, results.shape(f"{place}/position")[1]
+
+
+def beam_rest(results, place, turns=None):
+    """rows -> (rows, stations, 8) of the undeformed beam where it would be, see beam_deformation.py; None if its strain is not recorded."""
+    stations = results.shape(f"{place}/position")[1]
+    if not results.has(f"{place}/strain") or results.shape(f"{place}/strain")[1:] != (stations - 1, 6) or stations < 2:
+        return None
+    return undeformed_motion(results.rows(f"{place}/position"), _section_rotations(results, place, turns), results.rows(f"{place}/strain"))
 
 
 def turns_of(item):

@@ -2,16 +2,17 @@
 
 import numpy as np
 
+from ..results.quaternions import conjugate, from_z, rotated
 from . import symbols
 from . import templates as t
-from .beams import beam_mesh, beam_motion, beam_stress, turns_of
+from .beams import beam_mesh, beam_motion, beam_rest, beam_stress, turns_of
 from .course import Course
 from .drawing import place_of, positive
 from .links import Ends, bar_mesh, rope_mesh
 from .parts import Part, on_bones
 from .springs import coil, coil_radius, telescopic
 from .style import COLOURS, lighter, visible
-from .transforms import between, conjugate, from_z, rotated
+from .transforms import between
 
 
 class Builder:
@@ -142,10 +143,12 @@ def _course(b, item):
 
 
 def _beam(b, item):
-    poses, stations = beam_motion(b.motion.results, item["element"], turns_of(item))
+    turns = turns_of(item)
+    poses, stations = beam_motion(b.motion.results, item["element"], turns)
     mesh, elements = beam_mesh(stations, list(item.get("sections") or []), 0.3 * b.symbol)
     stress = beam_stress(b.motion.results, item["element"])
-    return [Part(item["entry"], item["type"], mesh, b.colour(item, b.palette.of(item["element"])), float(item.get("opacity", 1)), "beam", poses, stress, elements)]
+    return [Part(item["entry"], item["type"], mesh, b.colour(item, b.palette.of(item["element"])), float(item.get("opacity", 1)), "beam", poses, stress, elements,
+                 beam_rest(b.motion.results, item["element"], turns))]
 
 
 def _superelement(b, item):

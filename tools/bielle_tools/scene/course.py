@@ -7,7 +7,8 @@ anticlockwise seen along -z. Arcs have a fixed number of pieces, so that the num
 
 import numpy as np
 
-from .transforms import between, rotated
+from ..results.quaternions import rotated
+from .transforms import between
 
 PIECES = 14  # number of straight pieces that an arc is drawn with
 

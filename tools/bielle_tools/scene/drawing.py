@@ -8,8 +8,8 @@ import json
 import numpy as np
 
 from ..messages import InputError
-from ..results_file import reading
-from ..rigid_bodies import rigid_bodies
+from ..results.results_file import reading
+from ..results.rigid_bodies import rigid_bodies
 from .motion import Place
 
 FORMAT, VERSION = "bielle drawing", 1

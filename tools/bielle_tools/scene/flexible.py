@@ -4,10 +4,11 @@ import os
 
 import numpy as np
 
-from ..cells import triangles_of
-from ..superelement_body import find_superelement, superelement_of
+from ..bodies.superelement_body import find_superelement, superelement_of
+from ..mesh.cells import triangles_of
+from ..results.quaternions import rotated
+from .levels import levels_of
 from .parts import FlexibleBody, FlexiblePart
-from .transforms import rotated
 
 
 class FlexibleBodies:
@@ -55,7 +56,9 @@ class FlexibleBodies:
             drawn = index[whole.stressed] >= 0
             stress[:, index[whole.stressed[drawn]]] = whole.stress.reshape(-1, 6, count)[drawn].transpose(2, 0, 1)
             stressed[index[whole.stressed[drawn]]] = True
-        return FlexibleBody(path, piece, whole.points[nodes], triangles, shapes, stress, stressed, nodes)
+        order, levels = levels_of(whole.points[nodes], triangles)
+        return FlexibleBody(path, piece, whole.points[nodes[order]], levels[0].triangles, shapes[:, order], None if stress is None else stress[:, order],
+                            stressed[order], nodes[order], levels)
 
 
 def surface_points(part, rows, every=1):

@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from ..results.quaternions import from_z
 from . import templates as t
 from .parts import joined, with_bone
-from .transforms import between, from_z, pose
+from .transforms import between, pose
 
 TURNS = 8
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ..checked_model import check_of
 from ..messages import InputError
+from ..results.checked_model import check_of
+from ..results.quaternions import conjugate, product, rotated
 from .drawing import place_of
-from .transforms import conjugate, product, rotated
 
 # Components of the way from the first to the second frame of a joint, in axes of the first, that its constraints make zero.
 MEETING = {**dict.fromkeys(("hinge", "spherical", "universal", "constant_velocity", "rigid"), (0, 1, 2)),

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..messages import InputError
-from .transforms import IDENTITY, pose, product, rotated
+from ..results.quaternions import IDENTITY, product, rotated
+from .transforms import pose
 
 
 @dataclass(frozen=True)
@@ -14,6 +15,10 @@ class Place:
     node: str
     position: tuple = (0.0, 0.0, 0.0)
     rotation: tuple = (1.0, 0.0, 0.0, 0.0)
+
+
+class NotRecorded(InputError):
+    """The results do not have the motion of a node."""
 
 
 class Motion:
@@ -40,7 +45,7 @@ class Motion:
         if number.isdigit() and self.results.has(f"{place}/position") and self.results.has(f"{place}/rotation") \
                 and int(number) < self.results.shape(f"{place}/position")[1]:
             return self.results.rows(f"{place}/position")[:, int(number)], self.results.rows(f"{place}/rotation")[:, int(number)]
-        raise InputError(f"the results do not record the node '{name}'")
+        raise NotRecorded(f"the results do not record the node '{name}'")
 
     def position(self, place, rows):
         """(rows,3) of a place."""

@@ -34,6 +34,7 @@ class Part:
     motion: Callable = field(repr=False)  # rows -> (rows, bones, 8)
     stress: Callable = field(default=None, repr=False)  # rows -> (rows, cells): von Mises stress [Pa] by which it is coloured, or None
     cells: Any = None  # (n) cell of each point of the mesh if there is stress
+    rest: Callable = field(default=None, repr=False)  # rows -> (rows, bones, 8) without deformation, or None: it is not magnified
 
 
 @dataclass
@@ -48,6 +49,7 @@ class FlexibleBody:
     stress: Any
     stressed: np.ndarray
     nodes: np.ndarray  # numbers of the points in the mesh of the file
+    levels: list  # scene/levels.py: the triangles, then coarser ones on the first points
 
 
 @dataclass

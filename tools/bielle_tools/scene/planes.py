@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..results.quaternions import rotated
 from .drawing import place_of
-from .transforms import rotated
 
 SAME = 1e-6  # share of the machine within which planes are the same
 

@@ -3,16 +3,17 @@
 import numpy as np
 
 from ..messages import InputError
-from ..results_file import LARGEST
+from ..results.quaternions import conjugate, product
+from ..results.results_file import LARGEST
 from .attachments import attachments
 from .builders import BUILDERS, Builder
 from .drawing import Drawing, places_of
 from .flexible import FlexibleBodies, surface_points
-from .motion import Motion
+from .motion import Motion, NotRecorded
 from .parts import Anchor, FlexiblePart
 from .planes import drawn_planes
 from .style import Palette, Style
-from .transforms import conjugate, placed, product
+from .transforms import placed
 
 SAMPLES = 24  # rows from which bounds are taken
 MANY = 800  # items from which on symbols are coarser, and bounds are taken from spheres about bones
@@ -146,7 +147,8 @@ class Scene:
             for part in parts:  # a part whose motion cannot be read is told here, not while it plays
                 (part.frame if isinstance(part, FlexiblePart) else part.motion)(self.rows[:1])
         except (InputError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
-            self.notes.append((item["entry"], _reason(error)))
+            if not (isinstance(error, NotRecorded) and item["shape"] == "node"):  # `output: only` left out the node itself
+                self.notes.append((item["entry"], _reason(error)))
             return
         known = {anchor.entry for anchor in self.anchors[-8:]}
         for part in parts:

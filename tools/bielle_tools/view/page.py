@@ -9,8 +9,8 @@ import zlib
 
 import numpy as np
 
-from ..checked_model import check_of
 from ..messages import InputError
+from ..results.checked_model import check_of
 from ..scene import make_scene
 from ..scene.marks import marks_of
 from ..scene.stress_scale import ANCHORS, hexadecimal

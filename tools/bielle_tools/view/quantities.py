@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..messages import InputError
-from ..results_columns import column_names
+from ..results.columns import column_names
 
 SECTIONS = ("measures", "energy", "joints", "supports", "contacts", "elements", "nodes", "loads", "hydraulics", "solver")
 MOST_VALUES, MOST_COLUMNS, MOST_ROWS = 1_200_000, 24, 1000

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from ..bodies.stress_invariants import von_mises
 from ..scene.arrows import arrows_of
 from ..scene.style import marked, muted
-from ..stress_invariants import von_mises
 from .pack import quantised
 from .tracks import Tracks, in_units
 
@@ -22,12 +22,14 @@ class SceneData:
     def described(self, scene, rows, arrows=True):
         """The scene at these rows, for the page."""
         tracks = Tracks(len(rows))
-        parts = [(part, tracks.add(in_units(scene.poses(part, rows), self.centre, self.size))) for part in scene.parts]
+        units = lambda poses: in_units(poses, self.centre, self.size)  # noqa: E731
+        parts = [(part, tracks.add(units(scene.poses(part, rows)), units(part.rest(rows)) if part.rest else None)) for part in scene.parts]
         found = {"batch": self._batch(parts), "parts": [self._part(part, numbers) for part, numbers in parts],
                  "stressed": [self._stressed(part, rows) for part in scene.parts if part.stress],
                  "flexible": [self._flexible(part, rows, tracks) for part in scene.flexible],
                  "anchors": self._anchors(scene, parts), "arrows": self._arrows(scene, rows) if arrows else []}
         found["tracks"], position, rotation = tracks.stored(self.pack)
+        found["tracks"]["rests"] = tracks.rests
         self._largest(position=position, rotation=rotation)
         return found
 
@@ -87,7 +89,8 @@ class SceneData:
             self._numbers[key] = len(self.bodies)
             add = self.pack.add
             shapes, scale = self._quantised(body.shapes / self.size)
-            found = {"points": add(body.points / self.size, "f4"), "triangles": add(body.triangles, "i4"), "shapes": add(shapes, "i2"),
+            levels = [{"cell": level.cell / self.size, "count": level.count, "triangles": add(level.triangles, "i4")} for level in body.levels]
+            found = {"points": add(body.points / self.size, "f4"), "levels": levels, "shapes": add(shapes, "i2"),
                      "scale": add(scale, "f4"), "count": len(body.shapes), "nodes": add(body.nodes, "i4")}
             if body.stress is not None:
                 stress, stress_scale = self._quantised(body.stress)

@@ -3,8 +3,8 @@
 import numpy as np
 
 from ..messages import InputError, note
-from ..modes import Modes, ModeMotion, ModeScenery
-from ..results_file import Results, open_hdf5, reading
+from ..results.modes import Modes, ModeMotion, ModeScenery
+from ..results.results_file import Results, open_hdf5, reading
 
 PHASES = 36
 MOST_MODES = 20

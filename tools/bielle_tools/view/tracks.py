@@ -16,15 +16,20 @@ class Tracks:
 
     def __init__(self, rows):
         self.rows, self._numbers, self._poses = rows, {}, []
+        self.rests = []  # [number of a track that is magnified, number of that at rest]
 
-    def add(self, poses):
-        """poses (rows, bones, 8), single precision is sufficient. @returns the numbers of their tracks"""
+    def add(self, poses, rest=None):
+        """poses (rows, bones, 8), single precision is sufficient; rest: the same without deformation, for magnified ones.
+        @returns the numbers of their tracks"""
         poses = np.ascontiguousarray(np.moveaxis(poses.astype(np.float32), 0, 1))
         numbers = []
-        for pose in poses:
-            key = pose.tobytes()
+        at_rest = [None] * len(poses) if rest is None else self.add(rest)
+        for pose, other in zip(poses, at_rest):
+            key = pose.tobytes(), other
             if key not in self._numbers:
                 self._numbers[key] = len(self._poses)
+                if other is not None:
+                    self.rests.append([len(self._poses), other])
                 self._poses.append(pose)
             numbers.append(self._numbers[key])
         return numbers

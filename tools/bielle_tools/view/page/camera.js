@@ -40,21 +40,33 @@ class Camera {
   fit() {
     if (!this.app.shown) return;
     this.touched = false;
-    const points = this.app.extent(), aspect = this.aspect(), tangent = Math.tan(16 * Math.PI / 180), [right, up, back] = this.axes();
+    const aspect = this.aspect(), tangent = Math.tan(16 * Math.PI / 180), axes = this.axes(), [right, up] = axes;
+    const points = this.app.extent().map(p => axes.map(axis => dot(p, axis)));  // to the right, up, towards the viewer
     this.target = this.app.data.low.map((x, k) => (x + this.app.data.high[k]) / 2);
     this.height = 3;
     for (let round = 0; round < 6; round++) {
       const distance = this.height / 2 / tangent;
-      let [left, most, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+      const [right0, up0, back0] = axes.map(axis => dot(this.target, axis));
+      let left = Infinity, most = -Infinity, bottom = Infinity, top = -Infinity;
       for (const p of points) {
-        const d = minus(p, this.target), nearer = this.ortho ? 1 : distance / Math.max(distance - dot(d, back), 0.1 * distance), x = dot(d, right) * nearer, y = dot(d, up) * nearer;
-        [left, most, bottom, top] = [Math.min(left, x), Math.max(most, x), Math.min(bottom, y), Math.max(top, y)];
+        const nearer = this.ortho ? 1 : distance / Math.max(distance - (p[2] - back0), 0.1 * distance), x = (p[0] - right0) * nearer, y = (p[1] - up0) * nearer;
+        left = Math.min(left, x);
+        most = Math.max(most, x);
+        bottom = Math.min(bottom, y);
+        top = Math.max(top, y);
       }
       if (!(most >= left)) break;
       this.target = this.target.map((value, k) => value + (left + most) / 2 * right[k] + (bottom + top) / 2 * up[k]);
       this.height = clamp(1.1 * Math.max(top - bottom, (most - left) / aspect, 0.01), this.height / 4, this.height * 4);
     }
     this.app.changed();
+  }
+
+  /// Distance of the origin of a matrix from the viewer relative to that of the target, at least 0.1; 1 if distances do not matter.
+  nearness(matrix) {
+    if (this.ortho) return 1;
+    const p = this.perspective.position, m = matrix.elements, distance = this.height / 2 / Math.tan(16 * Math.PI / 180);
+    return Math.max(0.1, Math.hypot(m[12] - p.x, m[13] - p.y, m[14] - p.z) / distance);
   }
 
   aspect() {

@@ -49,7 +49,7 @@ class Controls {
     const {app} = this, s = app.settings, box = document.getElementById("options"), found = [], flexible = app.allShown.flatMap(each => each.flexible);
     const solids = flexible.some(f => f.body.stress), stresses = solids ? Object.keys(STRESSES) : app.allShown.some(each => each.stressed().length) ? EQUIVALENT : [];
     if (stresses.length) found.push(this.choice("stress", Object.fromEntries(stresses.map(key => [key, STRESSES[key]])), s.stress, value => { s.stress = value; }));
-    if (flexible.length) found.push(this.slide("deformation", 0, 3, Math.log10(s.magnify), x => { s.magnify = Number((10 ** x).toPrecision(2)); return `x ${s.magnify}`; }));
+    if (flexible.length || app.allShown.some(each => each.tracks.rests.size)) found.push(this.slide("deformation", 0, 3, Math.log10(s.magnify), x => { s.magnify = Number((10 ** x).toPrecision(2)); return `x ${s.magnify}`; }));
     if (app.shown.sequence.kind === "mode") {
       found.push(this.slide("amplitude", -1.5, 1.5, Math.log10(s.amplitude), x => { s.amplitude = Number((10 ** x).toPrecision(2)); return `x ${s.amplitude}`; }));
       if (app.shown.sequence.decay) found.push(this.check("with its decay", s.decay, on => { s.decay = on; app.player.cycles = 0; }));

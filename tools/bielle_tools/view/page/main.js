@@ -26,7 +26,6 @@ class App {
     this.controls = new Controls(this);
     this.chooser();
     this.show(0);
-    this.camera.fit();
     new ResizeObserver(() => this.resize()).observe(document.getElementById("stage"));
   }
 
@@ -37,12 +36,14 @@ class App {
     for (const owner of b.owners) counts[owner]++;
     b.owners.forEach((owner, k) => { if (!b.parts[owner].endless && k % Math.ceil(counts[owner] / 40) === 0) corners.push(k); });
     const every = Math.ceil(corners.length / 4000), all = p => { if (Number.isFinite(p[0])) points.push(p); };
+    for (const f of shown.flexible) f.detail(f.body.sampled.cell);
     for (const row of picked) {
       shown.move(row, this.amplitude());
       for (let k = 0; k < corners.length; k += every) all(b.corner(corners[k]));
-      for (const f of shown.flexible) for (let k = 0, n = f.body.points.length / 3; k < n; k += Math.ceil(n / 60)) all(f.corner(k));
+      for (const f of shown.flexible) for (let k = 0, n = f.body.sampled.count; k < n; k += Math.ceil(n / 100)) all(f.corner(k));
     }
     if (before !== undefined) this.moved();
+    this.quality.refine();
     return points;
   }
 
@@ -163,6 +164,7 @@ class App {
   draw(now) {
     this.player.advance(now);
     this.quality.adapt(now);
+    this.quality.refine();
     if (this.dirty) {
       this.dirty = false;
       this.frames++;
@@ -180,7 +182,6 @@ async function start() {
     const data = JSON.parse(new TextDecoder().decode(await inflated("description")));
     const app = new App(data, new Arrays(await inflated("arrays")));
     app.resize();
-    app.camera.fit();
     if (data.live) new Live(app);
     app.draw(performance.now());
     window.bielle = app;

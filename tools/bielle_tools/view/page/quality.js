@@ -1,6 +1,7 @@
-// Resolution of the picture: coarser while a slow machine plays, fine when the picture stands still.
+// Resolution of the picture, and triangles of bodies: coarser while a slow machine plays, fine when the picture stands still.
 
 const SLOW = 40, FAST = 20, COARSEST = 0.5;  // [ms] between pictures; pixels of the picture per pixel of the screen
+const CELL = 2;  // pixels of the picture over which points of a body in motion are drawn as one
 
 class Quality {
   constructor(app) {
@@ -12,9 +13,22 @@ class Quality {
     this.mean = 30;
   }
 
+  get isMoving() { return this.app.player.playing || Boolean(this.app.camera.turning); }
+
+  /// Chooses the triangles of flexible bodies: all of them at rest, in motion those that are seen at the resolution.
+  refine() {
+    const {camera, renderer} = this.app, pixel = camera.height / Math.max(renderer.domElement.height, 1);
+    let changed = false;
+    for (const shown of this.app.allShown)
+      for (const f of shown.flexible) changed = f.detail(this.isMoving ? CELL * pixel * camera.nearness(f.mesh.matrix) : 0) || changed;
+    if (!changed) return;
+    this.app.range();
+    this.app.changed();
+  }
+
   /// Adapts the resolution to the time since the last picture.
   adapt(now) {
-    const passed = now - (this.before || now), playing = this.app.player.playing || this.app.camera.turning;
+    const passed = now - (this.before || now), playing = this.isMoving;
     this.before = now;
     if (playing) {
       this.mean += 0.15 * (Math.min(passed, 200) - this.mean);

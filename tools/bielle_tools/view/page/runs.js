@@ -20,7 +20,7 @@ class Shown {
   move(place, amplitude) {
     const s = this.app.settings;
     this.place = place;
-    this.tracks.move(place, this.rest, amplitude);
+    this.tracks.move(place, this.rest, amplitude, s.magnify);
     this.batch.moved();
     this.stresses.move(place, s.stress);
     for (const f of this.flexible) f.move(place, this.rest, amplitude, s.magnify, s.stress);

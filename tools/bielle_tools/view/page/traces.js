@@ -45,7 +45,7 @@ class Traces {
     if (!usable && !anchor) return points;
     const track = flexible ? flexible.part.track : usable ? point.track : anchor.track, q = flexible && new Float32Array(flexible.body.count);
     for (let row = 0; row < rows; row++) {
-      shown.tracks.pose(track, row, pose, 0, shown.rest, this.app.amplitude());
+      shown.tracks.pose(track, row, pose, 0, shown.rest, this.app.amplitude(), this.app.settings.magnify);
       let local = usable && !flexible ? point.local : anchor ? anchor.point : [0, 0, 0];
       if (flexible && usable) {
         flexible.coordinates(row, shown.rest, this.app.amplitude(), q);

@@ -1,0 +1,1 @@
+"""Meshes, materials, ties and masses in the decks of Abaqus, CalculiX, Nastran and other programs."""

@@ -1,0 +1,135 @@
+"""Cards of a Nastran bulk data section: small, large and free field, continuations, INCLUDE.
+
+Fields are upper case; 0 is the name without the star of a large field. (MSC Nastran Quick Reference Guide, "Format of
+Bulk Data Entries".)
+"""
+
+import os
+import re
+
+from ..messages import InputError
+from ..text_lines import lines_of
+
+DEEPEST = 20  # files that include each other
+INTEGER = re.compile(r"[+-]?\d+").fullmatch
+SHORT_EXPONENT = re.compile(r"(?<=[\d.])([+-]\d+)$")  # 7.85-9 is 7.85e-9
+INCLUDE = re.compile(r"\s*INCLUDE\b", re.IGNORECASE).match
+
+
+def mass_per_weight(cards):
+    """PARAM,WTMASS: the factor of all densities and masses of a file that gives weights. @raises InputError unless positive"""
+    for card in cards:
+        if card.name == "PARAM" and card.fields[1].upper() == "WTMASS":
+            factor = card.number(2, 1.0)
+            if not factor > 0:
+                raise InputError(f"'{card.path}': line {card.line}: PARAM,WTMASS is {factor:g}; expected a positive number")
+            return factor
+    return 1.0
+
+
+def young_and_poisson(card):
+    """The constants of a MAT1, of which one follows from the other two; None for what cannot be known."""
+    young, shear, poisson = (card.number(k, None) for k in (2, 3, 4))
+    if young is None and None not in (shear, poisson):
+        young = 2 * shear * (1 + poisson)
+    if poisson is None and None not in (young, shear):
+        poisson = young / (2 * shear) - 1
+    return young, poisson
+
+
+class Card:
+    def __init__(self, path, line, fields):
+        self.path, self.line, self.fields, self.name = path, line, fields, fields[0]
+
+    def filled(self, first):
+        return [k for k in range(first, len(self.fields)) if self.fields[k]]
+
+    def is_integer(self, k):
+        return k < len(self.fields) and INTEGER(self.fields[k]) is not None
+
+    def integer(self, k, default=None):
+        text = self.fields[k] if k < len(self.fields) else ""
+        if default is not None and not text:
+            return default
+        if INTEGER(text):
+            return int(text)
+        self.fail(k, "an integer")
+
+    def number(self, k, default):
+        if k >= len(self.fields) or not self.fields[k]:
+            return default
+        text = self.fields[k]
+        try:
+            return float(text)
+        except ValueError:
+            pass
+        try:
+            return float(SHORT_EXPONENT.sub(r"e\1", text.replace("D", "E")))
+        except ValueError:
+            self.fail(k, "a number")
+
+    def fail(self, k, expected):
+        found = f"'{self.fields[k]}'" if k < len(self.fields) and self.fields[k] else "nothing"
+        raise InputError(f"'{self.path}': line {self.line}: {self.name}: expected {expected} in field {k + 1}, found {found}")
+
+
+def read_cards(path):
+    """@returns list of Card, those of included files in their place. @raises InputError with file and line."""
+    cards, open_card = [], None
+    for place, number, line in _bulk_lines(path):
+        more, name = _split(line)
+        if name and not name.startswith(("+", "*")):
+            open_card = Card(place, number, [name] + more)
+            cards.append(open_card)
+        elif open_card:
+            open_card.fields += more
+    return cards
+
+
+def _bulk_lines(path):
+    lines = list(_lines(path, 0))
+    begin = next((k for k, (_, _, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK", text)), -1)
+    for place, number, text in lines[begin + 1:]:
+        if text.startswith("ENDDATA"):
+            return
+        yield place, number, text
+
+
+def _lines(path, depth):
+    """Lines in upper case, without comments and empty lines, with file and line number of each."""
+    if depth > DEEPEST:
+        raise InputError(f"'{path}' is included by itself")
+    lines = lines_of(path)
+    k = 0
+    while k < len(lines):
+        number, line = k + 1, lines[k].split("$")[0].rstrip()
+        k += 1
+        if INCLUDE(line):
+            while line.count("'") == 1 and k < len(lines):  # a name in quotes may go on
+                line += lines[k].strip()
+                k += 1
+            name = line.split(None, 1)[1].strip().strip("'\"") if len(line.split(None, 1)) > 1 else ""
+            included = os.path.join(os.path.dirname(path), name)
+            if not name or not os.path.isfile(included):
+                raise InputError(f"'{path}': line {number}: INCLUDE '{name}': there is no such file"
+                                 f" in '{os.path.dirname(os.path.abspath(path))}'")
+            yield from _lines(included, depth + 1)
+        elif line:
+            yield path, number, line.upper()
+
+
+def _split(line):
+    """The fields of one line after the first, always as many as its format has, and the first."""
+    if "," in line:
+        parts = [part.strip() for part in line.split(",")]
+        name = parts[0]
+        wide = name.endswith("*") or name.startswith("*")
+        count = 4 if wide else 8
+        fields = (parts[1:] + [""] * count)[:count]
+    else:
+        line = line.expandtabs(8)
+        name = line[:8].strip()
+        wide = "*" in name
+        width, count = (16, 4) if wide else (8, 8)
+        fields = [line[8 + k * width:8 + (k + 1) * width].strip() for k in range(count)]
+    return fields, (name.rstrip("*_") if name != "*" else name)  # meshio writes CTETRA_

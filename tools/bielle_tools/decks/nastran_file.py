@@ -1,0 +1,117 @@
+"""The contents of a Nastran file besides its mesh: materials, rigid elements, point masses.
+
+Some of them have no counterpart in a superelement. Nothing is ignored without a message: materials are reported as
+lines of a body file, RBE2 and RBE3 become ties that an interface can name (nastran_ties) and sets of their nodes, everything
+else is reported with its numbers.
+"""
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..messages import counted
+from .nastran_cards import young_and_poisson
+from .nastran_mesh import SHAPES
+from .nastran_ties import read_nastran_ties
+
+# Cards of stiffness, mass or conditions that solid cells do not represent.
+LOST = ("CONM1", "CMASS1", "CMASS2", "CMASS3", "CMASS4", "CELAS1", "CELAS2", "CELAS3", "CELAS4", "CBUSH", "CBUSH1D", "CBAR", "CBEAM", "CROD",
+        "CONROD", "CTUBE", "CSHEAR", "CVISC", "CDAMP1", "CDAMP2", "RBAR", "RBE1", "RROD", "RSPLINE", "RTRPLT", "MPC", "CGAP", "CWELD", "CFAST",
+        "MAT2", "MAT3", "MAT8", "MAT9", "MAT9ORT", "MATORT", "GENEL", "DMIG")
+# Cards of loads, supports, solutions and outputs, which a body does not have.
+OF_ANALYSES = ("PARAM", "SPC", "SPC1", "SPCD", "SPCADD", "SUPORT", "LOAD", "FORCE", "MOMENT", "PLOAD", "PLOAD2", "PLOAD4", "GRAV", "RFORCE",
+               "TEMP", "TEMPD", "EIGR", "EIGRL", "EIGC", "SET", "SET1", "SET3", "ASET", "ASET1", "DMI", "FREQ", "FREQ1", "TABLED1", "CORD1R", "CORD1C",
+               "CORD1S", "CORD2R", "CORD2C", "CORD2S", "GRDSET", "PSHELL", "PELAS", "PBUSH", "PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "SPOINT",
+               "MDLPRM", "DOMAINS", "BSURF", "BCPROP")
+READ = ("GRID", "MAT1", "PSOLID", "CONM2", "RBE2", "RBE3") + LOST
+MOST_NAMED = 8
+
+
+@dataclass
+class Extras:
+    """Sets of nodes by name, counted from 0, and sentences for the user."""
+
+    point_sets: dict = field(default_factory=dict)
+    notes: list = field(default_factory=list)
+
+
+def read_extras(all_cards, grids):
+    """@param grids: the grid points. @returns Extras. @raises InputError if a field of a card that is read should be a number
+    and is not."""
+    cards = {name: [] for name in READ}
+    for card in all_cards:
+        if card.name in cards:
+            cards[card.name].append(card)
+    extras = Extras()
+    _tell_parts(extras, all_cards)
+    carriers = _tell_ties(extras, cards["RBE2"] + cards["RBE3"], grids)
+    _tell_materials(extras, cards)
+    _tell_masses(extras, cards["CONM2"], grids, carriers)
+    for name in LOST:
+        if cards[name]:
+            extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), which no solid cell stands for")
+    return extras
+
+
+def _tell_parts(extras, all_cards):
+    skins = [card for card in all_cards if card.name == "PSHELL"]
+    if skins:
+        extras.notes.append(f"left out: the stiffness and mass of shells (PSHELL {_ids(skins)}): their cells are surfaces")
+    known = set(READ + OF_ANALYSES) | set(SHAPES)
+    unknown = Counter(card.name for card in all_cards if card.name not in known and not card.name.startswith("BEGIN"))
+    if unknown:
+        extras.notes.append("not read: " + ", ".join(f"{count} {name}" for name, count in unknown.most_common(MOST_NAMED))
+                            + (" ..." if len(unknown) > MOST_NAMED else ""))
+    for card in all_cards:
+        words = card.name + "".join(card.fields[1:])
+        if card.name.startswith("BEGIN") and ("SUPER" in words or "MODULE" in words):
+            extras.notes.append(f"line {card.line} begins a superelement or module of its own ({' '.join([card.name] + card.fields[1:]).strip()}): "
+                                "its cells are read as part of the one body, not joined by anything but common grid points")
+
+
+def _tell_ties(extras, cards, grids):
+    """Makes sets of the nodes of the RBE2 and RBE3. @returns the name of the tie of each row of a reference node"""
+    carriers = {}
+    for tie in read_nastran_ties(cards, grids):
+        if tie.refused:
+            extras.notes.append(f"left out: {tie.name}: {tie.refused}")
+            continue
+        name = tie.name.lower().replace(" ", "_")
+        extras.point_sets[name] = np.array(sorted(tie.weights), np.int64)
+        carriers[tie.reference] = tie.name
+        extras.notes.append(f"{tie.name} ({counted(len(tie.weights), 'node')}): the interface {{from: {tie.name}}} stands for it; the faces "
+                            f"between its nodes are the surface '{name}'")
+    return carriers
+
+
+def _tell_materials(extras, cards):
+    of_property = {}
+    for card in cards["PSOLID"]:
+        of_property.setdefault(card.integer(2), []).append(f"property_{card.integer(1)}")
+    for card in cards["MAT1"]:
+        number = card.integer(1)
+        young, poisson = young_and_poisson(card)
+        text = ", ".join(f"{key}: {value:g}" for key, value in
+                         (("young", young), ("poisson", poisson), ("density", card.number(5, None))) if value is not None)
+        users = ", ".join(of_property.get(number, [])) or "no property"
+        extras.notes.append(f"MAT1 {number} of {users} is, in the file's units (the body file wants SI, or `materials: from_file`), mat_{number}: {{{text}}}")
+
+
+def _tell_masses(extras, cards, grids, carriers):
+    if not cards:
+        return
+    total = sum(card.number(4, 0.0) for card in cards)
+    at = []
+    for card in cards[:MOST_NAMED]:
+        row = grids.rows.get(card.integer(2))
+        x, y, z = (np.nan,) * 3 if row is None else grids.points[row]
+        hangs = f", tied by {carriers[row]}" if row in carriers else ""
+        at.append(f"{card.integer(1)}: {card.number(4, 0.0):g} at ({x:g}, {y:g}, {z:g}){hangs}")
+    more = f"; and {len(cards) - MOST_NAMED} more" if len(cards) > MOST_NAMED else ""
+    extras.notes.append(f"{counted(len(cards), 'CONM2', 'CONM2')} with a mass of {total:g} in total, in the file's units: `masses: from_file` puts "
+                        f"{'it' if len(cards) == 1 else 'them'} on the body ({'; '.join(at)}{more})")
+
+
+def _ids(cards):
+    return ", ".join(card.fields[1] for card in cards[:MOST_NAMED]) + (" ..." if len(cards) > MOST_NAMED else "")

@@ -1,0 +1,1 @@
+"""Solid meshes: cells of all types, their faces and integrals, checks, MSH files."""

@@ -1,0 +1,1 @@
+"""Quantities by name: resolution, columns, curves, peaks, spectra, cycles, tables."""

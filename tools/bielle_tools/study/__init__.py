@@ -1,0 +1,1 @@
+"""Parameter studies: description, runs, gathered numbers, figures, jobs."""
