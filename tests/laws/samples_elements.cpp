@@ -501,7 +501,6 @@ loads:
 }  // namespace
 
 std::vector<Sample> element_samples() {
-<<<<<<< HEAD
   std::vector<Sample> list = {
       rigid_body(),
       turned_body(),
@@ -515,6 +514,7 @@ std::vector<Sample> element_samples() {
       tapered_shape(),
       dead_line_load(),
       follower_line_load(),
+      airfoil(),
       spring(),
       spring_by_formula(),
       timed_spring(),
@@ -532,32 +532,6 @@ std::vector<Sample> element_samples() {
       superelement_with_points("named points", "point: core", "point: rim"),
       dead_load(),
       follower_load()};
-=======
-  std::vector<Sample> list = {rigid_body(),
-                              turned_body(),
-                              solid_body(),
-                              drilled_body(),
-                              shaped_body(),
-                              point_mass(),
-                              beam(),
-                              curved_beam(),
-                              tapered_beam(),
-                              tapered_shape(),
-                              dead_line_load(),
-                              follower_line_load(),
-                              airfoil(),
-                              spring(),
-                              spring_by_formula(),
-                              timed_spring(),
-                              following_spring(),
-                              superelement_with_followers(),
-                              superelement_with_dead_load(),
-                              superelement_with_free_directions(),
-                              superelement_with_points("points", "at: [0.55, -0.07, 0.17]", "at: [0.92, 0.09, 0.25]"),
-                              superelement_with_points("named points", "point: core", "point: rim"),
-                              dead_load(),
-                              follower_load()};
->>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
   for (Sample& sample : beams_of_sections()) list.push_back(std::move(sample));
   return list;
 }

@@ -124,9 +124,6 @@ std::vector<Sample> state_samples() {
               {"damping", "0.5", "frequency"}}),
       filter("filter of second order", "frequency: 0.3, damping: 0.6, start: 0.4, scale: 3", {{"start", "much", ""}}),
       transfer_function(),
-<<<<<<< HEAD
-      state_space()};
-=======
       state_space(),
       delay(),
       sampled("sampled", "sampled: \"axle.angle*(1 + t) + 0.1*it\", delay: 0.1, quantum: 0.01, start: 0.3",
@@ -138,7 +135,6 @@ std::vector<Sample> state_samples() {
       sampled("sampled state space",
               "sampled: [axle.angle, it.y2], state_space: {A: [[0.5, 1], [0, 0.3]], B: [[1, 0], [0, 1]]}",
               {{"sampled", "[it.y3, t]", "has no 'y3'"}, {"units", "[N]", "one for each output"}})};
->>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
 }
 
 }  // namespace bielle::laws

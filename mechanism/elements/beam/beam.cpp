@@ -131,13 +131,8 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
                                             section.over(s_A, s_B), damping_time, law),
               own, Recorded::stacked);
     const BeamSpan span{nodes[i], nodes[i + 1], R_A, R_B, {line.length() / count, 0, 0}, s_A, s_B};
-<<<<<<< HEAD
     for (const LineLoad& load : loads) model.add(std::make_unique<DistributedLoad>(name, span, load), own);
-=======
-    for (const LineLoad& load : loads)
-      model.add(std::make_unique<DistributedLoad>(name, span, load), own, Recorded::no);
     if (airfoil) model.add(std::make_unique<AirfoilLoad>(name, span, *airfoil), own, Recorded::no);
->>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
   }
   model.add_chain(own, nodes);
   std::vector<std::vector<double>> turns;  // from the axes of the end nodes to those of the sections

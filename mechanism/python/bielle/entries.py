@@ -128,7 +128,7 @@ class Entries:
     def spring_damper(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, stiffness: float | str | None = None,
             damping: float | str | None = None, length: float | str | None = None, force: float | str | None = None,
-            active: bool | None = None, **more: Any) -> None:
+            **more: Any) -> None:
         """A spring, a damper or a force along the line between points of two nodes.
 
         nodes: The two nodes. (list of 2: name of a node)
@@ -139,16 +139,13 @@ class Entries:
         length: Free length of the spring. (number [m] of at least 0; default: the distance as placed)
         force: Tension as a formula of the elongation e, its rate v, the time t and measures, in place of `stiffness`
         and `damping`. (formula of e, v, t and measures [N])
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("elements", name, {"type": "spring_damper", "nodes": nodes, "at": at, "stiffness": stiffness,
-            "damping": damping, "length": length, "force": force, "active": active, **more})
+            "damping": damping, "length": length, "force": force, **more})
 
     def node_force(self, name: str, *,
             nodes: Sequence[Any], force: Sequence[Any] | None = None, moment: Sequence[Any] | None = None,
-            at: Sequence[Any] | None = None, axes: str | None = None, active: bool | None = None,
-            **more: Any) -> None:
+            at: Sequence[Any] | None = None, axes: str | None = None, **more: Any) -> None:
         """A force and a moment between two nodes.
 
         nodes: The two nodes: force and moment act on the second, and back on the first at the same place. (list of
@@ -160,11 +157,9 @@ class Entries:
         at: Point of application in the axes of the second node. (list of 3: number [m]; default: [0, 0, 0])
         axes: Axes of the components: those of the first node, of the second node, or inertial ones. (`first`,
         `second`, `inertial`; default: first)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("elements", name, {"type": "node_force", "nodes": nodes, "force": force, "moment": moment, "at": at,
-            "axes": axes, "active": active, **more})
+            "axes": axes, **more})
 
     def stiffness_field(self, name: str, *,
             nodes: Sequence[Any], stiffness: Mapping[str, Any] | Sequence[Any],
@@ -172,8 +167,7 @@ class Entries:
             rotation_vector: Sequence[Any] | None = None, quaternion: Sequence[Any] | None = None,
             bryant: Sequence[Any] | None = None, euler: Sequence[Any] | None = None,
             axes: Mapping[str, Any] | None = None, matrix: Sequence[Any] | None = None,
-            rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] | None = None,
-            active: bool | None = None, **more: Any) -> None:
+            rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] | None = None, **more: Any) -> None:
         """A part between two nodes with the stiffness matrix of another program.
 
         nodes: The two nodes. (list of 2: name of a node)
@@ -193,13 +187,10 @@ class Entries:
         up to 1e-3 is corrected. (list of 3: list of 3: number)
         rodrigues: Orientation: tan(angle/2) times the axis. (list of 3: number)
         conformal: Orientation: 4 tan(angle/4) times the axis (Wiener-Milenkovic). (list of 3: number)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("elements", name, {"type": "stiffness_field", "nodes": nodes, "stiffness": stiffness,
             "damping": damping, "rotation_vector": rotation_vector, "quaternion": quaternion, "bryant": bryant,
-            "euler": euler, "axes": axes, "matrix": matrix, "rodrigues": rodrigues, "conformal": conformal,
-            "active": active, **more})
+            "euler": euler, "axes": axes, "matrix": matrix, "rodrigues": rodrigues, "conformal": conformal, **more})
 
     def hydraulic_actuator(self, name: str, *,
             nodes: Sequence[Any], stroke: Sequence[Any], at: Sequence[Any] | None = None,
@@ -214,7 +205,7 @@ class Entries:
             density: float | str | None = None, viscosity: float | str | None = None,
             bulk_modulus: float | str | None = None, air_fraction: float | str | None = None,
             air_exponent: float | str | None = None, vapour_pressure: float | str | None = None,
-            conserves: str | None = None, active: bool | None = None, **more: Any) -> None:
+            conserves: str | None = None, **more: Any) -> None:
         """A cylinder between points of two nodes, in a circuit or with a circuit of its own.
 
         nodes: The two nodes, which chamber 1 pushes apart. (list of 2: name of a node)
@@ -264,8 +255,6 @@ class Entries:
         [Pa] between 0 and 3500; default: 1000)
         conserves: Quantity that flows conserve: the `volume`, each place at its own pressure, or the `mass`, with
         flows as volumes at 101325 Pa. (`volume`, `mass`; default: volume)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("elements", name, {"type": "hydraulic_actuator", "nodes": nodes, "stroke": stroke, "at": at,
             "piston_areas": piston_areas, "stages": stages, "dead_volumes": dead_volumes, "leakage": leakage,
@@ -273,8 +262,7 @@ class Entries:
             "pressures": pressures, "compliances": compliances, "cushions": cushions, "supply": supply,
             "valve": valve, "relief": relief, "accumulator": accumulator, "ambient_pressure": ambient_pressure,
             "density": density, "viscosity": viscosity, "bulk_modulus": bulk_modulus, "air_fraction": air_fraction,
-            "air_exponent": air_exponent, "vapour_pressure": vapour_pressure, "conserves": conserves,
-            "active": active, **more})
+            "air_exponent": air_exponent, "vapour_pressure": vapour_pressure, "conserves": conserves, **more})
 
     def rigid(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -286,7 +274,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that fixes two nodes to each other.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -323,13 +311,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "rigid", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -341,7 +327,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that leaves turning about an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -376,13 +362,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "hinge", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def prismatic(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -394,7 +378,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -428,13 +412,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "prismatic", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def cylindrical(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -446,7 +428,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -482,13 +464,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "cylindrical", "nodes": nodes, "axis": axis, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, "active": active, **more})
+            "friction": friction, "carries": carries, **more})
 
     def spherical(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -500,7 +480,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -536,13 +516,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "spherical", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def planar(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -554,7 +532,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that leaves sliding across an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -590,13 +568,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "planar", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def screw(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], pitch: float | str, position: Sequence[Any] | None = None,
@@ -608,7 +584,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that slides along its axis as it turns about it.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -645,13 +621,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "screw", "nodes": nodes, "axis": axis, "pitch": pitch,
             "position": position, "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping,
             "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def universal(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], second_axis: Sequence[Any],
@@ -663,7 +637,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A cross between two shafts, which turns about its two arms.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -697,13 +671,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "universal", "nodes": nodes, "axis": axis, "second_axis": second_axis,
             "position": position, "at": at, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, "active": active, **more})
+            "friction": friction, "carries": carries, **more})
 
     def constant_velocity(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -715,7 +687,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint between two shafts that turn at equal rates at any bend below 180 degrees.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -753,17 +725,15 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "constant_velocity", "nodes": nodes, "position": position, "at": at,
             "axis": axis, "second_axis": second_axis, "axes": axes, "stiffness": stiffness, "damping": damping,
             "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
+            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
 
     def distance(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
-            active: bool | None = None, **more: Any) -> None:
+            **more: Any) -> None:
         """A rod without mass and with a ball joint at either end.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -771,15 +741,12 @@ class Entries:
         0], [0, 0, 0]])
         length: Distance of the two points, which may be a formula of t. (formula of t [m] greater than 0; default:
         the distance as drawn)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
-        self.add("joints", name, {"type": "distance", "nodes": nodes, "at": at, "length": length, "active": active,
-            **more})
+        self.add("joints", name, {"type": "distance", "nodes": nodes, "at": at, "length": length, **more})
 
     def spherical_spherical(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
-            active: bool | None = None, **more: Any) -> None:
+            **more: Any) -> None:
         """A rod without mass and with a ball joint at either end.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -787,11 +754,8 @@ class Entries:
         0], [0, 0, 0]])
         length: Distance of the two points, which may be a formula of t. (formula of t [m] greater than 0; default:
         the distance as drawn)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
-        self.add("joints", name, {"type": "spherical_spherical", "nodes": nodes, "at": at, "length": length,
-            "active": active, **more})
+        self.add("joints", name, {"type": "spherical_spherical", "nodes": nodes, "at": at, "length": length, **more})
 
     def revolute_spherical(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], at: Sequence[Any] | None = None,
@@ -802,7 +766,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A rod without mass that hinges on the first node, with a ball joint on the second.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -832,13 +796,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "revolute_spherical", "nodes": nodes, "axis": axis, "at": at,
             "length": length, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def point_on_line(self, name: str, *,
             nodes: Sequence[Any], line: Sequence[Any], position: Sequence[Any] | None = None,
@@ -850,7 +812,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a line and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -884,13 +846,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "point_on_line", "nodes": nodes, "line": line, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, "active": active, **more})
+            "friction": friction, "carries": carries, **more})
 
     def point_on_plane(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], position: Sequence[Any] | None = None,
@@ -902,7 +862,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point in a plane and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -936,13 +896,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "point_on_plane", "nodes": nodes, "normal": normal, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, "active": active, **more})
+            "friction": friction, "carries": carries, **more})
 
     def point_on_curve(self, name: str, *,
             nodes: Sequence[Any], curve: str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -953,7 +911,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a point on a curve of the first node and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -984,13 +942,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "point_on_curve", "nodes": nodes, "curve": curve, "position": position,
             "at": at, "closed": closed, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def slider(self, name: str, *,
             node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None,
@@ -1001,7 +957,7 @@ class Entries:
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A joint that holds a node on a beam that deforms, along which it slides.
 
         node: Node that slides. (name of a node)
@@ -1031,13 +987,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "slider", "node": node, "beam": beam, "at": at, "start": start,
             "ends": ends, "orientation": orientation, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start_rate": start_rate, "friction": friction,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def wheel(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], axis: Sequence[Any], radius: float | str,
@@ -1049,7 +1003,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """A thin wheel of the second node on a plane of the first.
 
         nodes: Node of the plane and node of the wheel. (list of 2: name of a node)
@@ -1081,13 +1035,11 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "wheel", "nodes": nodes, "normal": normal, "axis": axis, "radius": radius,
             "position": position, "at": at, "slip": slip, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, "active": active, **more})
+            "friction": friction, "carries": carries, **more})
 
     def bushing(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -1099,7 +1051,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
-            active: bool | None = None, **more: Any) -> None:
+            **more: Any) -> None:
         """An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1138,13 +1090,11 @@ class Entries:
         coordinate: number [m/s or rad/s])
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "bushing", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "preload": preload,
             "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "carries": carries, "active": active, **more})
+            "start_rate": start_rate, "carries": carries, **more})
 
     def bearing(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], radial: Mapping[str, Any] | Sequence[Any] | float | str,
@@ -1158,7 +1108,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+            carries: str | None = None, **more: Any) -> None:
         """An elastic hinge, whose shaft turns freely.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1201,14 +1151,12 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "bearing", "nodes": nodes, "axis": axis, "radial": radial,
             "position": position, "at": at, "second_axis": second_axis, "axial": axial, "tilting": tilting,
             "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload, "stops": stops,
             "locked": locked, "start": start, "start_rate": start_rate, "friction": friction, "carries": carries,
-            "active": active, **more})
+            **more})
 
     def clearance_hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
@@ -1222,7 +1170,7 @@ class Entries:
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             length: float | str | None = None, axial_gap: float | str | None = None,
-            axial_contact: Mapping[str, Any] | None = None, active: bool | None = None, **more: Any) -> None:
+            axial_contact: Mapping[str, Any] | None = None, **more: Any) -> None:
         """A journal with play in a bush.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1268,14 +1216,12 @@ class Entries:
         axial_gap: Axial play of the journal to either side, until its collars touch; without it the journal slides
         freely. (number [m] of at least 0)
         axial_contact: Contact of the collars. (keys of a contact; default: as `contact`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "clearance_hinge", "nodes": nodes, "axis": axis, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "second_axis": second_axis, "radius": radius,
             "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
             "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "carries": carries,
-            "length": length, "axial_gap": axial_gap, "axial_contact": axial_contact, "active": active, **more})
+            "length": length, "axial_gap": axial_gap, "axial_contact": axial_contact, **more})
 
     def clearance_spherical(self, name: str, *,
             nodes: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
@@ -1289,7 +1235,7 @@ class Entries:
             locked: Mapping[str, Any] | bool | float | str | None = None,
             start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
-            active: bool | None = None, **more: Any) -> None:
+            **more: Any) -> None:
         """A ball with play in a socket.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1331,19 +1277,16 @@ class Entries:
         coordinate: number [m/s or rad/s])
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "clearance_spherical", "nodes": nodes, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "axis": axis, "second_axis": second_axis,
             "radius": radius, "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest,
             "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "carries": carries, "active": active, **more})
+            "carries": carries, **more})
 
     def gear(self, name: str, *,
             joints: Sequence[Any], ratio: float | str | None = None, teeth: Sequence[Any] | None = None,
-            internal: bool | None = None, factors: Sequence[Any] | None = None, active: bool | None = None,
-            **more: Any) -> None:
+            internal: bool | None = None, factors: Sequence[Any] | None = None, **more: Any) -> None:
         """Coordinates of joints in a fixed ratio.
 
         joints: Coordinates that are coupled: angles of two joints; with `factors` any coordinates. (list of at least
@@ -1353,18 +1296,16 @@ class Entries:
         internal: Whether one of two wheels with `teeth` is a ring. (true or false; default: false)
         factors: Factors of the coordinates, in place of `ratio`: the sum of factor times coordinate is zero. (list
         of at least 2: number)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "gear", "joints": joints, "ratio": ratio, "teeth": teeth,
-            "internal": internal, "factors": factors, "active": active, **more})
+            "internal": internal, "factors": factors, **more})
 
     def gear_mesh(self, name: str, *,
             nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None,
             radii: Sequence[Any] | None = None, position: Sequence[Any] | None = None, internal: bool | None = None,
             pressure_angle: float | str | None = None, helix_angle: float | str | None = None,
             stiffness: float | str | None = None, damping: float | str | None = None,
-            backlash: float | str | None = None, active: bool | None = None, **more: Any) -> None:
+            backlash: float | str | None = None, **more: Any) -> None:
         """Forces between the teeth of two wheels, which load the bearings.
 
         nodes: Nodes of the two wheels, on their axes. (list of 2: name of a node)
@@ -1381,44 +1322,35 @@ class Entries:
         exactly. (number [N/m] greater than 0)
         damping: Damping of elastic teeth along their normal. (number [N s/m] of at least 0; default: 0)
         backlash: Free play of elastic teeth along their normal. (number [m] of at least 0; default: 0)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "gear_mesh", "nodes": nodes, "axes": axes, "carrier": carrier,
             "radii": radii, "position": position, "internal": internal, "pressure_angle": pressure_angle,
-            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash,
-            "active": active, **more})
+            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash, **more})
 
     def differential(self, name: str, *,
-            joints: Sequence[Any], ratio: float | str | None = None, active: bool | None = None,
-            **more: Any) -> None:
+            joints: Sequence[Any], ratio: float | str | None = None, **more: Any) -> None:
         """Angles of an input shaft and of two others that share its motion.
 
         joints: Angles of the input, the left and the right shaft. (list of 3: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         ratio: Rate of the input over the mean of the other two; not 0. (number; default: 1)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
-        self.add("joints", name, {"type": "differential", "joints": joints, "ratio": ratio, "active": active, **more})
+        self.add("joints", name, {"type": "differential", "joints": joints, "ratio": ratio, **more})
 
     def rack_and_pinion(self, name: str, *,
-            joints: Sequence[Any], radius: float | str, active: bool | None = None, **more: Any) -> None:
+            joints: Sequence[Any], radius: float | str, **more: Any) -> None:
         """A displacement that is a radius times an angle.
 
         joints: Angle of the pinion and displacement of the rack. (list of 2: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         radius: Displacement of the rack over the angle of the pinion; not 0. (number [m])
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
-        self.add("joints", name, {"type": "rack_and_pinion", "joints": joints, "radius": radius, "active": active,
-            **more})
+        self.add("joints", name, {"type": "rack_and_pinion", "joints": joints, "radius": radius, **more})
 
     def cam(self, name: str, *,
             joints: Sequence[Any], lift: str | None = None, profile: str | None = None, follower: str | None = None,
             radius: float | str | None = None, at: Sequence[Any] | None = None, normal: Sequence[Any] | None = None,
-            friction: Mapping[str, Any] | None = None, active: bool | None = None, **more: Any) -> None:
+            friction: Mapping[str, Any] | None = None, **more: Any) -> None:
         """A disk cam and its follower, by the contour of the cam or by the lift.
 
         joints: Angle of the camshaft and coordinate of the follower. (list of 2: name of a joint; or formula of
@@ -1434,17 +1366,14 @@ class Entries:
         normal: Normal of a flat face, away from the cam, as drawn; it needs one. (list of 3: number)
         friction: Friction of the contact, or of a roller on its pin. (keys of `friction`; or map by coordinate: keys
         of `friction`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "cam", "joints": joints, "lift": lift, "profile": profile,
-            "follower": follower, "radius": radius, "at": at, "normal": normal, "friction": friction,
-            "active": active, **more})
+            "follower": follower, "radius": radius, "at": at, "normal": normal, "friction": friction, **more})
 
     def belt(self, name: str, *,
             nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, pretension: float | str | None = None,
-            damping: float | str | None = None, active: bool | None = None, **more: Any) -> None:
+            damping: float | str | None = None, **more: Any) -> None:
         """A closed belt or chain that grips its pulleys.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
@@ -1456,17 +1385,15 @@ class Entries:
         [m]; or `~`; default: the nodes)
         pretension: Tension as drawn. (number [N] of at least 0; default: 0)
         damping: Time constant of Kelvin-Voigt damping. (number [s] of at least 0; default: 0)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "belt", "nodes": nodes, "radii": radii, "EA": EA, "axis": axis, "at": at,
-            "pretension": pretension, "damping": damping, "active": active, **more})
+            "pretension": pretension, "damping": damping, **more})
 
     def cable(self, name: str, *,
             nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, pretension: float | str | None = None,
             damping: float | str | None = None, grips: Sequence[Any] | None = None,
-            turns: Sequence[Any] | None = None, active: bool | None = None, **more: Any) -> None:
+            turns: Sequence[Any] | None = None, **more: Any) -> None:
         """A rope from the first node to the last, over pulleys on which it slides without friction.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
@@ -1481,22 +1408,16 @@ class Entries:
         grips: Nodes of pulleys that the rope grips. (list: name of a node)
         turns: Whole turns round each pulley in addition to the rope as drawn; `~` is none. (list: whole number of at
         least 0; or `~`)
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
         """
         self.add("joints", name, {"type": "cable", "nodes": nodes, "radii": radii, "EA": EA, "axis": axis, "at": at,
-            "pretension": pretension, "damping": damping, "grips": grips, "turns": turns, "active": active, **more})
+            "pretension": pretension, "damping": damping, "grips": grips, "turns": turns, **more})
 
     def contact(self, name: str, *,
             stiffness: float | str, shapes: Sequence[Any] | None = None, between: Sequence[Any] | None = None,
             exponent: float | str | None = None, damping: float | str | None = None,
             restitution: float | str | None = None, friction: Mapping[str, Any] | None = None,
-<<<<<<< HEAD
-            active: bool | None = None, **more: Any) -> None:
-=======
             rolling_resistance: float | str | None = None, rolling_rate: float | str | None = None,
             **more: Any) -> None:
->>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
         """Shapes on nodes that push each other apart when they touch.
 
         stiffness: Stiffness k of the force k p^n (1 + d pdot) at the depth p, in N/m^n with the `exponent` n.
@@ -1513,14 +1434,6 @@ class Entries:
         the speed at which a pair touches, of at least 1 mm/s, and does not change until it parts. (number greater
         than 0 and at most 1)
         friction: Friction of the surfaces. (keys of the friction of a contact)
-<<<<<<< HEAD
-        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
-        true)
-        """
-        self.add("joints", name, {"type": "contact", "stiffness": stiffness, "shapes": shapes, "between": between,
-            "exponent": exponent, "damping": damping, "restitution": restitution, "friction": friction,
-            "active": active, **more})
-=======
         rolling_resistance: Arm b of a couple against rolling, b times the normal force. (number [m] of at least 0)
         rolling_rate: Angular velocity w_0 within which the couple is smooth, b N tanh(w/w_0). (number [rad/s]
         greater than 0; default: 0.01)
@@ -1528,7 +1441,6 @@ class Entries:
         self.add("joints", name, {"type": "contact", "stiffness": stiffness, "shapes": shapes, "between": between,
             "exponent": exponent, "damping": damping, "restitution": restitution, "friction": friction,
             "rolling_resistance": rolling_resistance, "rolling_rate": rolling_rate, **more})
->>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
 
     def assembly(self, *,
             keep: Sequence[Any] | None = None, **more: Any) -> None:

@@ -149,11 +149,8 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   jump.prescribed = crossed.empty() && prescribed_rates_jump(system_, environment_, state, just_off(jump.time, h));
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
-<<<<<<< HEAD
   const VectorX memory = state.memory;
-=======
   take_samples(system_, state, environment_);
->>>>>>> 8147be3a675a32089699f194142a7cb0cd0dd9db
   const bool balanced = event_function_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
   if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
