@@ -1,9 +1,9 @@
 // Interface of components that act at instants of a clock, and not between them (sampled controllers).
 //
-// Steps of a motion end at these instants. The values that are due are computed from the state at the end of a step, and
-// kept in memory until the next instant. If a value that others read changes, forces may jump: another branch of the
-// motion begins there with it. The state at the end of the step, which is recorded, is the one just before. All other
-// analyses keep the values.
+// Steps of a motion end at these instants. The values that are due are computed from the state at the end of a step,
+// and kept in memory until the next instant. If a value that others read changes, forces may jump: another branch of
+// the motion begins there with it. The state at the end of the step, which is recorded, is the one just before. All
+// other analyses keep the values.
 #pragma once
 
 #include <vector>

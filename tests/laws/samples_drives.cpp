@@ -93,13 +93,9 @@ std::vector<Sample> motors() {
                            "resistance: 0.7, inductance: 0.4, torque_constant: 0.6, back_emf: 0.5, gear_ratio: 1.5, "
                            "friction: 0.2}, release: 2",
                            {{"motor.voltage", "x", "x"},
-                            {"motor.voltage", "", "voltage"},
                             {"motor.voltage", "it.power", ""},
-                            {"motor.resistance", "0", "greater than 0"},
-                            {"motor.inductance", "-1", ""},
                             {"motor.torque_constant", "0", "no torque"},
                             {"motor.gear_ratio", "0", "no torque"},
-                            {"motor.friction", "-1", ""},
                             {"motor.coordinate", "angel", "did you mean 'angle'"},
                             {"limit", "3", "limit its voltage"},
                             {"coordinate", "angle", "within `motor`"}}));
