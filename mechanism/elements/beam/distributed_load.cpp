@@ -149,15 +149,11 @@ std::vector<OutputField> DistributedLoad::output_fields() const {
 
 void DistributedLoad::write_output(const LocalState& state, double* values) const {
   Vector3 F = Vector3::Zero(), m = Vector3::Zero();
-  for (const Point& p : points_) {
-    const Section at = section(state, p);
-    Vector3 x = Vector3::Zero();
-    for (int k = 0; k < 2; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      x += p.N[i] * state.node(k).x + state.node(k).R * p.a[i];
-    }
-    F += p.w * at.f;
-    m += p.w * (x.cross(at.f) + at.S * at.n);
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    const SpanForce here = load(state, point, at).on_line;
+    F += point.w * here.f;
+    m += point.w * (span_position(point, state).cross(here.f) + at.S * here.n);
   }
   Eigen::Map<Vector6>(values) << F, m;
 }

@@ -40,6 +40,15 @@ SpanSection span_section(const BeamSpan& span, const SpanPoint& point, const Loc
   return at;
 }
 
+Vector3 span_position(const SpanPoint& point, const LocalState& state) {
+  Vector3 x = Vector3::Zero();
+  for (int k = 0; k < 2; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    x += point.N[i] * state.node(k).x + state.node(k).R * point.a[i];
+  }
+  return x;
+}
+
 Vector3 span_velocity(const SpanPoint& point, const LocalState& state) {
   Vector3 v = Vector3::Zero();
   for (std::size_t k = 0; k < 2; ++k) {

@@ -48,6 +48,8 @@ struct SpanSection {
 /// @param state  its nodes 0 and 1 are those of the span
 SpanSection span_section(const BeamSpan& span, const SpanPoint& point, const LocalState& state);
 
+/// Position of the line at a point, inertial [m].
+Vector3 span_position(const SpanPoint& point, const LocalState& state);
 /// Velocity of the line at a point, inertial [m/s].
 Vector3 span_velocity(const SpanPoint& point, const LocalState& state);
 /// Angular velocity of the section, in its axes [rad/s].
