@@ -26,7 +26,9 @@ MOST_WORDS = 1500  # in one page
 
 
 def pages_of_manual():
-    return sorted(glob.glob(os.path.join(MANUAL, "**", "*.md"), recursive=True))
+    """The pages that are read from the first line to the last; those of the reference are looked up."""
+    return sorted(path for path in glob.glob(os.path.join(MANUAL, "**", "*.md"), recursive=True)
+                  if "reference" not in path.split(os.sep))
 
 
 class Manual(unittest.TestCase):
