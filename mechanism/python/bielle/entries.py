@@ -128,7 +128,7 @@ class Entries:
     def spring_damper(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, stiffness: float | str | None = None,
             damping: float | str | None = None, length: float | str | None = None, force: float | str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """A spring, a damper or a force along the line between points of two nodes.
 
         nodes: The two nodes. (list of 2: name of a node)
@@ -139,13 +139,16 @@ class Entries:
         length: Free length of the spring. (number [m] of at least 0; default: the distance as placed)
         force: Tension as a formula of the elongation e, its rate v, the time t and measures, in place of `stiffness`
         and `damping`. (formula of e, v, t and measures [N])
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("elements", name, {"type": "spring_damper", "nodes": nodes, "at": at, "stiffness": stiffness,
-            "damping": damping, "length": length, "force": force, **more})
+            "damping": damping, "length": length, "force": force, "active": active, **more})
 
     def node_force(self, name: str, *,
             nodes: Sequence[Any], force: Sequence[Any] | None = None, moment: Sequence[Any] | None = None,
-            at: Sequence[Any] | None = None, axes: str | None = None, **more: Any) -> None:
+            at: Sequence[Any] | None = None, axes: str | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """A force and a moment between two nodes.
 
         nodes: The two nodes: force and moment act on the second, and back on the first at the same place. (list of
@@ -157,9 +160,11 @@ class Entries:
         at: Point of application in the axes of the second node. (list of 3: number [m]; default: [0, 0, 0])
         axes: Axes of the components: those of the first node, of the second node, or inertial ones. (`first`,
         `second`, `inertial`; default: first)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("elements", name, {"type": "node_force", "nodes": nodes, "force": force, "moment": moment, "at": at,
-            "axes": axes, **more})
+            "axes": axes, "active": active, **more})
 
     def stiffness_field(self, name: str, *,
             nodes: Sequence[Any], stiffness: Mapping[str, Any] | Sequence[Any],
@@ -167,7 +172,8 @@ class Entries:
             rotation_vector: Sequence[Any] | None = None, quaternion: Sequence[Any] | None = None,
             bryant: Sequence[Any] | None = None, euler: Sequence[Any] | None = None,
             axes: Mapping[str, Any] | None = None, matrix: Sequence[Any] | None = None,
-            rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] | None = None, **more: Any) -> None:
+            rodrigues: Sequence[Any] | None = None, conformal: Sequence[Any] | None = None,
+            active: bool | None = None, **more: Any) -> None:
         """A part between two nodes with the stiffness matrix of another program.
 
         nodes: The two nodes. (list of 2: name of a node)
@@ -187,10 +193,13 @@ class Entries:
         up to 1e-3 is corrected. (list of 3: list of 3: number)
         rodrigues: Orientation: tan(angle/2) times the axis. (list of 3: number)
         conformal: Orientation: 4 tan(angle/4) times the axis (Wiener-Milenkovic). (list of 3: number)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("elements", name, {"type": "stiffness_field", "nodes": nodes, "stiffness": stiffness,
             "damping": damping, "rotation_vector": rotation_vector, "quaternion": quaternion, "bryant": bryant,
-            "euler": euler, "axes": axes, "matrix": matrix, "rodrigues": rodrigues, "conformal": conformal, **more})
+            "euler": euler, "axes": axes, "matrix": matrix, "rodrigues": rodrigues, "conformal": conformal,
+            "active": active, **more})
 
     def hydraulic_actuator(self, name: str, *,
             nodes: Sequence[Any], stroke: Sequence[Any], at: Sequence[Any] | None = None,
@@ -205,7 +214,7 @@ class Entries:
             density: float | str | None = None, viscosity: float | str | None = None,
             bulk_modulus: float | str | None = None, air_fraction: float | str | None = None,
             air_exponent: float | str | None = None, vapour_pressure: float | str | None = None,
-            conserves: str | None = None, **more: Any) -> None:
+            conserves: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A cylinder between points of two nodes, in a circuit or with a circuit of its own.
 
         nodes: The two nodes, which chamber 1 pushes apart. (list of 2: name of a node)
@@ -255,6 +264,8 @@ class Entries:
         [Pa] between 0 and 3500; default: 1000)
         conserves: Quantity that flows conserve: the `volume`, each place at its own pressure, or the `mass`, with
         flows as volumes at 101325 Pa. (`volume`, `mass`; default: volume)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("elements", name, {"type": "hydraulic_actuator", "nodes": nodes, "stroke": stroke, "at": at,
             "piston_areas": piston_areas, "stages": stages, "dead_volumes": dead_volumes, "leakage": leakage,
@@ -262,7 +273,8 @@ class Entries:
             "pressures": pressures, "compliances": compliances, "cushions": cushions, "supply": supply,
             "valve": valve, "relief": relief, "accumulator": accumulator, "ambient_pressure": ambient_pressure,
             "density": density, "viscosity": viscosity, "bulk_modulus": bulk_modulus, "air_fraction": air_fraction,
-            "air_exponent": air_exponent, "vapour_pressure": vapour_pressure, "conserves": conserves, **more})
+            "air_exponent": air_exponent, "vapour_pressure": vapour_pressure, "conserves": conserves,
+            "active": active, **more})
 
     def rigid(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -271,10 +283,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that fixes two nodes to each other.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -304,6 +316,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -311,11 +327,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "rigid", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def hinge(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -324,10 +342,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that leaves turning about an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -355,6 +373,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -362,11 +384,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "hinge", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def prismatic(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -375,10 +399,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -405,6 +429,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -412,11 +440,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "prismatic", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def cylindrical(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -425,10 +455,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that leaves sliding along an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -457,6 +487,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -464,11 +498,14 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "cylindrical", "nodes": nodes, "axis": axis, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
+            **more})
 
     def spherical(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -477,10 +514,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a point and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -509,6 +546,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -516,11 +557,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "spherical", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def planar(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
@@ -529,10 +572,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that leaves sliding across an axis and turning about it free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -561,6 +604,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -568,11 +615,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "planar", "nodes": nodes, "axis": axis, "position": position, "at": at,
             "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def screw(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], pitch: float | str, position: Sequence[Any] | None = None,
@@ -581,10 +630,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that slides along its axis as it turns about it.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -614,6 +663,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -621,11 +674,14 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "screw", "nodes": nodes, "axis": axis, "pitch": pitch,
             "position": position, "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping,
-            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
+            **more})
 
     def universal(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], second_axis: Sequence[Any],
@@ -634,10 +690,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A cross between two shafts, which turns about its two arms.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -664,6 +720,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -671,11 +731,14 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "universal", "nodes": nodes, "axis": axis, "second_axis": second_axis,
             "position": position, "at": at, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
+            **more})
 
     def constant_velocity(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -684,10 +747,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint between two shafts that turn at equal rates at any bend below 180 degrees.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -718,6 +781,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -725,15 +792,18 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "constant_velocity", "nodes": nodes, "position": position, "at": at,
             "axis": axis, "second_axis": second_axis, "axes": axes, "stiffness": stiffness, "damping": damping,
-            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, **more})
+            "rest": rest, "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
+            **more})
 
     def distance(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """A rod without mass and with a ball joint at either end.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -741,12 +811,15 @@ class Entries:
         0], [0, 0, 0]])
         length: Distance of the two points, which may be a formula of t. (formula of t [m] greater than 0; default:
         the distance as drawn)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "distance", "nodes": nodes, "at": at, "length": length, **more})
+        self.add("joints", name, {"type": "distance", "nodes": nodes, "at": at, "length": length, "active": active,
+            **more})
 
     def spherical_spherical(self, name: str, *,
             nodes: Sequence[Any], at: Sequence[Any] | None = None, length: float | str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """A rod without mass and with a ball joint at either end.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -754,8 +827,11 @@ class Entries:
         0], [0, 0, 0]])
         length: Distance of the two points, which may be a formula of t. (formula of t [m] greater than 0; default:
         the distance as drawn)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "spherical_spherical", "nodes": nodes, "at": at, "length": length, **more})
+        self.add("joints", name, {"type": "spherical_spherical", "nodes": nodes, "at": at, "length": length,
+            "active": active, **more})
 
     def revolute_spherical(self, name: str, *,
             nodes: Sequence[Any], axis: Sequence[Any], at: Sequence[Any] | None = None,
@@ -763,10 +839,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A rod without mass that hinges on the first node, with a ball joint on the second.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -789,6 +865,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [rad]; or map by coordinate:
         number [rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [rad/s]; or map by coordinate:
@@ -796,11 +876,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "revolute_spherical", "nodes": nodes, "axis": axis, "at": at,
             "length": length, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def point_on_line(self, name: str, *,
             nodes: Sequence[Any], line: Sequence[Any], position: Sequence[Any] | None = None,
@@ -809,10 +891,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a point on a line and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -839,6 +921,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -846,11 +932,14 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "point_on_line", "nodes": nodes, "line": line, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
+            **more})
 
     def point_on_plane(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], position: Sequence[Any] | None = None,
@@ -859,10 +948,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a point in a plane and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -889,6 +978,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -896,11 +989,14 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "point_on_plane", "nodes": nodes, "normal": normal, "position": position,
             "at": at, "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
+            **more})
 
     def point_on_curve(self, name: str, *,
             nodes: Sequence[Any], curve: str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
@@ -908,10 +1004,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A joint that holds a point on a curve of the first node and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -935,6 +1031,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -942,11 +1042,13 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "point_on_curve", "nodes": nodes, "curve": curve, "position": position,
             "at": at, "closed": closed, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def slider(self, name: str, *,
             node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None,
@@ -955,9 +1057,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start_rate: Mapping[str, Any] | float | str | None = None,
+            friction: Mapping[str, Any] | None = None, carries: str | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """A joint that holds a node on a beam that deforms, along which it slides.
 
         node: Node that slides. (name of a node)
@@ -982,16 +1085,22 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
         number [m/s])
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "slider", "node": node, "beam": beam, "at": at, "start": start,
             "ends": ends, "orientation": orientation, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start_rate": start_rate, "friction": friction,
-            "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
 
     def wheel(self, name: str, *,
             nodes: Sequence[Any], normal: Sequence[Any], axis: Sequence[Any], radius: float | str,
@@ -1000,10 +1109,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """A thin wheel of the second node on a plane of the first.
 
         nodes: Node of the plane and node of the wheel. (list of 2: name of a node)
@@ -1028,6 +1137,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m]; or map by coordinate: number
         [m])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s]; or map by coordinate:
@@ -1035,23 +1148,26 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "wheel", "nodes": nodes, "normal": normal, "axis": axis, "radius": radius,
             "position": position, "at": at, "slip": slip, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "friction": friction, "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
+            **more})
 
     def bushing(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
             axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
-            stiffness: Mapping[str, Any] | Sequence[Any] | None = None,
+            stiffness: Mapping[str, Any] | Sequence[Any] | None = None, unsymmetric: bool | None = None,
             damping: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
             preload: Sequence[Any] | None = None, curves: Mapping[str, Any] | None = None,
             maxwell: Sequence[Any] | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1069,6 +1185,8 @@ class Entries:
         ([number [N/m] of at least 0, number [N/m] of at least 0, number [N/m] of at least 0, number [N m/rad] of at
         least 0, number [N m/rad] of at least 0, number [N m/rad] of at least 0]; or list of 6: list of 6: number
         [N/m or N or N/rad or N m/rad]; or keys of a matrix)
+        unsymmetric: Whether the matrix of the stiffness may be unsymmetric: cross-coupled terms, which drive or
+        brake a whirl. Its symmetric part has no negative eigenvalue. (true or false; default: false)
         damping: Damping along and about x, y, z, or a matrix whose symmetric part has no negative eigenvalue, or a
         time that multiplies the stiffness. (number [s] of at least 0; or [number [N s/m] of at least 0, number [N
         s/m] of at least 0, number [N s/m] of at least 0, number [N m s/rad] of at least 0, number [N m s/rad] of at
@@ -1084,38 +1202,45 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "bushing", "nodes": nodes, "position": position, "at": at, "axis": axis,
-            "second_axis": second_axis, "stiffness": stiffness, "damping": damping, "preload": preload,
-            "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked, "start": start,
-            "start_rate": start_rate, "carries": carries, **more})
+            "second_axis": second_axis, "stiffness": stiffness, "unsymmetric": unsymmetric, "damping": damping,
+            "preload": preload, "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked,
+            "clutch": clutch, "one_way": one_way, "start": start, "start_rate": start_rate, "carries": carries,
+            "active": active, **more})
 
     def bearing(self, name: str, *,
-            nodes: Sequence[Any], axis: Sequence[Any], radial: Mapping[str, Any] | Sequence[Any] | float | str,
-            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
-            second_axis: Sequence[Any] | None = None, axial: Mapping[str, Any] | float | str | None = None,
+            nodes: Sequence[Any], axis: Sequence[Any], position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            radial: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
+            axial: Mapping[str, Any] | float | str | None = None,
             tilting: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
+            matrix: Mapping[str, Any] | None = None, film: Mapping[str, Any] | None = None,
             stiffness: Mapping[str, Any] | float | str | None = None,
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
-            carries: str | None = None, **more: Any) -> None:
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
         """An elastic hinge, whose shaft turns freely.
 
         nodes: First and second node. (list of 2: name of a node)
         axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
         which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
-        radial: Radial stiffness, one number or two along x and y of the housing; or stiffness and damping. (number
-        [N/m] of at least 0; or list of 2: number [N/m] of at least 0; or keys of a direction of a bearing)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
@@ -1123,11 +1248,18 @@ class Entries:
         second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
         node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
         number; default: the inertial axis most normal to z, as drawn)
+        radial: Radial stiffness: one number, two along x and y of the housing, or a matrix; or stiffness and
+        damping. (number [N/m] of at least 0; or list of 2: number [N/m] of at least 0; or list of 2: list of 2:
+        number [N/m]; or keys of a direction of a bearing)
         axial: Axial stiffness; or stiffness and damping. (number [N/m] of at least 0; or keys of a direction of a
         bearing; default: 0)
-        tilting: Stiffness against tilting, one number or two about x and y of the housing; or stiffness and damping.
-        (number [N m/rad] of at least 0; or list of 2: number [N m/rad] of at least 0; or keys of a direction of a
-        bearing; default: 0)
+        tilting: Stiffness against tilting: one number, two about x and y of the housing, or a matrix; or stiffness
+        and damping. (number [N m/rad] of at least 0; or list of 2: number [N m/rad] of at least 0; or list of 2:
+        list of 2: number [N m/rad]; or keys of a direction of a bearing; default: 0)
+        matrix: Stiffness and damping in all directions, in place of `radial`, `axial` and `tilting`. (keys of
+        matrices of a bearing)
+        film: Radial coefficients over the speed of the shaft, in addition to the others. (keys of a film of a
+        bearing)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
@@ -1144,6 +1276,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1151,11 +1287,249 @@ class Entries:
         friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "bearing", "nodes": nodes, "axis": axis, "radial": radial,
-            "position": position, "at": at, "second_axis": second_axis, "axial": axial, "tilting": tilting,
-            "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload, "stops": stops,
-            "locked": locked, "start": start, "start_rate": start_rate, "friction": friction, "carries": carries,
+        self.add("joints", name, {"type": "bearing", "nodes": nodes, "axis": axis, "position": position, "at": at,
+            "second_axis": second_axis, "radial": radial, "axial": axial, "tilting": tilting, "matrix": matrix,
+            "film": film, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
+
+    def ball_bearing(self, name: str, *,
+            nodes: Sequence[Any], axis: Sequence[Any], elements: float | str, pitch_diameter: float | str,
+            ball_diameter: float | str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            second_axis: Sequence[Any] | None = None, grooves: Sequence[Any] | None = None,
+            young: Sequence[Any] | float | str | None = None, poisson: Sequence[Any] | float | str | None = None,
+            contact_angle: float | str | None = None, clearance: float | str | None = None,
+            axial_preload: float | str | None = None, constant: float | str | None = None,
+            discrete: bool | None = None, cage_angle: float | str | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+        """A deep groove or angular contact ball bearing, by the contacts of its balls.
+
+        nodes: First and second node. (list of 2: name of a node)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
+        elements: Number of balls. (whole number between 1 and 1000)
+        pitch_diameter: Diameter of the circle of the balls. (number [m] greater than 0)
+        ball_diameter: Diameter of a ball. (number [m] greater than 0)
+        position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
+        the second node)
+        at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
+        grooves: Radius of the grooves of the inner and the outer ring, in diameters of a ball; above 0.5. (list of
+        2: number between 0.5 and 1; default: [0.52, 0.52])
+        young: Young's modulus of rings and balls, or of each. (number [Pa] greater than 0; or list of 2: number [Pa]
+        greater than 0; default: 2.07e11)
+        poisson: Poisson's ratio likewise. (number between 0 and 0.5; or list of 2: number between 0 and 0.5;
+        default: 0.3)
+        contact_angle: Angle between the contact and the radial plane, below 90 degrees. With an angle the bearing
+        carries the shaft along +z of its axis. (number [rad] of at least 0; default: 0)
+        clearance: Diametral clearance: the radial play of the shaft; negative for an interference. (number [m];
+        default: 0)
+        axial_preload: Axial force on the shaft at the position as drawn, of a bearing with a contact angle. (number
+        [N] of at least 0; default: 0)
+        constant: Force of an element per deflection of both contacts together, to the power of the law. (number
+        [N/m^1.5] greater than 0; default: from materials and radii)
+        discrete: Whether single elements pass in a cage, so that the stiffness varies; otherwise they are spread
+        evenly. (true or false; default: false)
+        cage_angle: Azimuth of the first of discrete elements as drawn, from x about z. (number [rad]; default: 0)
+        stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
+        coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
+        t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
+        v, t and measures [N/m or N m/rad] of at least 0; or keys of a law of force)
+        damping: Damping of the coordinate; or the whole resisting force, as a table over its rate or as a formula of
+        q, v, t and measures. (formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys of a law
+        of force; or map by coordinate: formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys
+        of a law of force)
+        rest: Value of the coordinate at which the spring is free. (number [m or rad]; or map by coordinate: number
+        [m or rad]; default: 0)
+        preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
+        m]; default: 0)
+        stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
+        start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
+        number [m or rad])
+        start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
+        coordinate: number [m/s or rad/s])
+        friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
+        """
+        self.add("joints", name, {"type": "ball_bearing", "nodes": nodes, "axis": axis, "elements": elements,
+            "pitch_diameter": pitch_diameter, "ball_diameter": ball_diameter, "position": position, "at": at,
+            "second_axis": second_axis, "grooves": grooves, "young": young, "poisson": poisson,
+            "contact_angle": contact_angle, "clearance": clearance, "axial_preload": axial_preload,
+            "constant": constant, "discrete": discrete, "cage_angle": cage_angle, "stiffness": stiffness,
+            "damping": damping, "rest": rest, "preload": preload, "stops": stops, "locked": locked, "clutch": clutch,
+            "one_way": one_way, "start": start, "start_rate": start_rate, "friction": friction, "carries": carries,
+            "active": active, **more})
+
+    def roller_bearing(self, name: str, *,
+            nodes: Sequence[Any], axis: Sequence[Any], elements: float | str, pitch_diameter: float | str,
+            roller_diameter: float | str, roller_length: float | str, position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            contact_angle: float | str | None = None, clearance: float | str | None = None,
+            axial_preload: float | str | None = None, constant: float | str | None = None,
+            discrete: bool | None = None, cage_angle: float | str | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+        """A cylindrical or tapered roller bearing, by the contacts of its rollers.
+
+        nodes: First and second node. (list of 2: name of a node)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
+        elements: Number of rollers. (whole number between 1 and 1000)
+        pitch_diameter: Diameter of the circle of the rollers. (number [m] greater than 0)
+        roller_diameter: Diameter of a roller. (number [m] greater than 0)
+        roller_length: Length of contact of a roller. Steel rollers follow from it, by Palmgren's formula. (number
+        [m] greater than 0)
+        position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
+        the second node)
+        at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
+        contact_angle: Angle between the contact and the radial plane, below 90 degrees. With an angle the bearing
+        carries the shaft along +z of its axis. (number [rad] of at least 0; default: 0)
+        clearance: Diametral clearance: the radial play of the shaft; negative for an interference. (number [m];
+        default: 0)
+        axial_preload: Axial force on the shaft at the position as drawn, of a bearing with a contact angle. (number
+        [N] of at least 0; default: 0)
+        constant: Force of an element per deflection of both contacts together, to the power of the law. (number
+        [N/m^(10/9)] greater than 0; default: from materials and radii)
+        discrete: Whether single elements pass in a cage, so that the stiffness varies; otherwise they are spread
+        evenly. (true or false; default: false)
+        cage_angle: Azimuth of the first of discrete elements as drawn, from x about z. (number [rad]; default: 0)
+        stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
+        coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
+        t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
+        v, t and measures [N/m or N m/rad] of at least 0; or keys of a law of force)
+        damping: Damping of the coordinate; or the whole resisting force, as a table over its rate or as a formula of
+        q, v, t and measures. (formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys of a law
+        of force; or map by coordinate: formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys
+        of a law of force)
+        rest: Value of the coordinate at which the spring is free. (number [m or rad]; or map by coordinate: number
+        [m or rad]; default: 0)
+        preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
+        m]; default: 0)
+        stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
+        start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
+        number [m or rad])
+        start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
+        coordinate: number [m/s or rad/s])
+        friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
+        """
+        self.add("joints", name, {"type": "roller_bearing", "nodes": nodes, "axis": axis, "elements": elements,
+            "pitch_diameter": pitch_diameter, "roller_diameter": roller_diameter, "roller_length": roller_length,
+            "position": position, "at": at, "second_axis": second_axis, "contact_angle": contact_angle,
+            "clearance": clearance, "axial_preload": axial_preload, "constant": constant, "discrete": discrete,
+            "cage_angle": cage_angle, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
+
+    def journal_bearing(self, name: str, *,
+            nodes: Sequence[Any], axis: Sequence[Any], diameter: float | str, length: float | str,
+            clearance: float | str, viscosity: float | str, position: Sequence[Any] | None = None,
+            at: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None, model: str | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
+            damping: Mapping[str, Any] | float | str | None = None,
+            rest: Mapping[str, Any] | float | str | None = None,
+            preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            start_rate: Mapping[str, Any] | float | str | None = None, friction: Mapping[str, Any] | None = None,
+            carries: str | None = None, active: bool | None = None, **more: Any) -> None:
+        """A journal in the oil film of its bush.
+
+        nodes: First and second node. (list of 2: name of a node)
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number)
+        diameter: Diameter of the journal. (number [m] greater than 0)
+        length: Length of the bush. (number [m] greater than 0)
+        clearance: Radial clearance: half the difference of the diameters of bush and journal. (number [m] greater
+        than 0)
+        viscosity: Dynamic viscosity of the oil. (number [Pa s] greater than 0)
+        position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
+        the second node)
+        at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
+        together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
+        model: Film of `finite` length, or of a `short` bearing, whose length is less than about half its diameter.
+        (`short`, `finite`; default: finite)
+        stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
+        coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
+        t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,
+        v, t and measures [N/m or N m/rad] of at least 0; or keys of a law of force)
+        damping: Damping of the coordinate; or the whole resisting force, as a table over its rate or as a formula of
+        q, v, t and measures. (formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys of a law
+        of force; or map by coordinate: formula of q, v, t and measures [N s/m or N m s/rad] of at least 0; or keys
+        of a law of force)
+        rest: Value of the coordinate at which the spring is free. (number [m or rad]; or map by coordinate: number
+        [m or rad]; default: 0)
+        preload: Resisting force of the spring at `rest`. (number [N or N m]; or map by coordinate: number [N or N
+        m]; default: 0)
+        stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
+        locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
+        the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
+        number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
+        start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
+        number [m or rad])
+        start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
+        coordinate: number [m/s or rad/s])
+        friction: Friction of the sliding surfaces. (keys of `friction`; or map by coordinate: keys of `friction`)
+        carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
+        or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
+        """
+        self.add("joints", name, {"type": "journal_bearing", "nodes": nodes, "axis": axis, "diameter": diameter,
+            "length": length, "clearance": clearance, "viscosity": viscosity, "position": position, "at": at,
+            "second_axis": second_axis, "model": model, "stiffness": stiffness, "damping": damping, "rest": rest,
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
             **more})
 
     def clearance_hinge(self, name: str, *,
@@ -1166,11 +1540,11 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             length: float | str | None = None, axial_gap: float | str | None = None,
-            axial_contact: Mapping[str, Any] | None = None, **more: Any) -> None:
+            axial_contact: Mapping[str, Any] | None = None, active: bool | None = None, **more: Any) -> None:
         """A journal with play in a bush.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1205,6 +1579,10 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
@@ -1216,12 +1594,15 @@ class Entries:
         axial_gap: Axial play of the journal to either side, until its collars touch; without it the journal slides
         freely. (number [m] of at least 0)
         axial_contact: Contact of the collars. (keys of a contact; default: as `contact`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "clearance_hinge", "nodes": nodes, "axis": axis, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "second_axis": second_axis, "radius": radius,
             "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "start": start, "start_rate": start_rate, "carries": carries,
-            "length": length, "axial_gap": axial_gap, "axial_contact": axial_contact, **more})
+            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
+            "start_rate": start_rate, "carries": carries, "length": length, "axial_gap": axial_gap,
+            "axial_contact": axial_contact, "active": active, **more})
 
     def clearance_spherical(self, name: str, *,
             nodes: Sequence[Any], radial_gap: float | str, contact: Mapping[str, Any],
@@ -1232,10 +1613,10 @@ class Entries:
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None,
-            start: Mapping[str, Any] | float | str | None = None,
+            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
+            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """A ball with play in a socket.
 
         nodes: First and second node. (list of 2: name of a node)
@@ -1271,22 +1652,29 @@ class Entries:
         locked: Lock of the coordinate: `true`, or a number or formula of parameters that is not zero, locks it for
         the whole run. (true or false; or number; or keys of `locked`; or map by coordinate: true or false; or
         number; or keys of `locked`)
+        clutch: Friction clutch, brake or torque limiter on the coordinate, which holds up to a force or torque.
+        (keys of `clutch`; or map by coordinate: keys of `clutch`)
+        one_way: One-way clutch or ratchet, which lets the coordinate move one way. (keys of `one_way`; or map by
+        coordinate: keys of `one_way`)
         start: Value of the coordinate at the start of the first analysis. (number [m or rad]; or map by coordinate:
         number [m or rad])
         start_rate: Rate of the coordinate at the start of the first analysis. (number [m/s or rad/s]; or map by
         coordinate: number [m/s or rad/s])
         carries: Parts that start as one rigid body with this joint: `all` are those behind it, with its start rates
         or the rates of its drives. (`all`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "clearance_spherical", "nodes": nodes, "radial_gap": radial_gap,
             "contact": contact, "position": position, "at": at, "axis": axis, "second_axis": second_axis,
             "radius": radius, "friction": friction, "stiffness": stiffness, "damping": damping, "rest": rest,
-            "preload": preload, "stops": stops, "locked": locked, "start": start, "start_rate": start_rate,
-            "carries": carries, **more})
+            "preload": preload, "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way,
+            "start": start, "start_rate": start_rate, "carries": carries, "active": active, **more})
 
     def gear(self, name: str, *,
             joints: Sequence[Any], ratio: float | str | None = None, teeth: Sequence[Any] | None = None,
-            internal: bool | None = None, factors: Sequence[Any] | None = None, **more: Any) -> None:
+            internal: bool | None = None, factors: Sequence[Any] | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """Coordinates of joints in a fixed ratio.
 
         joints: Coordinates that are coupled: angles of two joints; with `factors` any coordinates. (list of at least
@@ -1296,16 +1684,20 @@ class Entries:
         internal: Whether one of two wheels with `teeth` is a ring. (true or false; default: false)
         factors: Factors of the coordinates, in place of `ratio`: the sum of factor times coordinate is zero. (list
         of at least 2: number)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "gear", "joints": joints, "ratio": ratio, "teeth": teeth,
-            "internal": internal, "factors": factors, **more})
+            "internal": internal, "factors": factors, "active": active, **more})
 
     def gear_mesh(self, name: str, *,
             nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None,
             radii: Sequence[Any] | None = None, position: Sequence[Any] | None = None, internal: bool | None = None,
             pressure_angle: float | str | None = None, helix_angle: float | str | None = None,
-            stiffness: float | str | None = None, damping: float | str | None = None,
-            backlash: float | str | None = None, **more: Any) -> None:
+            stiffness: Mapping[str, Any] | float | str | None = None, damping: float | str | None = None,
+            backlash: float | str | None = None,
+            errors: Mapping[str, Any] | Sequence[Any] | float | str | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """Forces between the teeth of two wheels, which load the bearings.
 
         nodes: Nodes of the two wheels, on their axes. (list of 2: name of a node)
@@ -1318,39 +1710,52 @@ class Entries:
         pressure_angle: Pressure angle, less than pi/2. (number [rad] of at least 0; default: pi/9)
         helix_angle: Helix angle of the first wheel, between -pi/2 and pi/2; right-handed teeth have a positive one.
         (number [rad]; default: 0)
-        stiffness: Stiffness of the teeth along their normal; without it the pitch surfaces roll on each other
-        exactly. (number [N/m] greater than 0)
+        stiffness: Stiffness of the teeth along their normal, also as a formula of the angle phi of the first wheel;
+        without it the pitch surfaces roll on each other exactly. (formula of phi [N/m] greater than 0; or keys of a
+        stiffness of teeth)
         damping: Damping of elastic teeth along their normal. (number [N s/m] of at least 0; default: 0)
         backlash: Free play of elastic teeth along their normal. (number [m] of at least 0; default: 0)
+        errors: Errors of the teeth along their normal, by which the second wheel is ahead when it is not loaded;
+        also as a formula of the angle phi of the first wheel. (formula of phi [m]; or keys of an error of the teeth;
+        or list: keys of an error of the teeth)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "gear_mesh", "nodes": nodes, "axes": axes, "carrier": carrier,
             "radii": radii, "position": position, "internal": internal, "pressure_angle": pressure_angle,
-            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash, **more})
+            "helix_angle": helix_angle, "stiffness": stiffness, "damping": damping, "backlash": backlash,
+            "errors": errors, "active": active, **more})
 
     def differential(self, name: str, *,
-            joints: Sequence[Any], ratio: float | str | None = None, **more: Any) -> None:
+            joints: Sequence[Any], ratio: float | str | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """Angles of an input shaft and of two others that share its motion.
 
         joints: Angles of the input, the left and the right shaft. (list of 3: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         ratio: Rate of the input over the mean of the other two; not 0. (number; default: 1)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "differential", "joints": joints, "ratio": ratio, **more})
+        self.add("joints", name, {"type": "differential", "joints": joints, "ratio": ratio, "active": active, **more})
 
     def rack_and_pinion(self, name: str, *,
-            joints: Sequence[Any], radius: float | str, **more: Any) -> None:
+            joints: Sequence[Any], radius: float | str, active: bool | None = None, **more: Any) -> None:
         """A displacement that is a radius times an angle.
 
         joints: Angle of the pinion and displacement of the rack. (list of 2: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         radius: Displacement of the rack over the angle of the pinion; not 0. (number [m])
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
-        self.add("joints", name, {"type": "rack_and_pinion", "joints": joints, "radius": radius, **more})
+        self.add("joints", name, {"type": "rack_and_pinion", "joints": joints, "radius": radius, "active": active,
+            **more})
 
     def cam(self, name: str, *,
             joints: Sequence[Any], lift: str | None = None, profile: str | None = None, follower: str | None = None,
             radius: float | str | None = None, at: Sequence[Any] | None = None, normal: Sequence[Any] | None = None,
-            friction: Mapping[str, Any] | None = None, **more: Any) -> None:
+            friction: Mapping[str, Any] | None = None, active: bool | None = None, **more: Any) -> None:
         """A disk cam and its follower, by the contour of the cam or by the lift.
 
         joints: Angle of the camshaft and coordinate of the follower. (list of 2: name of a joint; or formula of
@@ -1366,14 +1771,17 @@ class Entries:
         normal: Normal of a flat face, away from the cam, as drawn; it needs one. (list of 3: number)
         friction: Friction of the contact, or of a roller on its pin. (keys of `friction`; or map by coordinate: keys
         of `friction`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "cam", "joints": joints, "lift": lift, "profile": profile,
-            "follower": follower, "radius": radius, "at": at, "normal": normal, "friction": friction, **more})
+            "follower": follower, "radius": radius, "at": at, "normal": normal, "friction": friction,
+            "active": active, **more})
 
     def belt(self, name: str, *,
             nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, pretension: float | str | None = None,
-            damping: float | str | None = None, **more: Any) -> None:
+            damping: float | str | None = None, active: bool | None = None, **more: Any) -> None:
         """A closed belt or chain that grips its pulleys.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
@@ -1385,15 +1793,17 @@ class Entries:
         [m]; or `~`; default: the nodes)
         pretension: Tension as drawn. (number [N] of at least 0; default: 0)
         damping: Time constant of Kelvin-Voigt damping. (number [s] of at least 0; default: 0)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "belt", "nodes": nodes, "radii": radii, "EA": EA, "axis": axis, "at": at,
-            "pretension": pretension, "damping": damping, **more})
+            "pretension": pretension, "damping": damping, "active": active, **more})
 
     def cable(self, name: str, *,
             nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, pretension: float | str | None = None,
             damping: float | str | None = None, grips: Sequence[Any] | None = None,
-            turns: Sequence[Any] | None = None, **more: Any) -> None:
+            turns: Sequence[Any] | None = None, active: bool | None = None, **more: Any) -> None:
         """A rope from the first node to the last, over pulleys on which it slides without friction.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
@@ -1408,16 +1818,18 @@ class Entries:
         grips: Nodes of pulleys that the rope grips. (list: name of a node)
         turns: Whole turns round each pulley in addition to the rope as drawn; `~` is none. (list: whole number of at
         least 0; or `~`)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "cable", "nodes": nodes, "radii": radii, "EA": EA, "axis": axis, "at": at,
-            "pretension": pretension, "damping": damping, "grips": grips, "turns": turns, **more})
+            "pretension": pretension, "damping": damping, "grips": grips, "turns": turns, "active": active, **more})
 
     def contact(self, name: str, *,
             stiffness: float | str, shapes: Sequence[Any] | None = None, between: Sequence[Any] | None = None,
             exponent: float | str | None = None, damping: float | str | None = None,
             restitution: float | str | None = None, friction: Mapping[str, Any] | None = None,
             rolling_resistance: float | str | None = None, rolling_rate: float | str | None = None,
-            **more: Any) -> None:
+            active: bool | None = None, **more: Any) -> None:
         """Shapes on nodes that push each other apart when they touch.
 
         stiffness: Stiffness k of the force k p^n (1 + d pdot) at the depth p, in N/m^n with the `exponent` n.
@@ -1437,10 +1849,12 @@ class Entries:
         rolling_resistance: Arm b of a couple against rolling, b times the normal force. (number [m] of at least 0)
         rolling_rate: Angular velocity w_0 within which the couple is smooth, b N tanh(w/w_0). (number [rad/s]
         greater than 0; default: 0.01)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
         """
         self.add("joints", name, {"type": "contact", "stiffness": stiffness, "shapes": shapes, "between": between,
             "exponent": exponent, "damping": damping, "restitution": restitution, "friction": friction,
-            "rolling_resistance": rolling_resistance, "rolling_rate": rolling_rate, **more})
+            "rolling_resistance": rolling_resistance, "rolling_rate": rolling_rate, "active": active, **more})
 
     def assembly(self, *,
             keep: Sequence[Any] | None = None, **more: Any) -> None:
