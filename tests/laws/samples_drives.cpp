@@ -93,7 +93,6 @@ std::vector<Sample> motors() {
                            "resistance: 0.7, inductance: 0.4, torque_constant: 0.6, back_emf: 0.5, gear_ratio: 1.5, "
                            "friction: 0.2}, release: 2",
                            {{"motor.voltage", "x", "x"},
-                            {"motor.voltage", "it.power", ""},
                             {"motor.torque_constant", "0", "no torque"},
                             {"motor.gear_ratio", "0", "no torque"},
                             {"motor.coordinate", "angel", "did you mean 'angle'"},

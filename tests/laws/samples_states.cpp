@@ -100,9 +100,9 @@ Sample delay() {
   return {Section::states,
           "state",
           "delay",
-          states("  it: {delay: \"axle.angle*axle.angle.rate\", time: 0.2, points: 20}\n"
+          states("  it: {delayed: \"axle.angle*axle.angle.rate\", time: 0.2, points: 20}\n"
                  "  other: {rate: \"it - other\"}\n"),
-          {{"delay", "axle.angel", "did you mean 'angle'"}, {"delay", "it", "refers to itself"}}};
+          {{"delayed", "axle.angel", "did you mean 'angle'"}, {"delayed", "it", "refers to itself"}}};
 }
 
 }  // namespace

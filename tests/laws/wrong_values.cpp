@@ -110,7 +110,9 @@ void add_wrong_values(const KeyForm& form, const YamlNode& shown, std::vector<Wr
     const std::string range = form.range_words();
     if (form.least > -infinity) values.push_back({fmt::format("{}", form.above ? form.least : form.least - 1), range});
     if (form.most < infinity) values.push_back({fmt::format("{}", form.below ? form.most : form.most + 1), range});
-    if (form.kind == Kind::integer) values.push_back({"1.5", "whole"});
+    if (form.kind == Kind::integer)
+      // A value within the range.
+      values.push_back({fmt::format("{}", (form.least > -infinity ? form.least : 1) + 0.5), "whole"});
     values.push_back({"1 cd", "cd"});
     values.push_back({".nan", "nan"});
   }

@@ -61,7 +61,7 @@ void DelayedMeasure::describe(const LocalState& /*state*/, Description& descript
 
 Key delay_key() {
   using namespace keys;
-  return {"delay", state_formula("any", {"t"}), required, "Measure that is delayed, or a formula of measures."};
+  return {"delayed", state_formula("any", {"t"}), required, "Measure that is delayed, or a formula of measures."};
 }
 
 const KeyTable& delay_keys() {
@@ -81,7 +81,7 @@ void read_delay(const std::string& name, const YamlValue& entry, Model& model) {
   const double time = entry.at("time").number();
   const int points = entry.at("points").integer();
   model.announce_measure(name, [name, entry, time, points, &model] {
-    const Measure& of = measure_named_by(entry.at("delay"), model);
+    const Measure& of = measure_named_by(entry.at("delayed"), model);
     const auto units = entry.find("units");
     model.add_measure_of(Entry{Section::states, name},
                          std::make_unique<DelayedMeasure>(name, of, time, points, units ? units->text() : of.units()),

@@ -39,7 +39,7 @@ class DelayedMeasure final : public Measure {
 
 Key delay_key();
 const KeyTable& delay_keys();
-/// Reads an entry `{delay: measure, time: T}` of `states`, bound to delay_keys. @throws InputError
+/// Reads an entry `{delayed: measure, time: T}` of `states`, bound to delay_keys. @throws InputError
 void read_delay(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

@@ -142,6 +142,7 @@ const KeyTable& sampled_keys() {
 
 void read_sampled(const std::string& name, const YamlValue& entry, Model& model) {
   const YamlValue sampled = entry.at("sampled");
+  if (sampled.is_map()) sampled.fail("expected a formula of the input, or a list of formulas");
   const std::vector<YamlValue> inputs = sampled.is_sequence() ? sampled.items() : std::vector<YamlValue>{sampled};
   const SampleClock clock = read_clock(entry);
   auto law = read_law(entry, static_cast<Eigen::Index>(inputs.size()), clock.period);

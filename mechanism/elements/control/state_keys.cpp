@@ -136,8 +136,10 @@ const KeyTable& state_keys() {
         kinds.push_back({"start", {number("any"), text()}, optional, "Value at the start."});
         return with_common_keys(std::move(kinds), optional);
       }(),
+      // A block that has a `period` is sampled, also if it lacks its `sampled` formula.
       {{"sampled", "", sampled_keys},
-       {"delay", "", delay_keys},
+       {"period", "", sampled_keys},
+       {"delayed", "", delay_keys},
        {"rate", "", rate_keys},
        {"filter", "", filter_keys},
        {"transfer_function", "", transfer_keys},

@@ -172,8 +172,8 @@ StateSetup read_setup(const std::string& name, const YamlValue& entry) {
 
 void read_state(const std::string& name, const YamlValue& entry, Model& model) {
   check_measure_name(name, entry, model);
-  if (entry.has("sampled")) return read_sampled(name, entry, model);
-  if (entry.has("delay")) return read_delay(name, entry, model);
+  if (entry.has("sampled") || entry.has("period")) return read_sampled(name, entry, model);
+  if (entry.has("delayed")) return read_delay(name, entry, model);
   StateSetup setup = read_setup(name, entry);
   read_units(entry, setup);
   std::optional<MatrixX> rest;

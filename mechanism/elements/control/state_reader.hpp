@@ -4,7 +4,7 @@
 //     smooth: {filter: main.angle, time_constant: 0.01}      {filter: .., frequency: 20, damping: 0.7}
 //     lead:   {transfer_function: {numerator: [1, 2], denominator: [1, 20]}, input: error}
 //     plant:  {state_space: {A: .., B: .., C: .., D: ..}, inputs: [..]}
-//     seen:   {sampled: main.angle, period: 1e-3}        late: {delay: main.angle, time: 0.02}
+//     seen:   {sampled: main.angle, period: 1e-3}        late: {delayed: main.angle, time: 0.02}
 // Every state is a measure with its name, recorded among the measures.
 #pragma once
 

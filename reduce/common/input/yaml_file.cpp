@@ -159,7 +159,9 @@ YamlValue YamlValue::keyed(const KeyTable& table) const {
   if (bound.table_ == &table)
     for (const KeyTable::Variant& variant : table.variants) {
       if (!variant.value.empty() && has(variant.key)) return bound;  // its reader says that the value is none of them
-      if (variant.value.empty()) expected.push_back(variant.key);    // one may be misspelt
+      // The key of the variant may be misspelt.
+      if (variant.value.empty() && std::find(expected.begin(), expected.end(), variant.key) == expected.end())
+        expected.push_back(variant.key);
     }
   check_keys(expected, bound.table_->of);
   return bound;

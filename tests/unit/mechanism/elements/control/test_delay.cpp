@@ -40,7 +40,7 @@ double last_value(const std::string& text, double duration, double h, const char
 }
 
 std::string decay(double T) {
-  return rotor(fmt::format("states: {{y: {{rate: \"-late\", start: 1}}, late: {{delay: y, time: {}}}}}\n", T));
+  return rotor(fmt::format("states: {{y: {{rate: \"-late\", start: 1}}, late: {{delayed: y, time: {}}}}}\n", T));
 }
 
 }  // namespace test_delay
@@ -90,7 +90,7 @@ TEST_CASE("a delay differential equation is solved with second order, whatever t
   CHECK(last_value(decay(T), 3.5, 1e-4, "y", 1e-8) == Approx(delayed_decay(3.5, T)).margin(std::pow(1e-8, 2.0 / 3)));
   // The delay is shorter than the first steps, and no multiple of any: y = 1 + t^4 from t = 0 on, without a kink.
   const std::string smooth = rotor(
-      "states: {y: {rate: \"4*t^3 + 1 + max(t - 0.0317, 0)^4 - late\", start: 1}, late: {delay: y, time: 0.0317}}\n");
+      "states: {y: {rate: \"4*t^3 + 1 + max(t - 0.0317, 0)^4 - late\", start: 1}, late: {delayed: y, time: 0.0317}}\n");
   check_second_order([&](double h) { return Eigen::VectorXd::Constant(1, last_value(smooth, 1, h, "y") - 2); }, 0.1, 4);
   // With the kinks of the start the error depends on where they lie in a step, and remains of second order.
   for (const double h : {0.1, 0.05, 0.025, 0.0125, 0.00625})
@@ -99,7 +99,7 @@ TEST_CASE("a delay differential equation is solved with second order, whatever t
 
 TEST_CASE("a delay within a step has its derivative: stiff equations converge, and are stable as theory says") {
   // y' = -50 y(t - 0.01) decays (50 * 0.01 < pi/2); without the derivative Newton's method would not converge.
-  Session session = session_of(rotor("states: {y: {rate: \"-50*late\", start: 1}, late: {delay: y, time: 0.01}}\n"));
+  Session session = session_of(rotor("states: {y: {rate: \"-50*late\", start: 1}, late: {delayed: y, time: 0.01}}\n"));
   Motion motion = session.dynamics(steps_of(5, 0.1));
   motion.finish();
   CHECK(motion.log().most_iterations <= 4);
@@ -112,7 +112,7 @@ TEST_CASE("delayed damping makes an oscillator unstable beyond the delay of theo
   const double c = 2, w = 10, W = c / 2 + std::sqrt(c * c / 4 + w * w), limit = M_PI / (2 * W);
   const auto growth = [&](double T) {
     Session session = session_of(rotor(
-        fmt::format("states: {{late: {{delay: main.angle.rate, time: {}}}}}\n"
+        fmt::format("states: {{late: {{delayed: main.angle.rate, time: {}}}}}\n"
                     "drives: {{m: {{joint: main, torque: \"-0.5*(2*late + 100*main.angle) + if(t < 0.1, 1, 0)\"}}}}\n"
                     "measures: {{turned: main.angle}}\n",
                     T)));
@@ -131,12 +131,12 @@ TEST_CASE("delayed damping makes an oscillator unstable beyond the delay of theo
 
 TEST_CASE("kinks of a delayed measure come back after the delay, and a static analysis knows no delay") {
   const std::string text = rotor(
-      "states: {late: {delay: switched, time: 0.25}, whole: {rate: late}}\n"
+      "states: {late: {delayed: switched, time: 0.25}, whole: {rate: late}}\n"
       "measures: {switched: \"if(t < 0.1234, 1, 0) + 0*main.angle\"}\n");
   // The past is a ramp over the step that follows the jump; its integral is that of the values.
   CHECK(last_value(text, 1, 0.01, "whole") == Approx(0.25 + 0.1234).margin(0.01));
   Session session =
-      session_of(rotor("states: {late: {delay: main.angle, time: 0.25}}\n"
+      session_of(rotor("states: {late: {delayed: main.angle, time: 0.25}}\n"
                        "drives: {m: {joint: main, torque: \"5 - 20*late\"}}\n"));
   compute_statics(session, {});
   CHECK(session.read("measures/late")[0] == Approx(0.25).epsilon(1e-9));
@@ -165,11 +165,11 @@ TEST_CASE("wrong delays are refused with a sentence") {
   const auto message = [](const std::string& keys) {
     return bielle::test::message_of<InputError>([&] { session_of(rotor("states: {held: {" + keys + "}}\n")); });
   };
-  CHECK_THAT(message("delay: main.angle"), Contains("states.held") && Contains("time"));
-  CHECK_THAT(message("delay: main.angle, time: 0"), Contains("time") && Contains("greater than 0"));
-  CHECK_THAT(message("delay: main.angle, time: -1"), Contains("time") && Contains("greater than 0"));
-  CHECK_THAT(message("delay: main.angle, time: 1, points: 2"), Contains("points") && Contains("between 4"));
-  CHECK_THAT(message("delay: main.angel, time: 1"), Contains("did you mean 'angle'"));
-  CHECK_THAT(message("delay: held, time: 1"), Contains("refers to itself"));
-  CHECK_THAT(message("delay: 2*t, time: 1"), Contains("formula of the state"));
+  CHECK_THAT(message("delayed: main.angle"), Contains("states.held") && Contains("time"));
+  CHECK_THAT(message("delayed: main.angle, time: 0"), Contains("time") && Contains("greater than 0"));
+  CHECK_THAT(message("delayed: main.angle, time: -1"), Contains("time") && Contains("greater than 0"));
+  CHECK_THAT(message("delayed: main.angle, time: 1, points: 2"), Contains("points") && Contains("between 4"));
+  CHECK_THAT(message("delayed: main.angel, time: 1"), Contains("did you mean 'angle'"));
+  CHECK_THAT(message("delayed: held, time: 1"), Contains("refers to itself"));
+  CHECK_THAT(message("delayed: 2*t, time: 1"), Contains("formula of the state"));
 }
