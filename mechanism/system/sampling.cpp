@@ -26,15 +26,17 @@ double next_instant(const Sampler::Instants& instants, double time, double round
     if (const double at = instants.first + k * instants.period; at > time + rounding) return at;
 }
 
-bool take_samples(const System& system, State& state, const Environment& environment) {
-  bool changed = false;
+Samplers::Samplers(const System& system) : system_(system) {
   const std::vector<Member>& members = system.model().members();
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    const Slots& slots = system.slots()[m];
-    if (slots.memories == 0) continue;
+  for (std::size_t m = 0; m < members.size(); ++m)
     if (const auto* sampler = dynamic_cast<const Sampler*>(members[m].component.get()))
-      changed = sampler->sample({state, slots, environment}, state.memory) || changed;
-  }
+      samplers_.push_back({sampler, m});
+}
+
+bool Samplers::take(State& state, const Environment& environment) const {
+  bool changed = false;
+  for (const Placed& each : samplers_)
+    changed = each.sampler->sample({state, system_.slots()[each.member], environment}, state.memory) || changed;
   return changed;
 }
 

@@ -15,9 +15,23 @@ std::vector<Sampler::Instants> sample_instants(const System& system);
 /// @param time      [s] @param rounding  times that differ by less are the same [s]
 double next_instant(const Sampler::Instants& instants, double time, double rounding);
 
-/// Computes the values that are due at the time of an accepted state, in the order of the file: a sampler sees the new
-/// values of those before it.
-/// @returns whether a value that others read has changed
-bool take_samples(const System& system, State& state, const Environment& environment);
+/// The samplers of a mechanism. The system must outlive it.
+class Samplers {
+ public:
+  explicit Samplers(const System& system);
+  bool none() const { return samplers_.empty(); }
+  /// Computes the values that are due at the time of an accepted state, in the order of the file: a sampler sees the
+  /// new values of those before it.
+  /// @returns whether a value that others read has changed
+  bool take(State& state, const Environment& environment) const;
+
+ private:
+  struct Placed {
+    const Sampler* sampler;
+    std::size_t member;
+  };
+  const System& system_;
+  std::vector<Placed> samplers_;
+};
 
 }  // namespace bielle::mechanism

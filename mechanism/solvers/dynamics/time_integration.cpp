@@ -16,7 +16,6 @@
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
 #include "mechanism/solvers/start/refused_holds.hpp"
-#include "mechanism/system/sampling.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -74,11 +73,12 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       newton_(system, environment_, equations_of(system, form), options),
       event_function_values_(system),
       extrapolation_(system.size(), options.extrapolation),
-      short_span_(system, environment_) {
+      short_span_(system, environment_),
+      samplers_(system) {
   start_report_ = make_consistent(system_, environment_, step_.state());
   step_.take_rates();
   system_.accept(step_.state(), environment_);
-  if (take_samples(system_, step_.state(), environment_)) make_consistent_anew(start_report_);
+  if (samplers_.take(step_.state(), environment_)) make_consistent_anew(start_report_);
   step_.trial() = step_.state();
   extrapolate_from_here();
 }
@@ -92,7 +92,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       newton_(system, environment_, equations_of(system, form), options),
       event_function_values_(system),
       extrapolation_(system.size(), options.extrapolation),
-      short_span_(system, environment_) {
+      short_span_(system, environment_),
+      samplers_(system) {
   exchange(archive);
 }
 
@@ -150,7 +151,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   state.time += just_off(jump.time, h);
   const std::vector<char> before = state.idle;
   const VectorX memory = state.memory;
-  take_samples(system_, state, environment_);
+  samplers_.take(state, environment_);
   const bool balanced = event_function_values_.balance(environment_, state);
   system_.begin_branch(state, environment_, crossed);
   if (balanced && !system_.reads_reactions()) state.reaction.resize(0);  // reactions of the previous state
@@ -331,8 +332,9 @@ bool TimeIntegration::accept_trial() {
   State& trial = step_.trial();
   const bool branch_left = system_.accept(trial, environment_);
   trial.time = end_;
+  if (samplers_.none()) return branch_left;
   const VectorX before = trial.memory;
-  if (!take_samples(system_, trial, environment_)) return branch_left;
+  if (!samplers_.take(trial, environment_)) return branch_left;
   trial.memory = before;
   return true;
 }

@@ -18,6 +18,7 @@
 #include "mechanism/solvers/dynamics/step_newton.hpp"
 #include "mechanism/solvers/dynamics/velocity_correction.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
+#include "mechanism/system/sampling.hpp"
 
 namespace bielle::mechanism {
 
@@ -138,6 +139,7 @@ class TimeIntegration {
   Extrapolation extrapolation_;
   SchemeLoss loss_;
   ShortSpan short_span_;
+  Samplers samplers_;
   VectorX highest_;  ///< buffer: SchemeStep::get_highest
   StartReport start_report_;
   double end_ = 0;      ///< end of the last attempt [s]
