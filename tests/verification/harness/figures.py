@@ -3,7 +3,7 @@
 import io
 import math
 
-from bielle_tools.plot_style import COLOURS, plt
+from bielle_tools.figures.plot_style import COLOURS, plt
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 
