@@ -71,7 +71,7 @@ class Balance {
     return worst_;
   }
 
-  /// Computes velocities that maintain the balance of undamped directions.
+  /// Computes velocities that maintain the balance of undamped directions and satisfy the non-holonomic constraints.
   void follow(State& state) {
     VectorX v(system_.dofs()), a(system_.dofs());
     system_.get_rates(state, v, a);
@@ -88,6 +88,7 @@ class Balance {
     measure(ahead);
     for (int i = 0; i < system_.dofs(); ++i)
       if (damped(i)) r_[i] = 0;
+    add_prescribed_rates(ahead, e);
     if (!solve_positions(ahead)) return;
     for (int i = 0; i < v.size(); ++i)
       if (massless(i) && !damped(i)) v[i] = step_[i] / e;
@@ -125,6 +126,17 @@ class Balance {
     r_.segment(system_.dofs(), system_.first_orders()).setZero();
     for (int k = 0; k < system_.multipliers(); ++k)
       if (system_.constraint_kind(k) != ConstraintKind::holonomic) r_[r_.size() - system_.multipliers() + k] = 0;
+  }
+
+  /// Adds the rows of non-holonomic constraints, B v + c = 0, over a short time: they determine velocities, not
+  /// positions.
+  void add_prescribed_rates(const State& ahead, double duration) {
+    VectorX rate(system_.multipliers()), unused(system_.multipliers());
+    system_.constraint_rates(ahead, environment_, rate, unused);
+    system_.for_each_idle(ahead, [&](int k) { rate[k] = 0; });
+    for (int k = 0; k < system_.multipliers(); ++k)
+      if (system_.constraint_kind(k) == ConstraintKind::nonholonomic)
+        r_[r_.size() - system_.multipliers() + k] = duration * rate[k];
   }
 
   /// Both solutions hold the dofs with mass only by the mass, as in a step of zero duration.

@@ -65,6 +65,26 @@ analysis: [ANALYSIS]
 output: {every: 1, checkpoint: 25, log: true}
 """
 
+# A shaft without mass drives two wheels through friction that sticks and slips; their teeth have play and rattle. The model contains
+# counted angles, memory and many events.
+GEARS = """\
+nodes:
+  shaft: {}
+  first: {}
+  second: {position: [0.1, 0, 0]}
+elements:
+  first: {type: rigid_body, node: first, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}
+  second: {type: rigid_body, node: second, mass: 2, inertia: [4e-3, 4e-3, 4e-3]}
+joints:
+  crank: {type: hinge, nodes: [ground, shaft], axis: [0, 0, 1]}
+  plates: {type: hinge, nodes: [shaft, first], axis: [0, 0, 1], friction: {model: stick_slip, coefficient: 0.3, radius: 0.05, preload: 40}}
+  middle: {type: hinge, nodes: [ground, second], axis: [0, 0, 1], damping: 0.002}
+  teeth: {type: gear_mesh, nodes: [first, second], axes: [0, 0, 1], radii: [0.04, 0.06], stiffness: 2e6, damping: 50, backlash: 1e-4}
+drives: {engine: {joint: crank, rate: "20*sin(40*t)"}}
+analysis: [{type: dynamic, duration: 0.4, step: 2e-4}]
+output: {every: 5, checkpoint: 100, log: true}
+"""
+
 
 def datasets(group):
     found = {}
@@ -189,6 +209,18 @@ class SameMotion(CommandTest):
                     done = self.run_program("model.yaml", "--restart", "cut.h5", "-o", "cut.h5", "--quiet")
                     self.assertEqual(done.returncode, 0, done.stderr)
                     self.check_same("cut.h5")
+
+    def test_gears_with_play_to_the_bit(self):
+        self.write("model.yaml", GEARS)
+        self.assertEqual(self.run_program("model.yaml", "-o", "whole.h5", "--quiet").returncode, 0)
+        with h5py.File(self.path("whole.h5")) as file:
+            self.assertGreater(len(file["analysis_1/events/time"]), 20)
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            with self.subTest(number=number):
+                self.end_early("cut.h5", number, 3)
+                done = self.run_program("model.yaml", "--restart", "cut.h5", "-o", "cut.h5", "--quiet")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.check_same("cut.h5")
 
     def test_interrupted_twice(self):
         self.write("model.yaml", RICH.replace("ANALYSIS", "{type: dynamic, duration: 2, step: 1e-3}").replace("checkpoint: 25", "checkpoint: 400"))

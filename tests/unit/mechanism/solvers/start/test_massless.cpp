@@ -1,6 +1,7 @@
 // Directions without mass at the start of a motion and after jumps of forces.
 #include <catch2/catch.hpp>
 
+#include "mechanism/session/session.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
 #include "tests/support/run_model.hpp"
@@ -92,4 +93,55 @@ TEST_CASE("velocities of a node without mass stay of the motion's size from the 
     CHECK(4000 * p == Approx(500 + 3000 * (m - 1.5) + (k >= 10 ? 100 : 0)).epsilon(1e-9));
     CHECK(std::abs(model.node(integration.state(), "p").v.x()) < 4);  // the mass moves at 1 to -3.5 m/s
   }
+}
+
+TEST_CASE("nodes without mass keep the rates that drives prescribe, next to one that is balanced by springs") {
+  // The wheel and its pinion have no mass either: the pinion turns at -60 * 0.2/0.1 and the wheel at 60 rad/s.
+  std::string text = series("0.3", "0");
+  text.insert(text.find("elements:"), "  wheel: {position: [0, 5, 0]}\n  pinion: {position: [0.3, 5, 0]}\n");
+  const ReadyModel model(text + R"yaml(
+joints:
+  crank: {type: hinge, nodes: [ground, wheel], axis: [0, 0, 1]}
+  shaft: {type: hinge, nodes: [ground, pinion], axis: [0, 0, 1]}
+  teeth: {type: gear, joints: [crank, shaft], factors: [2, 1]}
+drives: {motor: {joint: crank, rate: 60}}
+)yaml");
+  State state = model.system.start(0);
+  const StartReport report = make_consistent(model.system, model.environment(), state);
+  CHECK(report.unbalanced.empty());
+  CHECK(model.node(state, "wheel").Omega.z() == Approx(60).epsilon(1e-9));
+  CHECK(model.node(state, "pinion").Omega.z() == Approx(-120).epsilon(1e-9));
+  CHECK(model.node(state, "p").v.x() == Approx(0.75).epsilon(1e-8));
+}
+
+TEST_CASE("a clutch on a shaft without mass slips on when a stop is met elsewhere") {
+  // The shaft turns at 60 rad/s, without mass; friction takes the disc along by 0.3 * 300 N * 0.08 m until it meets an
+  // elastic stop, far below the shaft's speed.
+  const MechanismFile file = read_mechanism_text(R"yaml(
+nodes: {shaft: {}, disc: {}}
+elements: {disc: {type: rigid_body, node: disc, mass: 1, inertia: [1, 1, 1]}}
+joints:
+  crank: {type: hinge, nodes: [ground, shaft], axis: [0, 0, 1]}
+  plates: {type: hinge, nodes: [shaft, disc], axis: [0, 0, 1], start_rate: -60,
+           friction: {model: stick_slip, coefficient: 0.3, radius: 0.08, preload: 300}}
+  bearing: {type: hinge, nodes: [ground, disc], axis: [0, 0, 1], stops: {range: [~, 0.02], stiffness: 1e4, damping: 50}}
+drives: {engine: {joint: crank, rate: 60}}
+)yaml",
+                                                 "model.yaml");
+  Session session(file.model);
+  DynamicsOptions options;
+  options.duration = 0.1;
+  options.stepping.size = 1e-3;
+  Motion motion = session.dynamics(options);
+  double most_turned = 0;
+  while (motion.step()) {
+    const double time = motion.state().time;
+    INFO("t = " << time);
+    CHECK(session.read("joints/plates/friction")[0] == Approx(7.2).epsilon(1e-9));
+    CHECK(session.read("joints/plates/sticks")[0] == 0);
+    CHECK(session.read("joints/crank/rate")[0] == Approx(60).epsilon(1e-9));
+    CHECK(session.read("joints/crank/coordinate")[0] == Approx(60 * time).epsilon(1e-9));
+    most_turned = std::max(most_turned, session.read("joints/bearing/coordinate")[0]);
+  }
+  CHECK(most_turned > 0.02);
 }
