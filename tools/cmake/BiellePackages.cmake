@@ -14,7 +14,7 @@ set(CPACK_COMPONENTS_ALL programs development)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/PackagedFiles.cmake)
 
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME bielle)
-set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "Flexible mechanisms by finite elements
+set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION "Flexible mechanisms by finite elements
  Reduces solid bodies to superelements, and computes the motion of machines of
  rigid bodies, beams, superelements, joints, drives and hydraulics.")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "python3, python3-numpy, python3-scipy, python3-h5py, python3-yaml, python3-meshio, python3-matplotlib")
@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-vtk9, xvfb, fonts-dejavu-c
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "python3-bielle, ffmpeg, paraview")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbielle-dev)
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Flexible mechanisms by finite elements: libraries
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Flexible mechanisms by finite elements: libraries
  Static libraries and headers, by which C++ programs compute mechanisms.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libarpack2-dev, libhdf5-dev, libyaml-dev, libudunits2-dev, nlohmann-json3-dev, libmuparser-dev, libcli11-dev, libfmt-dev, libgmsh-dev")
@@ -33,7 +33,7 @@ get_property(folder GLOBAL PROPERTY BIELLE_PYTHON_FOLDER)
 if(folder)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-bielle)
-  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Flexible mechanisms by finite elements: Python
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Flexible mechanisms by finite elements: Python
  Models, motions step by step, and results as arrays of NumPy.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   # The module is compiled for this version of Python.
@@ -47,7 +47,7 @@ if(TARGET bielle-reduce-mpi)
   list(APPEND CPACK_COMPONENTS_ALL mpi)
   list(APPEND packaged bielle-reduce-mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_NAME bielle-mpi)
-  set(CPACK_COMPONENT_MPI_DESCRIPTION "Flexible mechanisms by finite elements: reduction on several machines
+  set(CPACK_DEBIAN_MPI_DESCRIPTION "Flexible mechanisms by finite elements: reduction on several machines
  Reduces bodies that do not fit into the memory of one machine, by SLEPc and MUMPS.")
   set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "bielle, mpi-default-bin")
 endif()
