@@ -54,6 +54,16 @@ bool any_lost(const SweepPoint& from, const SweepPoint& to) {
   return false;
 }
 
+/// Whether a mode that was lost may be faster than all modes of the sample. A slower one has changed its shape.
+bool may_be_faster(const SweepPoint& from, const SweepPoint& to, const ModeSample& sample) {
+  constexpr double most_change = 2;  // a frequency that changes more is found by further values between
+  double fastest = 0;
+  for (const Mode& mode : sample.modes) fastest = std::max(fastest, std::abs(mode.s));
+  for (std::size_t i = 0; i < to.tracks.size(); ++i)
+    if (from.tracks[i].found && !kept(to.tracks[i]) && most_change * std::abs(from.tracks[i].s) > fastest) return true;
+  return false;
+}
+
 }  // namespace
 
 SweepSample SpeedSweep::sample_at(double value) {
@@ -81,8 +91,8 @@ SweepPoint SpeedSweep::followed(const SweepPoint& from, double value) {
   for (int k = 0;; ++k) {
     const SweepSample sample = sample_at(value);
     point = {value, sample.speed, true, follow_tracks(from.tracks, sample.modes)};
-    if (k == most_doublings || sample.modes.all || !any_lost(from, point)) break;
-    count_ *= 2;  // the mode may have become faster than the requested ones
+    if (k == most_doublings || sample.modes.all || !may_be_faster(from, point, sample.modes)) break;
+    count_ *= 2;
   }
   if (any_lost(from, point)) count_ = before;
   return point;
