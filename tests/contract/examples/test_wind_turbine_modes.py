@@ -46,12 +46,12 @@ class WindTurbineModes(ExampleTest):
         self.critical = {key: found[f"critical_{key}"][:] for key in ("speed", "frequency", "order", "mode")}
 
     def test_the_tower_at_rest_has_rayleighs_frequency(self):
-        # The quotient is an upper bound; blades that bend in the plane of the rotor lower the frequency by 2 % more.
+        # The quotient is an upper bound. Blades that bend at 5.4 Hz lower it further: (0.88/5.4)^2 of their share of the mass.
         self.assertEqual(self.speed[0], 0)
         expected = tower_sideways()
         nearest = self.frequency[0][np.argmin(np.abs(self.frequency[0] - expected))]
         self.assertLess(nearest, expected)
-        self.assertGreater(nearest, 0.96 * expected)
+        self.assertGreater(nearest, 0.985 * expected)
 
     def test_every_mode_is_followed_to_the_end_and_occurs_once(self):
         self.assertEqual(self.frequency.shape, (7, 5))
