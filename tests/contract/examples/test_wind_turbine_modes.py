@@ -46,7 +46,7 @@ class WindTurbineModes(ExampleTest):
         self.critical = {key: found[f"critical_{key}"][:] for key in ("speed", "frequency", "order", "mode")}
 
     def test_the_tower_at_rest_has_rayleighs_frequency(self):
-        # The quotient is an upper bound. Blades that bend at 5.4 Hz lower it further: (0.88/5.4)^2 of their share of the mass.
+        # The quotient is an upper bound. Blades that bend at 5.4 Hz lower it by (0.88/5.4)^2 of their share of the mass.
         self.assertEqual(self.speed[0], 0)
         expected = tower_sideways()
         nearest = self.frequency[0][np.argmin(np.abs(self.frequency[0] - expected))]
@@ -66,7 +66,8 @@ class WindTurbineModes(ExampleTest):
 
     def test_critical_speeds_are_where_orders_meet_frequencies(self):
         self.assertEqual(set(self.critical["order"]), {1, 3})
-        for speed, frequency, order, mode in zip(*(self.critical[key] for key in ("speed", "frequency", "order", "mode"))):
+        columns = [self.critical[key] for key in ("speed", "frequency", "order", "mode")]
+        for speed, frequency, order, mode in zip(*columns):
             self.assertAlmostEqual(order * speed / (2 * math.pi * frequency), 1, delta=1e-6)
             line = self.frequency[:, int(mode) - 1]
             self.assertAlmostEqual(np.interp(speed, self.speed, line) / frequency, 1, delta=0.02)
