@@ -46,7 +46,7 @@ class WindTurbineModes(ExampleTest):
         self.critical = {key: found[f"critical_{key}"][:] for key in ("speed", "frequency", "order", "mode")}
 
     def test_the_tower_at_rest_has_rayleighs_frequency(self):
-        # The quotient is an upper bound. Blades that bend at 5.4 Hz lower it by (0.88/5.4)^2 of their share of the mass.
+        # The quotient is an upper bound. Blades that bend at 5.4 Hz lower it by (0.88/5.4)^2 of their part of it.
         self.assertEqual(self.speed[0], 0)
         expected = tower_sideways()
         nearest = self.frequency[0][np.argmin(np.abs(self.frequency[0] - expected))]
