@@ -6,6 +6,7 @@
 #include "mechanism/analyses/frequency_response.hpp"
 #include "mechanism/analyses/mode_names.hpp"
 #include "tests/benchmarks/linearised/turning_models.hpp"
+#include "tests/support/messages.hpp"
 #include "tests/support/reference_table.hpp"
 
 using namespace bielle::mechanism;
@@ -86,10 +87,9 @@ TEST_CASE("at rest, and at a negligible rate, modes behind a joint are those of 
     CHECK(report.turning->periodicity == Periodicity::negligible);
     check_rates(rates_of(report), expected, 1e-6);
   }
-  // A slow rotation has each motion once as well.
-  const ModesReport slow = modes_behind(model, 1e-4 * lowest, 20);
-  CHECK(slow.turning->periodicity == Periodicity::periodic);
-  check_rates(rates_of(slow), expected, 1e-3);
+  // Copies of modes that differ by multiples of a slow rate can hardly be told apart: this is said.
+  CHECK_THAT(message_of<bielle::ComputationError>([&] { modes_behind(model, 1e-4 * lowest, 20); }),
+             Catch::Contains("do not converge"));
 }
 
 TEST_CASE("a tower under a rotor at rest has the frequencies of a cantilever with a mass at its tip", "[linearised]") {
@@ -153,7 +153,7 @@ TEST_CASE("what stands under an unsymmetric rotor in balance responds as a mass 
                     {"force z of node 'hub'", hub, false, Vector3::UnitZ()}};
   options.outputs = {{"displacement x of node 'hub'", hub, false, Vector3::UnitX()},
                      {"displacement z of node 'hub'", hub, false, Vector3::UnitZ()}};
-  options.frequencies = {0, 7, 40, 100};
+  options.frequencies = {1, 7, 40, 100};  // at 0 Hz the rotor turns without any force
   const FrequencyResponse found = compute_frequency_response(model.session, options);
   CHECK(found.turning->periodicity == Periodicity::periodic);
   for (std::size_t f = 0; f < options.frequencies.size(); ++f) {
