@@ -1,9 +1,11 @@
 #include "mechanism/analyses/campbell.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "mechanism/analyses/mode_names.hpp"
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/solvers/linearised/whirl.hpp"
 #include "reduce/common/error.hpp"
@@ -20,11 +22,11 @@ class CampbellStates {
   /// Axes and setting are those of the last value: if any motion is steady in the axes, this one is.
   void begin(Campbell& found) {
     const double last = options_.values.back();
-    unsteady_ = &found.unsteady;
+    found_ = &found;
     if (!options_.joint.empty()) {
       found.gathered = with_modes(last, options_.modes, [&](const System& /*system*/, const ModesReport& report) {
         static_cast<LinearisedSetting&>(found) = report;
-        if (report.turning->rate != 0) harmonics_ = report.turning->harmonics;
+        harmonics_ = std::max(1, report.turning->harmonics);
       });
       return;
     }
@@ -42,8 +44,10 @@ class CampbellStates {
 
   SweepSample sample(double value, int count) {
     SweepSample sample;
+    count_ = count;
     with_modes(value, count, [&](const System& system, const ModesReport& report) {
       const State& state = report.about.state;
+      if (report.turning) note_harmonics(*report.turning);
       sample.speed = report.turning ? report.turning->rate : speed(state);
       sample.modes.M = report.equations->M;
       sample.modes.all = report.found.all;
@@ -61,21 +65,71 @@ class CampbellStates {
         sample.modes.whirl.push_back(whirl && sample.speed != 0 ? std::copysign(1, sample.speed) * *whirl : NAN);
       }
       if (report.steadiness && !report.steadiness->steady_in(*axes_) &&
-          (unsteady_->empty() || unsteady_->back() != value))
-        unsteady_->push_back(value);
+          (found_->unsteady.empty() || found_->unsteady.back() != value))
+        found_->unsteady.push_back(value);
     });
     return sample;
   }
 
+  /// Names the tracked modes of the last point.
+  void name_modes() {
+    const SweepPoint& last = found_->swept.points.back();
+    if (last.tracks.empty()) return;
+    found_->names.assign(last.tracks.size(), "");
+    with_modes(
+        last.value, count_,
+        [&](const System& system, const ModesReport& report) {
+          const std::vector<std::string> names = mode_names(system, report, mode_parts(system.model(), report));
+          std::vector<char> taken(names.size(), 0);
+          for (std::size_t i = 0; i < last.tracks.size(); ++i) {
+            const std::optional<std::size_t> mode = mode_of(last.tracks[i], report.found.modes, taken);
+            if (!mode) continue;
+            taken[*mode] = 1;
+            found_->names[i] = names[*mode];
+          }
+        },
+        true);
+    number_equal(found_->names, last);
+  }
+
  private:
+  /// Returns the mode with the exponent of a track, or its conjugate, that is not taken.
+  static std::optional<std::size_t> mode_of(const TrackedMode& track, const std::vector<Mode>& modes,
+                                            const std::vector<char>& taken) {
+    constexpr double same = 1e-6;
+    std::optional<std::size_t> nearest;
+    double least = same * std::abs(track.s);
+    for (std::size_t k = 0; track.found && k < modes.size(); ++k) {
+      const double gap = std::min(std::abs(modes[k].s - track.s), std::abs(std::conj(modes[k].s) - track.s));
+      if (taken[k] != 0 || gap > least) continue;
+      least = gap;
+      nearest = k;
+    }
+    return nearest;
+  }
+
+  static void number_equal(std::vector<std::string>& names, const SweepPoint& point) {
+    std::vector<double> rates;
+    for (const TrackedMode& track : point.tracks) rates.push_back(std::abs(track.s));
+    names = numbered_names(names, rates);
+  }
+
+  /// Keeps the largest number of harmonics and the largest change by one more.
+  void note_harmonics(const LinearisedSetting::Turning& turning) {
+    LinearisedSetting::Turning& whole = *found_->turning;
+    whole.periodicity = std::max(whole.periodicity, turning.periodicity);
+    whole.harmonics = std::max(whole.harmonics, turning.harmonics);
+    whole.change = std::max(whole.change, turning.change);
+  }
+
   /// @returns lines of the components of another model; empty for that of the session, which collects its own
   template <class Use>
-  std::string with_modes(double value, int count, const Use& use) const {
+  std::string with_modes(double value, int count, const Use& use, bool energies = false) const {
     ModesOptions options;
     options.search.count = count;
     options.axes = axes_;
     options.harmonics = harmonics_;
-    options.energies = false;
+    options.energies = energies;
     if (options_.parameter.empty()) {
       set_rotation(session_.model(), value, options);
       use(session_.system(), compute_modes(session_, options));
@@ -157,9 +211,10 @@ class CampbellStates {
   Session& session_;
   const CampbellOptions& options_;
   std::optional<ModeAxes> axes_;
-  std::optional<int> harmonics_;  ///< for all values, those of the last one
+  int harmonics_ = 1;  ///< number that is tried first at each value: that of the last one
   Vector3 axis_ = Vector3::Zero();
-  std::vector<double>* unsteady_ = nullptr;
+  int count_ = 0;  ///< number of modes that were computed at the last state
+  Campbell* found_ = nullptr;
 };
 
 }  // namespace
@@ -180,6 +235,7 @@ Campbell compute_campbell(Session& session, const CampbellOptions& options) {
       options.values, options.modes, options.orders);
   session.forget_stop();
   found.swept = sweep.run([&] { return session.stopping(); });
+  states.name_modes();
   if (!found.unsteady.empty()) found.swept.critical.clear();  // frequencies of a moment are no frequencies of forces
   return found;
 }

@@ -28,11 +28,15 @@ struct CampbellOptions {
   std::vector<double> orders = {1};   ///< multiples of the speed > 0, for critical speeds
 };
 
-struct Campbell : LinearisedSetting {  ///< the setting is that of the last value
+/// The setting is that of the last value; for a rotation behind a joint with the largest number of harmonics, and the
+/// largest change by one more, of all values.
+struct Campbell : LinearisedSetting {
   SweptModes swept;
   Vector3 axis = Vector3::Zero();  ///< zero for a rotation behind a joint
   std::vector<double> unsteady;    ///< values at which the motion was not steady in these axes
-  std::string gathered;            ///< summary of the step recorders of another model, for the last value
+  /// Name of each mode at the last value (mode_names.hpp), numbered among equal ones; empty if it is lost there.
+  std::vector<std::string> names;
+  std::string gathered;  ///< summary of the step recorders of another model, for the last value
 };
 
 /// Computes the modes over a speed, tracked, with critical speeds; the present state of the session is kept. If the

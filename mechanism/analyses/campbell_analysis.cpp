@@ -131,17 +131,17 @@ std::string format_frequency(const TrackedMode& mode) {
   return mode.found ? fmt::format("{:.6g}", std::abs(mode.s.imag()) / (2 * std::numbers::pi)) : "lost";
 }
 
-std::string format_mode_lines(const SweptModes& swept) {
+std::string format_mode_lines(const SweptModes& swept, const std::vector<std::string>& names) {
   const SweepPoint &first = swept.points.front(), &last = swept.points.back();
-  std::string text = fmt::format("  {:>4}  {:>12}  {:>12}  {:>11}  {}\n", "mode", "first [Hz]", "last [Hz]", "damping",
-                                 "whirl at last");
+  std::string text = fmt::format("  {:>4}  {:>12}  {:>12}  {:>11}  {:13}  {}\n", "mode", "first [Hz]", "last [Hz]",
+                                 "damping", "whirl at last", "name at last");
   for (std::size_t k = 0; k < first.tracks.size(); ++k) {
     const TrackedMode& mode = last.tracks[k];
     const double ratio = mode.found ? -mode.s.real() / std::abs(mode.s) : NAN;
     const double rounding = mode.found ? std::max(1e-10, mode.uncertainty / std::abs(mode.s)) : 0;
-    text += fmt::format("  {:>4}  {:>12}  {:>12}  {:>11.4g}  {}\n", k + 1, format_frequency(first.tracks[k]),
+    text += fmt::format("  {:>4}  {:>12}  {:>12}  {:>11.4g}  {:13}  {}\n", k + 1, format_frequency(first.tracks[k]),
                         format_frequency(mode), std::abs(ratio) < rounding ? 0 : ratio,
-                        mode.found ? whirl_name(mode.whirl) : "");
+                        mode.found ? whirl_name(mode.whirl) : "", names[k]);
   }
   return text;
 }
@@ -165,7 +165,7 @@ std::string CampbellAnalysis::format(const Campbell& found) const {
         found.unsteady.size(), *std::min_element(found.unsteady.begin(), found.unsteady.end()));
   if (swept.points.front().tracks.empty())
     return text + "  nothing oscillates at the first value: there is nothing to track\n";
-  text += format_mode_lines(swept);
+  text += format_mode_lines(swept, found.names);
   for (const CriticalSpeed& each : swept.critical)
     text += fmt::format("  critical at {}: mode {}, {:.6g} Hz = {:g} x speed{}{}\n", at(each.value, each.speed),
                         each.mode + 1, each.frequency, each.order, std::isnan(each.whirl) ? "" : ", ",

@@ -108,6 +108,7 @@ void write_campbell(Session& session, const Campbell& found, const std::string& 
   if (found.swept.points.front().tracks.empty()) return;
   CampbellWriter writer(session, found.swept);
   writer.write_points(parameter);
+  session.write(ResultNames{"campbell/name", found.names});
   writer.write_critical();
   writer.write_meetings();
 }

@@ -148,7 +148,7 @@ FrequencyResponse harmonic_response(const System& system, const FrequencyRespons
   const auto check = [&](const std::string& name, int node) {
     if (node < 0 || turning.part.turns(node))
       throw InputError(
-          fmt::format("'{}': the equations are periodic; forces on nodes that stand still, and their motions, alone "
+          fmt::format("{}: the equations are periodic; forces on nodes that stand still, and their motions, alone "
                       "have responses at one frequency",
                       name));
   };

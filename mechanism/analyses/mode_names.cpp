@@ -1,5 +1,6 @@
 #include "mechanism/analyses/mode_names.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -120,6 +121,20 @@ std::vector<std::string> mode_names(const System& system, const ModesReport& rep
     names.push_back(std::move(name));
   }
   return names;
+}
+
+std::vector<std::string> numbered_names(const std::vector<std::string>& names, const std::vector<double>& rates) {
+  std::vector<std::string> numbered = names;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (names[k].empty() || std::count(names.begin(), names.end(), names[k]) == 1) continue;
+    int number = 1;
+    for (std::size_t j = 0; j < names.size(); ++j)
+      if (names[j] == names[k] && (rates[j] < rates[k] || (rates[j] == rates[k] && j < k))) ++number;
+    const bool teen = number % 100 / 10 == 1;
+    const char* const ending[] = {"th", "st", "nd", "rd"};
+    numbered[k] += fmt::format(", {}{}", number, teen || number % 10 > 3 ? "th" : ending[number % 10]);
+  }
+  return numbered;
 }
 
 }  // namespace bielle::mechanism

@@ -14,4 +14,8 @@ namespace bielle::mechanism {
 /// empty if no entry of the mode has inertia.
 std::vector<std::string> mode_names(const System& system, const ModesReport& report, const ModeParts& parts);
 
+/// Adds "1st", "2nd", .. to names that occur more than once, ascending by rate. Empty names stay empty.
+/// @param rates  |s| of each mode
+std::vector<std::string> numbered_names(const std::vector<std::string>& names, const std::vector<double>& rates);
+
 }  // namespace bielle::mechanism

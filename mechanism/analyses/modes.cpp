@@ -72,7 +72,7 @@ void find_turning_modes(const System& system, const ModesOptions& options, Modes
   report.turning_axis = equations.part.axis(state);
   for (std::size_t k = 0; k < state.nodes.size(); ++k)
     report.turning_nodes.push_back(equations.part.turns(static_cast<int>(k)) ? 1 : 0);
-  if (rotation.rate == 0) {
+  if (equations.negligible) {
     static_cast<LinearisedSetting&>(report) = equations.setting({});
     report.found = find_modes(*report.equations, options.search);
     scale_to_unit(system, state, report.found.modes);
@@ -81,8 +81,7 @@ void find_turning_modes(const System& system, const ModesOptions& options, Modes
     return;
   }
   const HarmonicSearch search = equations.search();
-  auto harmonic = std::make_shared<HarmonicModes>(
-      options.harmonics ? search.find_with(options.search, *options.harmonics) : search.find(options.search));
+  auto harmonic = std::make_shared<HarmonicModes>(search.find(options.search, options.harmonics));
   static_cast<LinearisedSetting&>(report) = equations.setting(*harmonic);
   report.found = harmonic->found;
   for (std::size_t k = 0; k < report.found.modes.size(); ++k) {
@@ -137,7 +136,7 @@ ModesReport compute_modes(Session& session, const ModesOptions& options) {
 }
 
 double ModesReport::turning_whirl(const System& system, std::size_t mode) const {
-  if (!turning || turning->rate == 0) return NAN;
+  if (!turning || turning->periodicity == Periodicity::negligible) return NAN;
   if (harmonic && harmonic->harmonics > 0) return harmonic->whirl[mode];
   const auto whirl = whirl_of(system, about.state, equations->M, found.modes[mode], turning_axis);
   return whirl ? std::copysign(1, turning->rate) * *whirl : NAN;

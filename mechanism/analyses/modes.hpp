@@ -16,8 +16,8 @@ struct ModesOptions {
   std::optional<SteadyRotation> rotation = {};  ///< modes about the steady rotation that begins at the state
   std::optional<ModeAxes> axes = {};            ///< axes of the modes; empty: those that suit the motion
   bool energies = true;                         ///< whether energies are computed
-  /// Number of harmonics of periodic equations; empty: as many as they need.
-  std::optional<int> harmonics = {};
+  /// Number of harmonics of periodic equations that is tried first; more are used if modes need them.
+  int harmonics = 1;
 };
 
 struct ModesReport : LinearisedSetting {

@@ -170,6 +170,8 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
       fmt::format("  what is behind {} turns at {:.6g} rad/s, the rest stands still\n", turning.joint, turning.rate);
   if (turning.rate == 0) return text;
   switch (turning.periodicity) {
+    case Periodicity::negligible:
+      return text + "  the rate is negligible compared with all frequencies: they are those at rest, as drawn\n";
     case Periodicity::constant:
       return text + "  the equations are constant in axes that turn with it: frequencies are those seen from there\n";
     case Periodicity::multiblade:
@@ -179,7 +181,7 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
     default:
       return text + fmt::format(
                         "  the equations are periodic in any axes: Floquet exponents by {} harmonics of the rotation, "
-                        "the last of which changes them by {:.1g}; frequencies are those of the largest harmonic of "
+                        "one more changes them by {:.1g}; frequencies are those of the largest harmonic of "
                         "what stands still\n",
                         turning.harmonics, turning.change);
   }

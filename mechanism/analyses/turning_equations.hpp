@@ -16,9 +16,12 @@ struct TurningEquations {
   LinearisedSetting setting(const HarmonicModes& modes) const;
 
   TurningPart part;
-  PeriodicEquations periodic;
-  std::vector<char> turning;  ///< for each unknown, whether it belongs to the part
-  std::string joint;          ///< its description
+  /// Whether the rate is negligible compared with all frequencies: modes are those of the mechanism at rest, with the
+  /// part at its present azimuth.
+  bool negligible;
+  PeriodicEquations periodic;  ///< at a negligible rate those of the present azimuth alone
+  std::vector<char> turning;   ///< for each unknown, whether it belongs to the part
+  std::string joint;           ///< its description
 };
 
 }  // namespace bielle::mechanism

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -68,7 +69,7 @@ class TurnedEquations {
     for (int k = 0; k < before.constraints(); ++k)
       turned.multiplier[before.multiplier[static_cast<std::size_t>(k)]] = active[k];
     forces_.residual(turned, residual);
-    check_steady(residual, turned, angle);
+    check_steady(residual, turned, before.K, angle);
     LinearisedEquations here =
         linearised_equations(system_, turned, ModeAxes::turning, forces_.matrices(turned), residual);
     here.M = congruent(axes, here.M);
@@ -162,13 +163,18 @@ class TurnedEquations {
     return result;
   }
 
-  void check_steady(const VectorX& residual, const State& turned, double angle) const {
+  /// @param K  stiffness, whose rounding limits the accuracy of the residual
+  void check_steady(const VectorX& residual, const State& turned, const Sparse& K, double angle) const {
     ResidualScale scale;
     VectorX unused(system_.size());
     forces_.residual(turned, unused, &scale);
     constexpr double balanced = 1e-6;  // relative to the largest force: equilibria are found to 1e-9
     // If all forces of a kind are rounding, those of the other kind are their measure.
     const double length = model_length(turned);
+    double stiffest = 0;
+    for (Eigen::Index k = 0; k < K.nonZeros(); ++k) stiffest = std::max(stiffest, std::abs(K.valuePtr()[k]));
+    const double rounding = 16 * std::numeric_limits<double>::epsilon() * stiffest * length;
+    scale[Kind::translation] = std::max(scale[Kind::translation], rounding / balanced);
     scale[Kind::rotation] = std::max(scale[Kind::rotation], length * scale[Kind::translation]);
     scale[Kind::translation] = std::max(scale[Kind::translation], scale[Kind::rotation] / length);
     for (int i = 0; i < system_.dofs(); ++i)

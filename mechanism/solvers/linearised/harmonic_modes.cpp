@@ -5,21 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/linearised/shifted_operator.hpp"
+
 namespace bielle::mechanism {
-namespace {
-
-/// Largest difference of an exponent from the nearest one of the other list, relative to the exponents and the rate.
-double change_between(const Modes& before, const Modes& after, double rate) {
-  double most = 0;
-  for (const Mode& mode : before.modes) {
-    double least = INFINITY;
-    for (const Mode& other : after.modes) least = std::min(least, std::abs(other.s - mode.s));
-    most = std::max(most, least / std::max(std::abs(mode.s), std::abs(rate)));
-  }
-  return most;
-}
-
-}  // namespace
 
 /// Sizes of the harmonics of both parts.
 struct HarmonicSearch::Sizes {
@@ -98,28 +86,52 @@ HarmonicModes HarmonicSearch::find_with(const ModeOptions& options, int harmonic
   return result;
 }
 
-HarmonicModes HarmonicSearch::find(const ModeOptions& options) const {
+/// Computes the largest change of an exponent by one more harmonic, relative to the exponents and the rate, by inverse
+/// iteration from the modes that were found.
+double HarmonicSearch::change_by_next(const HarmonicModes& modes) const {
+  const int h = modes.harmonics, n = equations_.first().unknowns(), dofs = equations_.first().dofs;
+  const LinearisedEquations next = equations_.of_harmonics(h + 1);
+  const std::complex<double> off(6e-5, 8e-5);  // a shift next to the exponent, where the equations are regular
+  double most = 0;
+  for (const Mode& mode : modes.found.modes) {
+    if (mode.kind == ModeKind::rigid) continue;
+    const double size = std::max(std::abs(mode.s), std::abs(equations_.rate()));
+    const ShiftedOperator T(next, mode.s + size * off);
+    if (!T.regular()) return INFINITY;
+    Eigen::VectorXcd x = Eigen::VectorXcd::Zero(next.states());
+    for (int p = 0; p < 2 * h + 1; ++p) {
+      for (int i = 0; i < n; ++i) x[equations_.index(p, i, h + 1)] = mode.u[equations_.index(p, i, h)];
+      for (int i = 0; i < dofs; ++i)
+        x[next.unknowns() + equations_.index(p, i, h + 1)] = mode.w[equations_.index(p, i, h)];
+    }
+    x = x.cwiseQuotient(T.scale().cast<std::complex<double>>()).eval();
+    std::complex<double> s = 0;
+    constexpr int iterations = 3;
+    for (int k = 0; k < iterations; ++k) {
+      const Eigen::VectorXcd y = T.apply(x);
+      s = T.shift() + x.squaredNorm() / x.dot(y);
+      x = y / y.norm();
+    }
+    most = std::max(most, std::abs(s - mode.s) / size);
+  }
+  return most;
+}
+
+HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const {
   if (equations_.constant()) return find_with(options, 0);
   constexpr int most = 8;
-  constexpr double exact = 1e-7, converged = 1e-6;
-  HarmonicModes before = find_with(options, 1);
-  for (int h = 2; h <= most; ++h) {
-    HarmonicModes after = find_with(options, h);
-    const double change = change_between(before.found, after.found, equations_.rate());
-    if (h == 2 && change < exact) {
-      before.periodicity = Periodicity::multiblade;
-      before.change = change;
-      return before;
-    }
-    after.change = change;
-    after.periodicity = Periodicity::periodic;
-    if (change < converged) return after;
-    before = std::move(after);
+  constexpr double exact = 1e-7;
+  for (int h = std::max(1, least);; ++h) {
+    HarmonicModes modes = find_with(options, h);
+    modes.change = change_by_next(modes);
+    modes.periodicity = h == 1 && modes.change < exact ? Periodicity::multiblade : Periodicity::periodic;
+    if (modes.change < exact) return modes;
+    if (h >= most)
+      throw ComputationError(fmt::format(
+          "the modes of the periodic equations do not converge with {} harmonics of the rotation (one more changes "
+          "them by {:.2g}): ask for fewer modes",
+          h, modes.change));
   }
-  throw ComputationError(fmt::format(
-      "the modes of the periodic equations do not converge with {} harmonics of the rotation (they change by {:.2g}): "
-      "ask for fewer modes",
-      most, before.change));
 }
 
 }  // namespace bielle::mechanism

@@ -10,8 +10,9 @@
 
 namespace bielle::mechanism {
 
-/// Dependence of the coefficients on the azimuth of the turning part.
+/// Dependence of the coefficients on the azimuth of the turning part, the simplest first.
 enum class Periodicity {
+  negligible,  ///< the rate is negligible compared with all frequencies: the equations are those at rest
   constant,    ///< constant in axes that turn with the part
   multiblade,  ///< constant in multiblade coordinates: one harmonic is exact
   periodic     ///< periodic in any coordinates
@@ -20,7 +21,7 @@ enum class Periodicity {
 struct HarmonicModes {
   Periodicity periodicity = Periodicity::constant;
   int harmonics = 0;                   ///< h
-  double change = 0;                   ///< largest change of an exponent by the last harmonic, relative to the rates
+  double change = 0;                   ///< largest change of an exponent by one more harmonic, relative to the rates
   LinearisedEquations equations;       ///< of the harmonics
   Modes found;                         ///< shapes of the harmonics
   std::vector<Eigen::MatrixXcd> u, w;  ///< amplitudes of each mode at harmonics -h .. h (columns)
@@ -36,18 +37,18 @@ class HarmonicSearch {
   HarmonicSearch(const PeriodicEquations& equations, std::vector<char> turning)
       : equations_(equations), turning_(std::move(turning)) {}
 
-  /// Finds the modes with as many harmonics as they need.
+  /// Finds the modes with as many harmonics as they need, at least with the given number.
   /// @throws ComputationError if they need too many
-  HarmonicModes find(const ModeOptions& options) const;
-  /// Finds the modes with a given number of harmonics.
-  HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
+  HarmonicModes find(const ModeOptions& options, int least = 1) const;
 
  private:
+  HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
   struct Sizes;
   Sizes sizes_of(const Eigen::MatrixXcd& u, std::complex<double> s) const;
   bool is_principal(const Sizes& sizes) const;
   double whirl_of(const Sizes& sizes) const;
   bool take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const;
+  double change_by_next(const HarmonicModes& modes) const;
 
   const PeriodicEquations& equations_;
   std::vector<char> turning_;

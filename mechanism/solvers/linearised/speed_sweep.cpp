@@ -54,6 +54,16 @@ bool any_lost(const SweepPoint& from, const SweepPoint& to) {
   return false;
 }
 
+/// Whether a mode that was lost may be faster than all modes of the sample. A slower one has changed its shape.
+bool may_be_faster(const SweepPoint& from, const SweepPoint& to, const ModeSample& sample) {
+  constexpr double most_change = 2;  // a frequency that changes more is found by further values between
+  double fastest = 0;
+  for (const Mode& mode : sample.modes) fastest = std::max(fastest, std::abs(mode.s));
+  for (std::size_t i = 0; i < to.tracks.size(); ++i)
+    if (from.tracks[i].found && !kept(to.tracks[i]) && most_change * std::abs(from.tracks[i].s) > fastest) return true;
+  return false;
+}
+
 }  // namespace
 
 SweepSample SpeedSweep::sample_at(double value) {
@@ -81,8 +91,8 @@ SweepPoint SpeedSweep::followed(const SweepPoint& from, double value) {
   for (int k = 0;; ++k) {
     const SweepSample sample = sample_at(value);
     point = {value, sample.speed, true, follow_tracks(from.tracks, sample.modes)};
-    if (k == most_doublings || sample.modes.all || !any_lost(from, point)) break;
-    count_ *= 2;  // the mode may have become faster than the requested ones
+    if (k == most_doublings || sample.modes.all || !may_be_faster(from, point, sample.modes)) break;
+    count_ *= 2;
   }
   if (any_lost(from, point)) count_ = before;
   return point;
@@ -126,7 +136,24 @@ void SpeedSweep::find_critical(const SweepPoint& a, const SweepPoint& b) {
   }
 }
 
-/// Locates the critical speed by false position, with a halved weight for a retained end (Illinois).
+namespace {
+
+/// Returns the point at which a quantity that has these values at two points is zero, if it and the mode change
+/// linearly between them.
+SweepPoint between(const SweepPoint& a, double at_a, const SweepPoint& b, double at_b, std::size_t mode) {
+  const double share = at_a / (at_a - at_b);
+  SweepPoint found = share < 0.5 ? a : b;
+  found.value = a.value + share * (b.value - a.value);
+  found.speed = a.speed + share * (b.speed - a.speed);
+  found.tracks[mode].s = a.tracks[mode].s + share * (b.tracks[mode].s - a.tracks[mode].s);
+  return found;
+}
+
+}  // namespace
+
+/// Locates the critical speed by false position, with a halved weight for a retained end (Illinois). At a critical
+/// speed itself the shape of a mode may not be unique (a mode of a rotor on supports that differ coincides there with
+/// the copy of its conjugate): if the mode cannot be followed to a value, the interval shrinks around it.
 void SpeedSweep::locate(SweepPoint a, SweepPoint b, std::size_t mode, double order) {
   const auto excess = [&](const SweepPoint& point) {
     return rate_of(point.tracks[mode]) - order * std::abs(point.speed);
@@ -141,7 +168,21 @@ void SpeedSweep::locate(SweepPoint a, SweepPoint b, std::size_t mode, double ord
     if (!(value > a.value && value < b.value)) break;
     const bool nearer_a = value - a.value < b.value - value;
     SweepPoint next = followed(nearer_a ? a : b, value);
-    if (!kept(next.tracks[mode])) break;
+    if (!kept(next.tracks[mode])) {
+      constexpr double shrunk = 1.0 / 16, narrow = 1e-6;
+      if (b.value - a.value < narrow * std::abs(value)) break;
+      SweepPoint before = followed(a, value - shrunk * (value - a.value));
+      SweepPoint behind = followed(b, value + shrunk * (b.value - value));
+      if (!kept(before.tracks[mode]) || !kept(behind.tracks[mode]) || (excess(before) > 0) == (excess(behind) > 0))
+        break;
+      a = std::move(before);
+      b = std::move(behind);
+      at_a = excess(a);
+      at_b = excess(b);
+      side = 0;
+      found = between(a, at_a, b, at_b, mode);
+      continue;
+    }
     const double at_next = excess(next);
     found = next;
     if ((at_next > 0) == (at_a > 0)) {
@@ -156,6 +197,7 @@ void SpeedSweep::locate(SweepPoint a, SweepPoint b, std::size_t mode, double ord
       side = 2;
     }
   }
+  if (std::abs(excess(found)) > exact * rate_of(found.tracks[mode])) found = between(a, excess(a), b, excess(b), mode);
   const TrackedMode& track = found.tracks[mode];
   const double size = std::abs(track.s);
   result_.critical.push_back({static_cast<int>(mode), order, found.value, found.speed,

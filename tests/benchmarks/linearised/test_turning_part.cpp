@@ -20,10 +20,9 @@ SteadyRotation behind(const Model& model, const char* joint, double rate) {
 struct Turning {
   ModesOf model;
   ModesReport report;
-  Turning(const std::string& text, const char* joint, double rate, int count = 20, std::optional<int> harmonics = {})
+  Turning(const std::string& text, const char* joint, double rate, int count = 20, int harmonics = 1)
       : model(text), report(found(model, joint, rate, count, harmonics)) {}
-  static ModesReport found(const ModesOf& model, const char* joint, double rate, int count,
-                           std::optional<int> harmonics) {
+  static ModesReport found(const ModesOf& model, const char* joint, double rate, int count, int harmonics) {
     ModesOptions options;
     options.search.count = count;
     options.rotation = behind(model.file.model, joint, rate);

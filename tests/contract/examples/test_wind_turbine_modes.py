@@ -1,0 +1,82 @@
+"""mechanism/examples/wind_turbine_modes.yaml: a tower against Rayleigh's quotient, and its critical speeds."""
+
+import math
+import unittest
+
+import numpy as np
+
+from example import ExampleTest
+
+LENGTH, ARM = 39, 1  # height of the tower, distance from its top to the axis [m]
+OUTER, INNER, YOUNG, DENSITY = 0.95, 0.92, 2.1e11, 7850
+BLADE_DENSITY, ROOT, TIP = 1900, 1.5, 20
+
+
+def blade():
+    """Mass of a blade, and its second moment of mass about the axis of the shaft."""
+    s = (np.arange(4000) + 0.5) / 4000
+    width, height, wall = 1.6 - 1.1 * s, 0.45 - 0.35 * s, 0.02 - 0.014 * s
+    line = BLADE_DENSITY * (width * height - (width - 2 * wall) * (height - 2 * wall))
+    r = ROOT + (TIP - ROOT) * s
+    return np.mean(line) * (TIP - ROOT), np.mean(line * r ** 2) * (TIP - ROOT)
+
+
+def tower_sideways():
+    """Frequency [Hz] across the shaft at rest: Rayleigh's quotient with the deflection by a force at the top.
+
+    The shaft turns freely: the rotor does not resist the tilt of the tower's top about the shaft.
+    """
+    inertia, area = math.pi / 4 * (OUTER ** 4 - INNER ** 4), math.pi * (OUTER ** 2 - INNER ** 2)
+    z = (np.arange(4000) + 0.5) / 4000
+    shape = (3 * z ** 2 - z ** 3) / 2
+    tilt = 1.5 / LENGTH  # rotation of the top for a displacement of one
+    moved = 1 + tilt * ARM
+    kinetic = DENSITY * area * LENGTH * np.mean(shape ** 2) + (7000 + 2000 + 3 * blade()[0]) * moved ** 2
+    kinetic += 7000 / 12 * (2 ** 2 + 2 ** 2) * tilt ** 2
+    return math.sqrt(3 * YOUNG * inertia / LENGTH ** 3 / kinetic) / (2 * math.pi)
+
+
+class WindTurbineModes(ExampleTest):
+    model = "wind_turbine_modes.yaml"
+
+    def setUp(self):
+        found = self.results.file["/campbell"]
+        self.names = list(found["name"].asstr())
+        self.speed, self.frequency = found["speed"][:], found["damped_frequency"][:]
+        self.critical = {key: found[f"critical_{key}"][:] for key in ("speed", "frequency", "order", "mode")}
+
+    def test_the_tower_at_rest_has_rayleighs_frequency(self):
+        # The quotient is an upper bound. Blades that bend at 5.4 Hz lower it by (0.88/5.4)^2 of their part of it.
+        self.assertEqual(self.speed[0], 0)
+        expected = tower_sideways()
+        nearest = self.frequency[0][np.argmin(np.abs(self.frequency[0] - expected))]
+        self.assertLess(nearest, expected)
+        self.assertGreater(nearest, 0.985 * expected)
+
+    def test_every_mode_is_followed_to_the_end_and_occurs_once(self):
+        self.assertEqual(self.frequency.shape, (7, 5))
+        self.assertTrue(np.all(np.isfinite(self.frequency)))
+        for row in self.frequency[1:]:
+            self.assertGreater(np.diff(np.sort(row)).min(), 1e-6 * row.max())
+
+    def test_modes_have_different_names_of_blades_and_tower(self):
+        self.assertEqual(len(set(self.names)), 5)
+        self.assertTrue(any(name.startswith("tower along") for name in self.names), self.names)
+        self.assertTrue(any(name.startswith("blade_*.blade along the axis") for name in self.names), self.names)
+
+    def test_critical_speeds_are_where_orders_meet_frequencies(self):
+        self.assertEqual(set(self.critical["order"]), {1, 3})
+        columns = [self.critical[key] for key in ("speed", "frequency", "order", "mode")]
+        for speed, frequency, order, mode in zip(*columns):
+            self.assertAlmostEqual(order * speed / (2 * math.pi * frequency), 1, delta=1e-6)
+            line = self.frequency[:, int(mode) - 1]
+            self.assertAlmostEqual(np.interp(speed, self.speed, line) / frequency, 1, delta=0.02)
+        # The tower hardly changes with the speed: 3P meets it at a third of the speed at which 1P does.
+        tower = tower_sideways() * 2 * math.pi
+        for order in (1, 3):
+            speeds = self.critical["speed"][self.critical["order"] == order]
+            self.assertLess(np.abs(speeds * order / tower - 1).min(), 0.05)
+
+
+if __name__ == "__main__":
+    unittest.main()
