@@ -41,7 +41,8 @@ ElasticGearMesh::Flank ElasticGearMesh::flank(int side, double stiffness, const 
   flank.touches = !plays() || (state.environment().statics ? flank.p.value >= 0
                                                            : state.memory()[ToothContact::memories + side] != 0);
   const double push = stiffness * flank.p.value + spring_.damping * flank.rate;
-  flank.pushes = flank.touches && push >= 0;
+  // Without play both flanks are at zero without a load: one of them counts there, or the stiffness would be doubled.
+  flank.pushes = flank.touches && (push > 0 || (push == 0 && (plays() || side == 0)));
   flank.force = flank.pushes ? push : 0;
   flank.pressed = !flank.touches ? 0 : plays() ? flank.p.value : std::max(0.0, flank.p.value);
   return flank;

@@ -188,3 +188,29 @@ TEST_CASE("`near` finds the modes around a frequency, `below` all up to one", "[
   check_rates(frequencies({.count = 2}), {1, 2}, 1e-11);
   for (const int dense : {0, 300}) CHECK(frequencies({.count = 12, .dense = dense}).size() == 12);
 }
+
+TEST_CASE("teeth without play have their stiffness once, also without a load", "[linearised]") {
+  // The normal of the teeth is at the pressure angle to the tangent: w^2 = k cos^2(20 deg) (r1^2/J1 + r2^2/J2).
+  constexpr double k = 4e8, r1 = 0.03, r2 = 0.075, J1 = 1e-3, J2 = 2e-2;
+  const double expected = std::cos(std::numbers::pi / 9) * std::sqrt(k * (r1 * r1 / J1 + r2 * r2 / J2));
+  for (const double torque : {0.0, 1e-9, 12.0, -12.0}) {
+    CAPTURE(torque);
+    const std::vector<double> found = rates_of(
+        fmt::format(
+            "nodes: {{p: {{}}, g: {{position: [0.105, 0, 0]}}}}\n"
+            "elements:\n"
+            "  p: {{type: rigid_body, node: p, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}}\n"
+            "  g: {{type: rigid_body, node: g, mass: 1, inertia: [2e-2, 2e-2, 2e-2]}}\n"
+            "joints:\n"
+            "  jp: {{type: hinge, nodes: [ground, p], axis: [0, 0, 1]}}\n"
+            "  jg: {{type: hinge, nodes: [ground, g], axis: [0, 0, 1]}}\n"
+            "  teeth: {{type: gear_mesh, nodes: [p, g], axes: [0, 0, 1], radii: [0.03, 0.075], stiffness: 4e8}}\n"
+            "loads:\n"
+            "  one: {{node: p, moment: [0, 0, {0}]}}\n"
+            "  other: {{node: g, moment: [0, 0, {1}]}}\n",
+            torque, torque * r2 / r1),
+        {}, true);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0] == Approx(expected).epsilon(1e-6));
+  }
+}

@@ -93,7 +93,8 @@ TEST_CASE("the voltage may depend on the motor's own current: a current controll
   Session session = session_of(at_voltage("2*m.current + 0.4*main.angle.rate + 3*(5 - m.current)"));
   session.dynamics(steps_of(2, 0.01)).finish();
   CHECK(measured(session, "m.current") == Approx(5).epsilon(1e-9));
-  CHECK_THAT(bielle::test::message_of<InputError>([] { session_of(at_voltage("0.1*m.power")); }), Contains("refers back to it"));
+  CHECK_THAT(bielle::test::message_of<InputError>([] { session_of(at_voltage("0.1*m.power")); }),
+             Contains("refers back to it"));
 }
 
 TEST_CASE("a motor's account of energy is closed with the order of the steps") {
