@@ -16,12 +16,14 @@ bool is_negligible(const System& system, const StandingState& about, const Turni
   if (rate == 0) return true;
   constexpr double share = 1e-6, perhaps = 1e-3;
   const LinearisedEquations present = equations_over_turn(system, about.environment, about.state, part, 1).front();
-  if (std::abs(rate) >= perhaps * slowest_rate(present)) return false;  // an estimate that needs no modes
+  const double estimate = slowest_rate(present);
+  if (std::abs(rate) >= perhaps * estimate) return false;  // this needs no modes
   ModeOptions slowest;
-  slowest.count = 1;
+  slowest.count = 3;
   const Modes found = find_modes(present, slowest);
   return std::all_of(found.modes.begin(), found.modes.end(), [&](const Mode& mode) {
-    return mode.kind == ModeKind::rigid || std::abs(rate) < share * std::abs(mode.s);
+    constexpr double rounding = 1e-5;  // the free turning is a double zero, which rounding moves
+    return std::abs(mode.s) < rounding * estimate || std::abs(rate) < share * std::abs(mode.s);
   });
 }
 
