@@ -14,16 +14,16 @@ constexpr int azimuths = 8;  // coefficients have up to three harmonics
 /// Exponents s and s + i rate of a slow rotation are nearly the same: harmonics of one motion cannot be told apart.
 bool is_negligible(const System& system, const StandingState& about, const TurningPart& part, double rate) {
   if (rate == 0) return true;
-  constexpr double share = 1e-6, perhaps = 1e-3;
+  constexpr double share = 1e-6, rounding = 1e-5;
   const LinearisedEquations present = equations_over_turn(system, about.environment, about.state, part, 1).front();
-  const double estimate = slowest_rate(present);
-  if (std::abs(rate) >= perhaps * estimate) return false;  // this needs no modes
   ModeOptions slowest;
   slowest.count = 3;
   const Modes found = find_modes(present, slowest);
+  double fastest = 0;
+  for (const Mode& mode : found.modes) fastest = std::max(fastest, std::abs(mode.s));
+  // Free turning is a double zero, which rounding moves.
   return std::all_of(found.modes.begin(), found.modes.end(), [&](const Mode& mode) {
-    constexpr double rounding = 1e-5;  // the free turning is a double zero, which rounding moves
-    return std::abs(mode.s) < rounding * estimate || std::abs(rate) < share * std::abs(mode.s);
+    return std::abs(mode.s) <= rounding * fastest || std::abs(rate) < share * std::abs(mode.s);
   });
 }
 
