@@ -30,18 +30,15 @@ Coefficient coefficient(const Expression& formula, double alpha) {
 }  // namespace
 
 AirfoilLoad::AirfoilLoad(std::string name, const BeamSpan& span, Airfoil airfoil)
-    : Component("beam", std::move(name)),
-      span_(span),
-      airfoil_(std::move(airfoil)),
-      points_(span_points(span, {0, 1})) {}
+    : SpanLoad(std::move(name), span, {0, 1}), airfoil_(std::move(airfoil)) {}
 
 void AirfoilLoad::declare(Declaration& declaration) const {
-  declaration.nodes = {span_.node_a, span_.node_b};
+  declaration.nodes = {span().node_a, span().node_b};
   declaration.stiffness = declaration.damping = true;
 }
 
 AirfoilLoad::Strip AirfoilLoad::strip(const LocalState& state, const SpanPoint& point, const SpanSection& at) const {
-  const double s = point.along(span_);
+  const double s = point.along(span());
   const std::array<double, 2> place{s, state.time()};
   const Vector3 wind(airfoil_.wind[0](place), airfoil_.wind[1](place), airfoil_.wind[2](place));
   Strip strip{at.S.transpose() * (wind - span_velocity(point, state)), Vector3::Zero(), Vector3::Zero(),
@@ -70,34 +67,22 @@ AirfoilLoad::Strip AirfoilLoad::strip(const LocalState& state, const SpanPoint& 
   return strip;
 }
 
-void AirfoilLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  for (const SpanPoint& point : points_) {
-    const SpanSection at = span_section(span_, point, state);
-    const Strip here = strip(state, point, at);
-    add_span_residual(span_, point, at, {at.S * here.F, here.M}, state, r);
-  }
+SpanForce AirfoilLoad::load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const {
+  const Strip here = strip(state, point, at);
+  return {at.S * here.F, here.M};
 }
 
 /// f = S F(u), n = M(u), and du = u~ dTheta(z) - S^T dv.
 void AirfoilLoad::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
-  for (const SpanPoint& point : points_) {
-    const SpanSection at = span_section(span_, point, state);
+  for (const SpanPoint& point : points()) {
+    const SpanSection at = span_section(span(), point, state);
     const Strip here = strip(state, point, at);
     const Matrix3 turn = skew(here.u), f_turn = at.S * (here.F_by_u * turn - skew(here.F)), n_turn = here.M_by_u * turn;
     if (tangent.wants_K)
-      add_span_tangent(span_, point, at, {at.S * here.F, here.M}, f_turn, n_turn, state, tangent.K.dense());
+      add_span_tangent(span(), point, at, {at.S * here.F, here.M}, f_turn, n_turn, state, tangent.K.dense());
     const Matrix3 f_rate = -at.S * here.F_by_u * at.S.transpose(), n_rate = -here.M_by_u * at.S.transpose();
-    add_span_rate_tangent(span_, point, at, f_rate, n_rate, state, tangent);
-  }
-}
-
-void AirfoilLoad::add_energy(const LocalState& state, Energy& energy) const {
-  for (const SpanPoint& point : points_) {
-    const SpanSection at = span_section(span_, point, state);
-    const Strip here = strip(state, point, at);
-    energy.input += point.w * ((at.S * here.F).dot(span_velocity(point, state)) +
-                               here.M.dot(span_angular_velocity(span_, at, state)));
+    add_span_rate_tangent(span(), point, at, f_rate, n_rate, state, tangent);
   }
 }
 
@@ -113,14 +98,14 @@ std::vector<TimeDependent::Formula> AirfoilLoad::time_formulas() const {
 }
 
 void AirfoilLoad::calc_time_formulas(const LocalState& state, std::span<double> values) const {
-  const std::array<double, 2> middle{0.5 * (span_.s_A + span_.s_B), state.time()};
+  const std::array<double, 2> middle{0.5 * (span().s_A + span().s_B), state.time()};
   std::size_t next = 0;
   for (const Expression& component : airfoil_.wind)
     if (component.uses(wind_in_time)) values[next++] = component(middle);
 }
 
 void AirfoilLoad::describe(const LocalState& /*state*/, Description& description) const {
-  if (span_.s_A > 0) return;  // equal on all elements
+  if (span().s_A > 0) return;  // equal on all elements
   description.add_line(fmt::format("airfoil: chord {} m, twist {} rad, wind {} m/s, air of {:.6g} kg/m^3",
                                    airfoil_.chord.text(), airfoil_.twist.text(), format_vector(airfoil_.wind),
                                    airfoil_.density));

@@ -17,8 +17,6 @@
 
 #include "mechanism/elements/beam/formula_vector.hpp"
 #include "mechanism/elements/beam/span_load.hpp"
-#include "mechanism/model/component.hpp"
-#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -37,20 +35,21 @@ const KeyTable& airfoil_keys();
 Airfoil read_airfoil(const YamlValue& value);
 
 /// The airfoil of one element of a beam.
-class AirfoilLoad final : public Component, public TimeDependent {
+class AirfoilLoad final : public SpanLoad {
  public:
   /// @param name  name of the beam
   AirfoilLoad(std::string name, const BeamSpan& span, Airfoil airfoil);
 
   void declare(Declaration& declaration) const override;
-  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
-  void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override;
   /// The values are those in the middle of the element.
   std::vector<Formula> time_formulas() const override;
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
+
+ protected:
+  SpanForce load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const override;
 
  private:
   /// Force and moment in section axes, with derivatives by u.
@@ -60,9 +59,7 @@ class AirfoilLoad final : public Component, public TimeDependent {
   };
   Strip strip(const LocalState& state, const SpanPoint& point, const SpanSection& at) const;
 
-  BeamSpan span_;
   Airfoil airfoil_;
-  std::vector<SpanPoint> points_;
 };
 
 }  // namespace bielle::mechanism

@@ -53,56 +53,42 @@ double integral(const std::vector<double>& ends, int parts, const Value& value) 
 }  // namespace
 
 DistributedLoad::DistributedLoad(std::string name, const BeamSpan& span, LineLoad load)
-    : Component("beam", std::move(name)),
-      span_(span),
-      load_(std::move(load)),
-      points_(span_points(span, pieces(load_, span.s_A, span.s_B))) {}
+    : SpanLoad(std::move(name), span, pieces(load, span.s_A, span.s_B)), load_(std::move(load)) {}
 
 void DistributedLoad::declare(Declaration& declaration) const {
-  declaration.nodes = {span_.node_a, span_.node_b};
+  declaration.nodes = {span().node_a, span().node_b};
   declaration.stiffness = true;
 }
 
-DistributedLoad::Load DistributedLoad::load(const LocalState& state, const SpanPoint& point,
-                                            const SpanSection& at) const {
-  Load load;
-  const double s = point.along(span_), factor = state.environment().load_factor;
-  load.F = factor * evaluate(load_.force, s, state.time());
-  load.M = factor * evaluate(load_.moment, s, state.time());
-  load.on_line.f = load_.follower ? Vector3(at.S * load.F) : load.F;
-  load.on_line.n = (load_.follower ? load.M : Vector3(at.S.transpose() * load.M)) +
-                   load_.at.cross(at.S.transpose() * load.on_line.f);
-  return load;
+DistributedLoad::Given DistributedLoad::given(const LocalState& state, const SpanPoint& point) const {
+  const double s = point.along(span()), factor = state.environment().load_factor;
+  return {factor * evaluate(load_.force, s, state.time()), factor * evaluate(load_.moment, s, state.time())};
 }
 
-void DistributedLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  for (const SpanPoint& point : points_) {
-    const SpanSection at = span_section(span_, point, state);
-    add_span_residual(span_, point, at, load(state, point, at).on_line, state, r);
-  }
+SpanForce DistributedLoad::on_line(const Given& given, const SpanSection& at) const {
+  SpanForce force;
+  force.f = load_.follower ? Vector3(at.S * given.F) : given.F;
+  force.n =
+      (load_.follower ? given.M : Vector3(at.S.transpose() * given.M)) + load_.at.cross(at.S.transpose() * force.f);
+  return force;
+}
+
+SpanForce DistributedLoad::load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const {
+  return on_line(given(state, point), at);
 }
 
 /// df = -S F~ dTheta(z) for followers, else 0;  dn = ((S^T M)~ + c~ (S^T F)~) dTheta(z) for dead loads, else 0.
 void DistributedLoad::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
-  for (const SpanPoint& point : points_) {
-    const SpanSection at = span_section(span_, point, state);
-    const Load here = load(state, point, at);
+  for (const SpanPoint& point : points()) {
+    const SpanSection at = span_section(span(), point, state);
+    const Given here = given(state, point);
     Matrix3 f_turn = Matrix3::Zero(), n_turn = Matrix3::Zero();
     if (load_.follower)
       f_turn = -at.S * skew(here.F);
     else
       n_turn = skew(at.S.transpose() * here.M) + skew(load_.at) * skew(at.S.transpose() * here.F);
-    add_span_tangent(span_, point, at, here.on_line, f_turn, n_turn, state, tangent.K.dense());
-  }
-}
-
-void DistributedLoad::add_energy(const LocalState& state, Energy& energy) const {
-  for (const SpanPoint& point : points_) {
-    const SpanSection at = span_section(span_, point, state);
-    const SpanForce here = load(state, point, at).on_line;
-    energy.input +=
-        point.w * (here.f.dot(span_velocity(point, state)) + here.n.dot(span_angular_velocity(span_, at, state)));
+    add_span_tangent(span(), point, at, on_line(here, at), f_turn, n_turn, state, tangent.K.dense());
   }
 }
 
@@ -123,7 +109,7 @@ std::vector<TimeDependent::Formula> DistributedLoad::time_formulas() const {
 }
 
 void DistributedLoad::calc_time_formulas(const LocalState& state, std::span<double> values) const {
-  const std::array<double, 2> at{0.5 * (span_.s_A + span_.s_B), state.time()};
+  const std::array<double, 2> at{0.5 * (span().s_A + span().s_B), state.time()};
   std::size_t next = 0;
   for (const FormulaVector* vector : {&load_.force, &load_.moment})
     for (const Expression& component : *vector)
@@ -131,7 +117,7 @@ void DistributedLoad::calc_time_formulas(const LocalState& state, std::span<doub
 }
 
 void DistributedLoad::describe(const LocalState& /*state*/, Description& description) const {
-  if (span_.s_A > 0) return;  // equal on all elements
+  if (span().s_A > 0) return;  // equal on all elements
   std::string text;
   if (load_.has_force) text += fmt::format("force {} N/m", format_vector(load_.force));
   if (load_.has_force && !load_.at.isZero(0))
@@ -149,9 +135,9 @@ std::vector<OutputField> DistributedLoad::output_fields() const {
 
 void DistributedLoad::write_output(const LocalState& state, double* values) const {
   Vector3 F = Vector3::Zero(), m = Vector3::Zero();
-  for (const SpanPoint& point : points_) {
-    const SpanSection at = span_section(span_, point, state);
-    const SpanForce here = load(state, point, at).on_line;
+  for (const SpanPoint& point : points()) {
+    const SpanSection at = span_section(span(), point, state);
+    const SpanForce here = load(state, point, at);
     F += point.w * here.f;
     m += point.w * (span_position(point, state).cross(here.f) + at.S * here.n);
   }

@@ -17,8 +17,6 @@
 
 #include "mechanism/elements/beam/formula_vector.hpp"
 #include "mechanism/elements/beam/span_load.hpp"
-#include "mechanism/model/component.hpp"
-#include "mechanism/model/time_dependent.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -38,15 +36,13 @@ const KeyTable& line_load_keys();
 std::vector<LineLoad> read_line_loads(const YamlValue& value, int elements);
 
 /// One line load on one element. See the head of this file.
-class DistributedLoad : public Component, public TimeDependent {
+class DistributedLoad final : public SpanLoad {
  public:
   /// @param name  name of the beam
   DistributedLoad(std::string name, const BeamSpan& span, LineLoad load);
 
   void declare(Declaration& declaration) const override;
-  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
-  void add_energy(const LocalState& state, Energy& energy) const override;
   void add_break_points(std::vector<double>& times) const override;
   /// The values are those in the middle of the element.
   std::vector<Formula> time_formulas() const override;
@@ -57,16 +53,17 @@ class DistributedLoad : public Component, public TimeDependent {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
 
- private:
-  struct Load {
-    Vector3 F, M;       ///< as given, multiplied by the load factor
-    SpanForce on_line;  ///< force (inertial) and moment about the line (section axes)
-  };
-  Load load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const;
+ protected:
+  SpanForce load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const override;
 
-  BeamSpan span_;
+ private:
+  struct Given {
+    Vector3 F, M;  ///< multiplied by the load factor
+  };
+  Given given(const LocalState& state, const SpanPoint& point) const;
+  SpanForce on_line(const Given& given, const SpanSection& at) const;
+
   LineLoad load_;
-  std::vector<SpanPoint> points_;
 };
 
 }  // namespace bielle::mechanism

@@ -1,5 +1,7 @@
 #include "mechanism/elements/beam/span_load.hpp"
 
+#include <utility>
+
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/so3.hpp"
 
@@ -117,6 +119,25 @@ void add_span_rate_tangent(const BeamSpan& span, const SpanPoint& point, const S
       tangent.C.dense().block<6, 3>(x_i, x_j) += point.N[j] * by_velocity;
       tangent.C.dense().block<6, 3>(x_i, x_j + 3) -= by_velocity * node.R * skew(point.a[j]);
     }
+  }
+}
+
+SpanLoad::SpanLoad(std::string beam, const BeamSpan& span, const std::vector<double>& ends)
+    : Component("beam", std::move(beam)), span_(span), points_(span_points(span, ends)) {}
+
+void SpanLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    add_span_residual(span_, point, at, load(state, point, at), state, r);
+  }
+}
+
+void SpanLoad::add_energy(const LocalState& state, Energy& energy) const {
+  for (const SpanPoint& point : points_) {
+    const SpanSection at = span_section(span_, point, state);
+    const SpanForce here = load(state, point, at);
+    energy.input +=
+        point.w * (here.f.dot(span_velocity(point, state)) + here.n.dot(span_angular_velocity(span_, at, state)));
   }
 }
 

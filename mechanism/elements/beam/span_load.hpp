@@ -11,11 +11,12 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "mechanism/math/se3.hpp"
-#include "mechanism/model/local_tangent.hpp"
-#include "mechanism/model/state.hpp"
+#include "mechanism/model/component.hpp"
+#include "mechanism/model/time_dependent.hpp"
 
 namespace bielle::mechanism {
 
@@ -74,5 +75,24 @@ void add_span_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSe
 /// Adds the derivatives for  df = f_rate dv,  dn = n_rate dv  by the velocity v of the line at the point.
 void add_span_rate_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const Matrix3& f_rate,
                            const Matrix3& n_rate, const LocalState& state, LocalTangent& tangent);
+
+/// A load along one element of a beam, integrated over its points. Its power is counted as input.
+class SpanLoad : public Component, public TimeDependent {
+ public:
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const final;
+  void add_energy(const LocalState& state, Energy& energy) const final;
+
+ protected:
+  /// @param beam  name of the beam @param ends  ends of the pieces of the integral, from 0 to 1
+  SpanLoad(std::string beam, const BeamSpan& span, const std::vector<double>& ends);
+  /// Returns force and moment per length at a point, multiplied by the load factor.
+  virtual SpanForce load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const = 0;
+  const BeamSpan& span() const { return span_; }
+  const std::vector<SpanPoint>& points() const { return points_; }
+
+ private:
+  BeamSpan span_;
+  std::vector<SpanPoint> points_;
+};
 
 }  // namespace bielle::mechanism
