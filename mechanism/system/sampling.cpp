@@ -5,20 +5,6 @@
 
 namespace bielle::mechanism {
 
-std::vector<Sampler::Instants> sample_instants(const System& system) {
-  std::vector<Sampler::Instants> all;
-  const auto add = [&](const Sampler::Instants& one) {
-    const auto same = [&](const Sampler::Instants& other) {
-      return one.first == other.first && one.period == other.period;
-    };
-    if (std::none_of(all.begin(), all.end(), same)) all.push_back(one);
-  };
-  for (const Member& member : system.model().members())
-    if (const auto* sampler = dynamic_cast<const Sampler*>(member.component.get()))
-      for (const Sampler::Instants& one : sampler->instants()) add(one);
-  return all;
-}
-
 double next_instant(const Sampler::Instants& instants, double time, double rounding) {
   const double begun = std::max(0.0, std::floor((time - instants.first) / instants.period));
   // The quotient may be rounded to either side of a whole number.
@@ -31,6 +17,19 @@ Samplers::Samplers(const System& system) : system_(system) {
   for (std::size_t m = 0; m < members.size(); ++m)
     if (const auto* sampler = dynamic_cast<const Sampler*>(members[m].component.get()))
       samplers_.push_back({sampler, m});
+}
+
+std::vector<Sampler::Instants> Samplers::instants() const {
+  std::vector<Sampler::Instants> all;
+  const auto add = [&](const Sampler::Instants& one) {
+    const auto same = [&](const Sampler::Instants& other) {
+      return one.first == other.first && one.period == other.period;
+    };
+    if (std::none_of(all.begin(), all.end(), same)) all.push_back(one);
+  };
+  for (const Placed& each : samplers_)
+    for (const Sampler::Instants& one : each.sampler->instants()) add(one);
+  return all;
 }
 
 bool Samplers::take(State& state, const Environment& environment) const {

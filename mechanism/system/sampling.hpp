@@ -8,9 +8,6 @@
 
 namespace bielle::mechanism {
 
-/// Returns the instants of all samplers, each sequence once.
-std::vector<Sampler::Instants> sample_instants(const System& system);
-
 /// Returns the first of these instants after a time, `first` itself if the time is before it.
 /// @param time      [s] @param rounding  times that differ by less are the same [s]
 double next_instant(const Sampler::Instants& instants, double time, double rounding);
@@ -20,6 +17,8 @@ class Samplers {
  public:
   explicit Samplers(const System& system);
   bool none() const { return samplers_.empty(); }
+  /// Returns the instants of all samplers, each sequence once.
+  std::vector<Sampler::Instants> instants() const;
   /// Computes the values that are due at the time of an accepted state, in the order of the file: a sampler sees the
   /// new values of those before it.
   /// @returns whether a value that others read has changed

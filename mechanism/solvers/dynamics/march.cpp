@@ -112,7 +112,7 @@ March::March(TimeIntegration& integration, double begin, double end, StepOptions
       watch_(integration.system()),
       pulses_(integration.system(), begin, end - begin, norm_.length()) {
   const bool adaptive = options_.tolerance > 0;
-  stops_ = std::make_unique<Stops>(begin, end, options_, sample_instants(integration.system()));
+  stops_ = std::make_unique<Stops>(begin, end, options_, Samplers(integration.system()).instants());
   stops_->advance(integration.state().time);
   size_ = adaptive ? std::min(options_.size, options_.largest) : stops_->step_size();
   smallest_ = adaptive ? 1e-10 * (end - begin) : size_ / 1024;
