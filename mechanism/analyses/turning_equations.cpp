@@ -21,6 +21,7 @@ bool is_negligible(const System& system, const StandingState& about, const Turni
   const Modes found = find_modes(present, slowest);
   double fastest = 0;
   for (const Mode& mode : found.modes) fastest = std::max(fastest, std::abs(mode.s));
+  if (std::abs(rate) >= share * fastest) return false;
   // Free turning is a double zero, which rounding moves.
   return std::all_of(found.modes.begin(), found.modes.end(), [&](const Mode& mode) {
     return std::abs(mode.s) <= rounding * fastest || std::abs(rate) < share * std::abs(mode.s);
