@@ -197,8 +197,10 @@ std::vector<std::string> argument_units(const std::vector<const Measure*>& measu
 std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue& formula,
                                        const std::optional<YamlValue>& units, Model& model) {
   const ReadFormula read = read_formula(formula, {"t"}, model);
-  if (read.measures.empty())
-    formula.fail("a measure is a formula of the state: of joints (main.angle), nodes (pin.position.x), other measures");
+  if (read.measures.empty() && read.expression.is_constant())
+    formula.fail(
+        "a measure is a formula of the time t, or of the state: of joints (main.angle), nodes (pin.position.x), other "
+        "measures; a constant belongs to `parameters`");
   std::string inferred = units ? units->text() : units_of(read.expression, argument_units(read.measures));
   References references;
   StateFormula of_state(read.expression, 1, refer_to(read.measures, references));

@@ -85,7 +85,8 @@ TEST_CASE("measures that refer to themselves, at once or through others, are ref
   // Two references to the same measure are no cycle.
   CHECK(message("one + two", "measures:\n  one: \"2*three\"\n  two: \"3*three\"\n  three: main.angle\n") ==
         "(nothing thrown)");
-  CHECK_THAT(message("1", "measures: {one: \"2*t\"}\n"), Contains("formula of the state"));
+  CHECK(message("one", "measures: {one: \"2*t\"}\n") == "(nothing thrown)");
+  CHECK_THAT(message("1", "measures: {one: \"2*pi\"}\n"), Contains("a constant belongs to `parameters`"));
 }
 
 TEST_CASE("values of measures, inputs and events may have units, which must fit where they are known") {

@@ -190,7 +190,7 @@ nodes: {{rotor: {{position: [0, 0, 0]}}}}
 elements: {{rotor: {{type: rigid_body, node: rotor, mass: 1, inertia: [0.3, 0.3, 0.5]}}}}
 joints: {{main: {{type: hinge, nodes: [ground, rotor], axis: [0, 0, 1], stiffness: 50, rest: 0.1}}}}
 drives: {{motor: {{joint: main, angle: "t"}}}}
-events: {{go: {{when: "t + 0*main.angle", crosses: {}, do: [{{release: motor}}{}]}}}}
+events: {{go: {{when: t, crosses: {}, do: [{{release: motor}}{}]}}}}
 )yaml",
                                            time, keys));
   {
