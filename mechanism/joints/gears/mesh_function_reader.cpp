@@ -127,6 +127,8 @@ MeshFunction read_iso(const YamlValue& given, const ToothGeometry& geometry, dou
   if (!ratio && internal) entry.fail("give the `contact_ratio` of an internal pair");
   const double contact_ratio = ratio ? ratio->number() : transverse_contact_ratio(pair);
   if (!(contact_ratio >= 1)) entry.fail("these teeth have no contact ratio of at least 1: give the `contact_ratio`");
+  if (contact_ratio < 1.2)
+    entry.warn(fmt::format("the contact ratio is {:.3g}: ISO 6336-1 gives the stiffness from 1.2 on", contact_ratio));
   const double k = iso_stiffness(pair, contact_ratio).normal;
   if (!(k > 0 && k < Expression::most)) entry.fail("these teeth have no positive stiffness");
   return MeshFunction(k);

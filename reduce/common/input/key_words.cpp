@@ -103,6 +103,12 @@ void visit_forms(const KeyForms& forms, const std::function<void(const KeyTable&
   }
 }
 
+/// Returns a name with blanks in place of underscores.
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 }  // namespace
 
 std::string form_words(const KeyForms& forms) {
@@ -143,12 +149,19 @@ std::vector<const KeyTable*> tables_below(const KeyTable& root) {
 std::string keys_of_named(const KeyTable& root, const std::string& name) {
   std::vector<std::string> names;
   std::string text;
-  for (const KeyTable* table : tables_below(root)) {
-    names.push_back(thing_named(table->of));
-    if (name != "all" && names.back() != name) continue;
+  const auto add = [&text](const KeyTable& table) {
     if (!text.empty()) text += "\n";
-    text += keys_as_text(*table);
+    text += keys_as_text(table);
+  };
+  const std::vector<const KeyTable*> tables = tables_below(root);
+  for (const KeyTable* table : tables) {
+    names.push_back(thing_named(table->of));
+    if (name == "all" || in_words(names.back()) == in_words(name)) add(*table);
   }
+  if (text.empty())
+    for (std::size_t k = 0; k < tables.size(); ++k)
+      if (fmt::format(" {} ", in_words(names[k])).find(fmt::format(" {} ", in_words(name))) != std::string::npos)
+        add(*tables[k]);
   if (text.empty())
     throw InputError(fmt::format("--keys {}: nothing has this name{}", name, did_you_mean(name, names)));
   return text;

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "reduce/common/input/key_table.hpp"
+#include "reduce/common/input/key_words.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 #include "tests/support/messages.hpp"
 
@@ -333,3 +334,31 @@ TEST_CASE("Tables list their names, and groups of keys are joined in their order
 }
 
 }  // namespace test_key_table
+
+TEST_CASE("Keys of a thing are found by its name, with blanks or underscores, or by words of it") {
+  using namespace keys;
+  const auto table_named = [](const char* of) { return KeyTable{of, "About.", {{"size", number("m"), required, ""}}}; };
+  static const KeyTable mass = table_named("a point_mass"), state = table_named("a sampled state"),
+                        delay = table_named("a delayed state");
+  static const auto mass_keys = []() -> const KeyTable& { return mass; };
+  static const auto state_keys = []() -> const KeyTable& { return state; };
+  static const auto delay_keys = []() -> const KeyTable& { return delay; };
+  const KeyTable root{"everything",
+                      "About.",
+                      {{"mass", nested(mass_keys), optional, ""},
+                       {"sampled", nested(state_keys), optional, ""},
+                       {"delayed", nested(delay_keys), optional, ""}}};
+  const auto headings = [&](const std::string& name) {
+    const std::string text = keys_of_named(root, name);
+    std::string found;
+    for (const char* each : {"point_mass", "sampled state", "delayed state"})
+      if (text.find(each) != std::string::npos) found += std::string(found.empty() ? "" : ", ") + each;
+    return found;
+  };
+  CHECK(headings("point mass") == "point_mass");
+  CHECK(headings("point_mass") == "point_mass");
+  CHECK(headings("sampled") == "sampled state");
+  CHECK(headings("state") == "sampled state, delayed state");
+  CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "sample"); }), Contains("did you mean 'sampled state'"));
+  CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "tate"); }), Contains("nothing has this name"));
+}
