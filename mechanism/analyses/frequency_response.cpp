@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "mechanism/analyses/modal_response.hpp"
-#include "mechanism/analyses/standing_state.hpp"
-#include "mechanism/analyses/turning_equations.hpp"
+#include "mechanism/analyses/response_equations.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -27,29 +25,24 @@ using Complex = std::complex<double>;
 /// Computes the response by one factorisation for each frequency.
 class DirectResponse {
  public:
-  DirectResponse(const LinearResponse& response, const LinearisedEquations& equations,
-                 const FrequencyResponseOptions& options)
-      : response_(response),
-        equations_(equations),
-        options_(options),
-        rights_(response.right_sides(options.inputs, options.outputs)) {}
+  DirectResponse(const LinearResponse& response, const FrequencyResponseOptions& options)
+      : response_(response), options_(options), rights_(response.right_sides(options.inputs, options.outputs)) {}
 
   Eigen::MatrixXcd operator()(Complex s) const {
-    const ShiftedOperator D(equations_, s);
+    const ShiftedOperator D(response_.equations(), s);
     if (!D.regular()) throw_no_response(s.imag() / (2 * std::numbers::pi));
     Eigen::MatrixXcd H(options_.outputs.size(), options_.inputs.size());
     for (std::size_t j = 0; j < rights_.size(); ++j) {
-      const Variation variation = response_.answer(D, rights_[j]);
+      const LinearMotion motion = response_.answer(D, rights_[j]);
       for (std::size_t i = 0; i < options_.outputs.size(); ++i)
         H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            response_.value(options_.outputs[i], variation) + response_.direct(options_.outputs[i], options_.inputs[j]);
+            response_.value(options_.outputs[i], motion) + response_.direct(options_.outputs[i], options_.inputs[j]);
     }
     return H;
   }
 
  private:
   const LinearResponse& response_;
-  const LinearisedEquations& equations_;
   const FrequencyResponseOptions& options_;
   std::vector<VectorX> rights_;
 };
@@ -57,9 +50,8 @@ class DirectResponse {
 /// Computes the response as a sum over modes.
 class SuperposedResponse {
  public:
-  SuperposedResponse(const LinearResponse& response, const LinearisedEquations& equations,
-                     const FrequencyResponseOptions& options)
-      : response_(response), equations_(equations), options_(options) {}
+  SuperposedResponse(const LinearResponse& response, const FrequencyResponseOptions& options)
+      : response_(response), equations_(response.equations()), options_(options) {}
 
   void run(FrequencyResponse& result) const {
     const double most =
@@ -73,7 +65,7 @@ class SuperposedResponse {
     const Modes found = find_modes(equations_, search);
     const std::vector<ModalPole> poles = modal_poles(equations_, found.modes);
     const bool rigid = found.modes.size() > poles.size();
-    const DirectResponse direct(response_, equations_, options_);
+    const DirectResponse direct(response_, options_);
     const ModalResponse superposed(response_, poles, options_, most, direct);
     result.modal = superposed.accuracy(least);
     result.modal->modes = static_cast<int>(poles.size());
@@ -114,7 +106,7 @@ class SuperposedResponse {
       if (std::abs(right.head(n).cast<Complex>().dot(mode.u)) > something * right.head(n).norm() * size) moved = true;
     Eigen::VectorXcd solution = Eigen::VectorXcd::Zero(n + equations_.constraints());
     solution.head(n) = mode.u;
-    const Variation motion = response_.motion(0, solution);
+    const LinearMotion motion = response_.motion(0, solution);
     for (const ResponseOutput& output : options_.outputs) {
       double usual = 0;
       for (const ModalPole& pole : poles)
@@ -137,74 +129,19 @@ class SuperposedResponse {
 
 }  // namespace
 
-namespace {
-
-/// Responses of a mechanism of which a part turns behind a joint, with equations that are periodic: the part of each
-/// output with the frequency of the input, without those at other harmonics of the rotation.
-FrequencyResponse harmonic_response(const System& system, const FrequencyResponseOptions& options,
-                                    const StandingState& about, const TurningEquations& turning) {
-  if (options.modes > 0)
-    throw InputError("`modes`: responses of periodic equations are found directly: leave the key out");
-  const auto check = [&](const std::string& name, int node) {
-    if (node < 0 || turning.part.turns(node))
-      throw InputError(
-          fmt::format("{}: the equations are periodic; forces on nodes that stand still, and their motions, alone "
-                      "have responses at one frequency",
-                      name));
-  };
-  for (const ResponseInput& input : options.inputs) check(input.name, input.node);
-  for (const ResponseOutput& output : options.outputs) check(output.name, output.node);
-  FrequencyResponse result;
-  ModeOptions slow;
-  slow.count = 10;
-  const HarmonicModes modes = turning.search().find(slow);
-  static_cast<LinearisedSetting&>(result) = turning.setting(modes);
-  const LinearResponse response(system, about, turning.periodic.first());
-  for (const ResponseOutput& output : options.outputs) result.output_units.push_back(response.units(output));
-  const LinearisedEquations& whole = modes.equations;
-  const int n = turning.periodic.first().unknowns(), h = modes.harmonics;
-  const std::vector<VectorX> rights = response.right_sides(options.inputs, options.outputs);
-  for (const double frequency : options.frequencies) {
-    const Complex s(0, 2 * std::numbers::pi * frequency);
-    const ShiftedOperator D(whole, s);
-    if (!D.regular()) throw_no_response(frequency);
-    Eigen::MatrixXcd H(options.outputs.size(), options.inputs.size());
-    for (std::size_t j = 0; j < rights.size(); ++j) {
-      Eigen::VectorXcd right = Eigen::VectorXcd::Zero(whole.unknowns() + whole.constraints());
-      for (int i = 0; i < n; ++i) right[turning.periodic.index(0, i, h)] = -rights[j][i];
-      const Eigen::VectorXcd found = D.solve(right);
-      Eigen::VectorXcd solution = Eigen::VectorXcd::Zero(rights[j].size());
-      for (int i = 0; i < n; ++i) solution[i] = found[turning.periodic.index(0, i, h)];
-      const Variation variation = response.motion(s, solution);
-      for (std::size_t i = 0; i < options.outputs.size(); ++i)
-        H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = response.value(options.outputs[i], variation);
-    }
-    result.response.push_back(H);
-  }
-  return result;
-}
-
-}  // namespace
-
 FrequencyResponse compute_frequency_response(Session& session, const FrequencyResponseOptions& options) {
-  const System& system = session.system();
-  check_response_names(session.model(), options.inputs, options.outputs);
-  const StandingState about = standing_state(session, options.rotation);
+  const ResponseEquations equations(session, options.inputs, options.outputs, options.rotation);
+  const LinearResponse& response = equations.response();
   FrequencyResponse result;
-  std::optional<TurningEquations> turning;
-  if (options.rotation && options.rotation->joint) turning.emplace(system, about, *options.rotation);
-  if (turning && !turning->periodic.constant()) return harmonic_response(system, options, about, *turning);
-  static_cast<LinearisedSetting&>(result) =
-      turning ? turning->setting({}) : linearised_setting(system, about.environment, about.state);
-  const LinearisedEquations equations =
-      turning ? turning->periodic.first() : linearised_equations(system, about.environment, about.state, result.axes);
-  const LinearResponse response(system, about, equations);
+  static_cast<LinearisedSetting&>(result) = equations.setting();
   for (const ResponseOutput& output : options.outputs) result.output_units.push_back(response.units(output));
   if (options.modes > 0) {
-    SuperposedResponse(response, equations, options).run(result);
+    if (equations.harmonics() > 0)
+      throw InputError("`modes`: responses with harmonics of a rotation are found directly: leave the key out");
+    SuperposedResponse(response, options).run(result);
     return result;
   }
-  const DirectResponse direct(response, equations, options);
+  const DirectResponse direct(response, options);
   for (const double frequency : options.frequencies)
     result.response.push_back(direct(Complex(0, 2 * std::numbers::pi * frequency)));
   return result;

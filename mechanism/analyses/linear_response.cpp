@@ -1,68 +1,25 @@
 #include "mechanism/analyses/linear_response.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "mechanism/measures/input_measure.hpp"
-#include "mechanism/session/session.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-using Complex = LinearResponse::Complex;
-
 template <class Kind>
-const Kind* measure_named(const Model& model, const std::string& name) {
-  for (const Component* component : model.components_of({Section::measures, name}))
-    if (const auto* measure = dynamic_cast<const Kind*>(component)) return measure;
-  return nullptr;
-}
-
-template <class Kind>
-std::vector<std::string> names_of(const Model& model) {
+void check_named(const Model& model, const std::string& name, const char* what) {
   std::vector<std::string> names;
   for (const Member& member : model.members())
     if (dynamic_cast<const Kind*>(member.component.get())) names.push_back(member.entry.name);
-  return names;
-}
-
-template <class Kind>
-void check_named(const Model& model, const std::string& name, const char* what) {
-  if (measure_named<Kind>(model, name)) return;
-  throw InputError(fmt::format("there is no {} '{}'{}", what, name, did_you_mean(name, names_of<Kind>(model))));
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw InputError(fmt::format("there is no {} '{}'{}", what, name, did_you_mean(name, names)));
 }
 
 }  // namespace
-
-VectorX LinearResponse::right_side(const ResponseInput& input) const {
-  VectorX all = VectorX::Zero(system_.size());
-  if (input.node >= 0) {
-    const auto k = static_cast<std::size_t>(input.node);
-    VectorX forces = VectorX::Zero(system_.kinematics().force_rows());
-    const int row = system_.kinematics().force_row(input.node);
-    if (input.moment)
-      forces.segment<3>(row + 3) = -state_.nodes[k].R.transpose() * input.direction;
-    else
-      forces.segment<3>(row) = -input.direction;
-    system_.kinematics().carry_forces(state_.nodes, forces);
-    system_.kinematics().reduce_forces(forces, all.head(system_.kinematics().unknowns()));
-  } else {
-    const InputStep step = step_of(input.name);
-    VectorX other(system_.size());
-    system_.residual(with(step, 1), environment_, all);
-    system_.residual(with(step, -1), environment_, other);
-    all = (all - other) / (2 * step.size);
-  }
-  const int n = equations_.unknowns();
-  VectorX right(n + equations_.constraints());
-  right.head(n) = all.head(n);
-  for (int k = 0; k < equations_.constraints(); ++k)
-    right[n + k] = all[n + equations_.multiplier[static_cast<std::size_t>(k)]];
-  return right;
-}
 
 std::vector<VectorX> LinearResponse::right_sides(const std::vector<ResponseInput>& inputs,
                                                  const std::vector<ResponseOutput>& outputs) const {
@@ -80,61 +37,15 @@ std::vector<VectorX> LinearResponse::right_sides(const std::vector<ResponseInput
   return rights;
 }
 
-Variation LinearResponse::answer(const ShiftedOperator& D, const VectorX& right) const {
+LinearMotion LinearResponse::answer(const ShiftedOperator& D, const VectorX& right) const {
   return motion(D.shift(), D.solve(-right.cast<Complex>()));
 }
 
-Variation LinearResponse::motion(Complex s, const Eigen::VectorXcd& solution) const {
-  const int n = equations_.unknowns();
-  Variation variation{solution.head(n), {}, Eigen::VectorXcd::Zero(system_.multipliers())};
-  variation.rate = s * variation.u + equations_.W * variation.u;
-  for (int k = 0; k < equations_.constraints(); ++k)
-    variation.multiplier[equations_.multiplier[static_cast<std::size_t>(k)]] = solution[n + k];
-  return variation;
-}
-
-Complex LinearResponse::value(const ResponseOutput& output, const Variation& variation) const {
-  if (output.node >= 0) {
-    const NodeVariation node = node_variation(system_, state_, variation, output.node);
-    const Matrix3& R = state_.nodes[static_cast<std::size_t>(output.node)].R;
-    const Eigen::Vector3cd moved =
-        output.rotation ? Eigen::Vector3cd(R * node.position.tail<3>()) : Eigen::Vector3cd(node.position.head<3>());
-    return output.direction.cast<Complex>().dot(moved);
-  }
-  const Measure& measure = *measure_named<Measure>(system_.model(), output.name);
-  const Slots& slots = system_.slots_of(measure);
-  MeasureGradient gradient;
-  measure.calc(LocalState(state_, slots, environment_), gradient);
-  const LocalVariation local = local_variation(system_, state_, variation, slots);
-  const VectorX by_position = gradient.position(), by_rate = gradient.rate();
-  return by_position.cast<Complex>().dot(local.position) + by_rate.cast<Complex>().dot(local.rate);
-}
-
-double LinearResponse::direct(const ResponseOutput& output, const ResponseInput& input) const {
-  if (output.node >= 0 || input.node >= 0) return 0;
-  const Measure& measure = *measure_named<Measure>(system_.model(), output.name);
-  const Slots& slots = system_.slots_of(measure);
-  const InputStep step = step_of(input.name);
-  const State ahead = with(step, 1), behind = with(step, -1);
-  return (measure.value(LocalState(ahead, slots, environment_)) -
-          measure.value(LocalState(behind, slots, environment_))) /
-         (2 * step.size);
-}
-
-std::string LinearResponse::units(const ResponseOutput& output) const {
-  if (output.node >= 0) return output.rotation ? "rad" : "m";
-  return measure_named<Measure>(system_.model(), output.name)->units();
-}
-
-LinearResponse::InputStep LinearResponse::step_of(const std::string& name) const {
-  const int place = system_.slots_of(*measure_named<InputMeasure>(system_.model(), name)).memory_begin;
-  return {place, 1e-4 * std::max(1.0, std::abs(state_.memory[place]))};
-}
-
-State LinearResponse::with(const InputStep& step, double steps) const {
-  State state = state_;
-  state.memory[step.place] += steps * step.size;
-  return state;
+LinearMotion LinearResponse::motion(Complex s, const Eigen::VectorXcd& solution) const {
+  const LinearisedEquations& e = equations();
+  LinearMotion motion{solution.head(e.unknowns()), {}, solution.tail(e.constraints())};
+  motion.rate = s * motion.u + e.W * motion.u;
+  return motion;
 }
 
 void check_response_names(const Model& model, const std::vector<ResponseInput>& inputs,

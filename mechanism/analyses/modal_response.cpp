@@ -15,10 +15,10 @@ constexpr int reference_points = 4;
 /// Outputs of a motion exp(s t), given by its unknowns and multipliers.
 Eigen::VectorXcd outputs_of(const LinearResponse& response, const FrequencyResponseOptions& options,
                             const ModalPole& pole) {
-  const Variation variation = response.motion(pole.s, pole.right);
+  const LinearMotion motion = response.motion(pole.s, pole.right);
   Eigen::VectorXcd outputs(options.outputs.size());
   for (std::size_t i = 0; i < options.outputs.size(); ++i)
-    outputs[static_cast<Eigen::Index>(i)] = response.value(options.outputs[i], variation);
+    outputs[static_cast<Eigen::Index>(i)] = response.value(options.outputs[i], motion);
   return outputs;
 }
 

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "mechanism/analyses/linear_response.hpp"
-#include "mechanism/analyses/standing_state.hpp"
-#include "mechanism/analyses/turning_equations.hpp"
+#include "mechanism/analyses/response_equations.hpp"
 #include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
 #include "reduce/common/error.hpp"
@@ -22,9 +19,13 @@ using MatrixXc = Eigen::MatrixXcd;
 
 class StateSpaceBuilder {
  public:
-  StateSpaceBuilder(const System& system, const LinearResponse& response, const LinearisedEquations& equations,
-                    const StateSpaceOptions& options, const ShiftedOperator& T)
-      : system_(system), response_(response), e_(equations), options_(options), T_(T), finite_(equations, T) {}
+  StateSpaceBuilder(const ResponseEquations& equations, const StateSpaceOptions& options, const ShiftedOperator& T)
+      : response_(equations.response()),
+        e_(equations.equations()),
+        rows_(equations.rows()),
+        options_(options),
+        T_(T),
+        finite_(e_, T) {}
 
   StateSpace build() {
     StateSpace result;
@@ -35,7 +36,7 @@ class StateSpaceBuilder {
     result.A = MatrixX::Identity(states, states) + T_.shift().real() * finite_.Tf();
     result.B = MatrixX::Zero(states, inputs);
     for (Eigen::Index j = 0; j < inputs; ++j) {
-      const Variation answer = response_.answer(T_, rights_[static_cast<std::size_t>(j)]);
+      const LinearMotion answer = response_.answer(T_, rights_[static_cast<std::size_t>(j)]);
       VectorX x(e_.states());
       x << answer.u.real(), answer.rate.head(e_.dofs).real();
       result.B.col(j) = -finite_.coordinates(VectorX(x.cwiseQuotient(T_.scale())));
@@ -49,7 +50,9 @@ class StateSpaceBuilder {
     for (Eigen::Index i = 0; i < outputs; ++i)
       for (Eigen::Index j = 0; j < inputs; ++j)
         if (std::abs(result.D(i, j)) <= rounding * (sizes(i, j) + std::abs(H(i, j)))) result.D(i, j) = 0;
-    result.unknowns = T_.scale().head(e_.unknowns()).asDiagonal() * finite_.V().topRows(e_.unknowns());
+    result.unknowns.resize(static_cast<Eigen::Index>(rows_.size()), states);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      result.unknowns.row(static_cast<Eigen::Index>(i)) = T_.scale()[rows_[i]] * finite_.V().row(rows_[i]);
     for (const ResponseOutput& output : options_.outputs) result.output_units.push_back(response_.units(output));
     check(result);
     return result;
@@ -69,12 +72,10 @@ class StateSpaceBuilder {
     const MatrixX y_rates = finite_.times_inverse(y) + T_.shift().real() * y;
     MatrixX C(outputs, states);
     for (Eigen::Index k = 0; k < states; ++k) {
-      Variation variation{x.col(k).head(n).cast<Complex>(), Eigen::VectorXcd(n),
-                          Eigen::VectorXcd::Zero(system_.multipliers())};
-      variation.rate << x.col(k).tail(e_.dofs).cast<Complex>(), y_rates.col(k).cast<Complex>();
-      for (int c = 0; c < m; ++c) variation.multiplier[e_.multiplier[static_cast<std::size_t>(c)]] = multipliers(c, k);
+      LinearMotion motion{x.col(k).head(n).cast<Complex>(), Eigen::VectorXcd(n), multipliers.col(k).cast<Complex>()};
+      motion.rate << x.col(k).tail(e_.dofs).cast<Complex>(), y_rates.col(k).cast<Complex>();
       for (Eigen::Index i = 0; i < outputs; ++i)
-        C(i, k) = response_.value(options_.outputs[static_cast<std::size_t>(i)], variation).real();
+        C(i, k) = response_.value(options_.outputs[static_cast<std::size_t>(i)], motion).real();
     }
     return C;
   }
@@ -83,10 +84,10 @@ class StateSpaceBuilder {
   MatrixXc exact(const ShiftedOperator& D) const {
     MatrixXc H(options_.outputs.size(), options_.inputs.size());
     for (std::size_t j = 0; j < options_.inputs.size(); ++j) {
-      const Variation variation = response_.answer(D, rights_[j]);
+      const LinearMotion motion = response_.answer(D, rights_[j]);
       for (std::size_t i = 0; i < options_.outputs.size(); ++i)
         H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            response_.value(options_.outputs[i], variation) + response_.direct(options_.outputs[i], options_.inputs[j]);
+            response_.value(options_.outputs[i], motion) + response_.direct(options_.outputs[i], options_.inputs[j]);
     }
     return H;
   }
@@ -114,9 +115,9 @@ class StateSpaceBuilder {
               options_.outputs[static_cast<std::size_t>(i)].name, options_.inputs[static_cast<std::size_t>(j)].name));
   }
 
-  const System& system_;
   const LinearResponse& response_;
   const LinearisedEquations& e_;
+  const std::vector<int>& rows_;
   const StateSpaceOptions& options_;
   const ShiftedOperator& T_;
   FiniteStates finite_;
@@ -135,19 +136,8 @@ double slowest_motion(const LinearisedEquations& equations) {
 }  // namespace
 
 StateSpace compute_state_space(Session& session, const StateSpaceOptions& options) {
-  const System& system = session.system();
-  check_response_names(session.model(), options.inputs, options.outputs);
-  const StandingState about = standing_state(session, options.rotation);
-  std::optional<TurningEquations> turning;
-  if (options.rotation && options.rotation->joint) turning.emplace(system, about, *options.rotation);
-  if (turning && !turning->periodic.constant())
-    throw ComputationError(
-        "there is no state space with constant matrices: the equations are periodic in axes that turn with what is "
-        "behind the joint (`eigen` and `frequency_response` are possible)");
-  const LinearisedSetting setting =
-      turning ? turning->setting({}) : linearised_setting(system, about.environment, about.state);
-  const LinearisedEquations equations =
-      turning ? turning->periodic.first() : linearised_equations(system, about.environment, about.state, setting.axes);
+  const ResponseEquations response(session, options.inputs, options.outputs, options.rotation);
+  const LinearisedEquations& equations = response.equations();
   constexpr int most = 4000;  // largest number of states, because the matrices are dense
   if (equations.states() > most)
     throw ComputationError(fmt::format(
@@ -159,9 +149,8 @@ StateSpace compute_state_space(Session& session, const StateSpaceOptions& option
   for (const double factor : factors) {
     const ShiftedOperator T(equations, factor * std::sqrt(slowest * fastest));
     if (!T.regular()) continue;
-    const LinearResponse response(system, about, equations);
-    StateSpace result = StateSpaceBuilder(system, response, equations, options, T).build();
-    static_cast<LinearisedSetting&>(result) = setting;
+    StateSpace result = StateSpaceBuilder(response, options, T).build();
+    static_cast<LinearisedSetting&>(result) = response.setting();
     return result;
   }
   throw ComputationError("the linearised equations are singular whatever the frequency (`eigen` says of what)");

@@ -45,23 +45,25 @@ class TurnedEquations {
         forces_(system, environment, &part),
         turning_(part.turning_unknowns(system)) {}
 
-  LinearisedEquations at(double angle) {
+  Azimuth at(double angle) {
     State turned = state_;
     part_.turn_by(angle, turned);
-    const Sparse axes = turning_axes(angle);
+    Sparse axes = turning_axes(angle);
     VectorX residual(system_.size());
     forces_.residual(turned, residual);
     if (rows_.empty()) {
-      const LinearisedEquations here =
+      LinearisedEquations here =
           linearised_equations(system_, turned, ModeAxes::turning, forces_.matrices(turned), residual);
       rows_ = rows_of_members(system_, here.multiplier);
       first_ = Sparse((here.B * axes).transpose());
-      return here;
+      Sparse rows(here.constraints(), here.constraints());
+      rows.setIdentity();
+      return {std::move(turned), std::move(here), std::move(axes), std::move(rows)};
     }
     // Multipliers keep their forces in the combined rows.
     const LinearisedEquations before =
         linearised_equations(system_, turned, ModeAxes::turning, forces_.matrices(turned), residual);
-    const Sparse rows = combined_rows(Sparse((before.B * axes).transpose()));
+    Sparse rows = combined_rows(Sparse((before.B * axes).transpose()));
     VectorX active(before.constraints());
     for (int k = 0; k < before.constraints(); ++k)
       active[k] = turned.multiplier[before.multiplier[static_cast<std::size_t>(k)]];
@@ -78,7 +80,7 @@ class TurnedEquations {
     here.B = Sparse(rows * here.B * axes);
     here.S = Sparse(rows * here.S * axes);
     here.F = Sparse(axes.transpose() * here.F * rows.transpose());
-    return here;
+    return {std::move(turned), std::move(here), std::move(axes), std::move(rows)};
   }
 
  private:
@@ -196,11 +198,19 @@ class TurnedEquations {
 
 }  // namespace
 
+std::vector<Azimuth> azimuths_over_turn(const System& system, const Environment& environment, const State& state,
+                                        const TurningPart& part, int count) {
+  TurnedEquations turned(system, environment, state, part);
+  std::vector<Azimuth> azimuths;
+  for (int k = 0; k < count; ++k) azimuths.push_back(turned.at(2 * std::numbers::pi * k / count));
+  return azimuths;
+}
+
 std::vector<LinearisedEquations> equations_over_turn(const System& system, const Environment& environment,
                                                      const State& state, const TurningPart& part, int count) {
-  TurnedEquations turned(system, environment, state, part);
   std::vector<LinearisedEquations> equations;
-  for (int k = 0; k < count; ++k) equations.push_back(turned.at(2 * std::numbers::pi * k / count));
+  for (Azimuth& each : azimuths_over_turn(system, environment, state, part, count))
+    equations.push_back(std::move(each.equations));
   return equations;
 }
 

@@ -13,9 +13,22 @@
 
 namespace bielle::mechanism {
 
+/// The mechanism at one azimuth.
+struct Azimuth {
+  State state;                    ///< the mean state, turned, with its multipliers
+  LinearisedEquations equations;  ///< W is the same for all azimuths
+  /// (n, n) increments in the unknowns of the system for unit increments in turning axes: u = axes y.
+  LinearisedEquations::Sparse axes;
+  /// (constraints, constraints) combination of the rows of the system; multipliers are lambda = rows^T l.
+  LinearisedEquations::Sparse rows;
+};
+
 /// @param state  the mean state in steady rotation @param count  number of azimuths
-/// @returns the equations at psi = 2 pi k / count; W is the same for all
+/// @returns the mechanism at psi = 2 pi k / count
 /// @throws ComputationError if the turned state is no equilibrium: if some force depends on the azimuth
+std::vector<Azimuth> azimuths_over_turn(const System& system, const Environment& environment, const State& state,
+                                        const TurningPart& part, int count);
+/// Returns their equations alone.
 std::vector<LinearisedEquations> equations_over_turn(const System& system, const Environment& environment,
                                                      const State& state, const TurningPart& part, int count);
 

@@ -115,6 +115,10 @@ PeriodicEquations::PeriodicEquations(const std::vector<LinearisedEquations>& azi
   for (const HarmonicMatrix* each : {&M_, &C_, &K_, &B_, &S_, &F_}) constant_ = constant_ && !varies(*each);
 }
 
+double PeriodicEquations::function(int p, double psi) {
+  return (p > 0 ? std::numbers::sqrt2 : 1) * harmonic_function(p, psi);
+}
+
 int PeriodicEquations::index(int function, int unknown, int h) const {
   const int n = first_.unknowns(), d = first_.dofs, functions = 2 * h + 1;
   return unknown < d ? function * d + unknown : functions * d + function * (n - d) + unknown - d;

@@ -34,6 +34,8 @@ class PeriodicEquations {
   const LinearisedEquations& first() const { return first_; }  ///< the equations at azimuth 0
   /// Returns the equations of the harmonics up to h; for h = 0 the mean equations.
   LinearisedEquations of_harmonics(int h) const;
+  /// Value of e_p at an azimuth [rad].
+  static double function(int p, double psi);
   /// Index of an unknown of u in the equations of the harmonics. @param function  p of f_p
   int index(int function, int unknown, int h) const;
   /// Returns the complex amplitudes of exp((s + i k rate) t), k = -h .. h, in columns. @param y  (unknowns, or dofs, of

@@ -1,9 +1,8 @@
-// Rotors behind a joint over their speed and at rest, and responses of what stands, against closed forms.
+// Rotors behind a joint over their speed and at rest, against closed forms.
 #include <algorithm>
 #include <cmath>
 
 #include "mechanism/analyses/campbell.hpp"
-#include "mechanism/analyses/frequency_response.hpp"
 #include "mechanism/analyses/mode_names.hpp"
 #include "tests/benchmarks/linearised/turning_models.hpp"
 #include "tests/support/messages.hpp"
@@ -22,16 +21,6 @@ ModesReport modes_behind(const ModesOf& model, double rate, int count) {
   options.rotation->joint = model.file.model.members_of({Section::joints, "shaft"}).front();
   options.rotation->rate = rate;
   return compute_modes(model.session, options);
-}
-
-/// A disc on a massless bearing with springs, along z.
-std::string disc_on_springs(double mass, const std::string& inertia, const std::string& springs) {
-  return fmt::format(
-      "nodes: {{hub: {{}}, disc: {{}}}}\n"
-      "elements: {{disc: {{type: rigid_body, node: disc, mass: {}, inertia: {}}}}}\n"
-      "joints:\n  mount: {{type: bushing, nodes: [ground, hub], stiffness: {}}}\n"
-      "  shaft: {{type: hinge, nodes: [hub, disc], position: [0, 0, 0], axis: [0, 0, 1]}}\n",
-      mass, inertia, springs);
 }
 
 std::string uniform_beam(const char* name, const char* from, const char* to, int elements) {
@@ -139,33 +128,6 @@ TEST_CASE("the flap of four blades against each other has Southwell's frequency,
   double nearest = INFINITY;
   for (const double rate : rates_of(report)) nearest = std::min(nearest, std::abs(rate - flap));
   CHECK(nearest < 1e-3 * flap);
-}
-
-TEST_CASE("what stands under an unsymmetric rotor in balance responds as a mass on a spring", "[linearised]") {
-  constexpr double m = 5, kx = 2e5, kz = 3e5;
-  const ModesOf model(disc_on_springs(m, "[0.02, 0.03, 0.04]", "[2e5, 1.2e5, 3e5, 800, 500, 500]"));
-  FrequencyResponseOptions options;
-  options.rotation = SteadyRotation{};
-  options.rotation->joint = model.file.model.members_of({Section::joints, "shaft"}).front();
-  options.rotation->rate = 30;
-  const int hub = *model.file.model.find_node("hub"), disc = *model.file.model.find_node("disc");
-  options.inputs = {{"force x of node 'hub'", hub, false, Vector3::UnitX()},
-                    {"force z of node 'hub'", hub, false, Vector3::UnitZ()}};
-  options.outputs = {{"displacement x of node 'hub'", hub, false, Vector3::UnitX()},
-                     {"displacement z of node 'hub'", hub, false, Vector3::UnitZ()}};
-  options.frequencies = {1, 7, 40, 100};  // at 0 Hz the rotor turns without any force
-  const FrequencyResponse found = compute_frequency_response(model.session, options);
-  CHECK(found.turning->periodicity == Periodicity::periodic);
-  for (std::size_t f = 0; f < options.frequencies.size(); ++f) {
-    const double w = two_pi * options.frequencies[f];
-    CAPTURE(w);
-    CHECK(std::abs(found.response[f](0, 0) * (kx - m * w * w) - 1.0) < 1e-9);
-    CHECK(std::abs(found.response[f](1, 1) * (kz - m * w * w) - 1.0) < 1e-9);
-    CHECK(std::abs(found.response[f](0, 1)) < 1e-12);
-  }
-  options.outputs = {{"displacement x of node 'disc'", disc, false, Vector3::UnitX()}};
-  CHECK_THROWS_WITH(compute_frequency_response(model.session, options),
-                    Catch::StartsWith("displacement x of node 'disc': the equations are periodic"));
 }
 
 TEST_CASE("a diagram of blades without `rotation` has no critical speeds", "[linearised]") {

@@ -1,4 +1,4 @@
-// A rigid hub on supports with lagging blades, as a model and as equations of the tests' own.
+// Rotors on supports: a disc; and a rigid hub with lagging blades, also as equations of the tests' own.
 #pragma once
 
 #include <cmath>
@@ -13,6 +13,16 @@
 #include "tests/support/eigenvalues.hpp"
 
 namespace bielle::test {
+
+/// A disc on a massless bearing with springs, along z.
+inline std::string disc_on_springs(double mass, const std::string& inertia, const std::string& springs) {
+  return fmt::format(
+      "nodes: {{hub: {{}}, disc: {{}}}}\n"
+      "elements: {{disc: {{type: rigid_body, node: disc, mass: {}, inertia: {}}}}}\n"
+      "joints:\n  mount: {{type: bushing, nodes: [ground, hub], stiffness: {}}}\n"
+      "  shaft: {{type: hinge, nodes: [hub, disc], position: [0, 0, 0], axis: [0, 0, 1]}}\n",
+      mass, inertia, springs);
+}
 
 /// C. E. Hammond, J. Am. Helicopter Soc. 19 (1974) 14: hub of mass M on springs and dampers in its plane, blades with
 /// lag hinges at the radius e, first moment S and inertia J about the hinge, lag dampers c and springs k.
@@ -37,8 +47,11 @@ struct LagRotor {
     return text;
   }
 
-  /// x' = A(psi) x with x = [x, y, zeta_k; rates], by Lagrange's equations of small lag angles.
-  Eigen::MatrixXd A(double psi) const {
+  /// M x'' + C x' + K x = 0 of x = [x, y, zeta_k] at the azimuth psi, by Lagrange's equations of small lag angles.
+  struct Matrices {
+    Eigen::MatrixXd mass, damping, stiffness;
+  };
+  Matrices matrices(double psi) const {
     const int n = 2 + blades;
     Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n), damping = mass, stiffness = mass;
     mass(0, 0) = mass(1, 1) = M + blades * m + 1e-3;
@@ -58,6 +71,13 @@ struct LagRotor {
       stiffness(0, i) = S * rate * rate * s;
       stiffness(1, i) = -S * rate * rate * co;
     }
+    return {mass, damping, stiffness};
+  }
+
+  /// z' = A(psi) z with z = [x; x'].
+  Eigen::MatrixXd A(double psi) const {
+    const auto [mass, damping, stiffness] = matrices(psi);
+    const Eigen::Index n = mass.rows();
     const Eigen::MatrixXd inverse = mass.inverse();
     Eigen::MatrixXd first = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     first.topRightCorner(n, n).setIdentity();

@@ -1,0 +1,42 @@
+#include "mechanism/analyses/response_equations.hpp"
+
+#include <numeric>
+
+#include "mechanism/analyses/steady_response.hpp"
+#include "mechanism/analyses/turning_response.hpp"
+
+namespace bielle::mechanism {
+
+ResponseEquations::ResponseEquations(Session& session, const std::vector<ResponseInput>& inputs,
+                                     const std::vector<ResponseOutput>& outputs,
+                                     const std::optional<SteadyRotation>& rotation) {
+  const System& system = session.system();
+  check_response_names(session.model(), inputs, outputs);
+  about_ = standing_state(session, rotation);
+  if (rotation && rotation->joint) turning_.emplace(system, about_, *rotation);
+  if (turning_ && !turning_->periodic.constant()) {
+    make_turning(system);
+    return;
+  }
+  setting_ = turning_ ? turning_->setting({}) : linearised_setting(system, about_.environment, about_.state);
+  equations_ = turning_ ? turning_->periodic.first()
+                        : linearised_equations(system, about_.environment, about_.state, setting_.axes);
+  rows_.resize(static_cast<std::size_t>(equations_.unknowns()));
+  std::iota(rows_.begin(), rows_.end(), 0);
+  response_ = std::make_unique<SteadyResponse>(system, about_.state, about_.environment, equations_);
+}
+
+/// The slowest modes tell how many harmonics are needed.
+void ResponseEquations::make_turning(const System& system) {
+  ModeOptions slow;
+  slow.count = 10;
+  HarmonicModes modes = turning_->search().find(slow);
+  setting_ = turning_->setting(modes);
+  harmonics_ = modes.harmonics;
+  equations_ = std::move(modes.equations);
+  for (int i = 0; i < turning_->periodic.first().unknowns(); ++i)
+    rows_.push_back(turning_->periodic.index(0, i, harmonics_));
+  response_ = std::make_unique<TurningResponse>(system, about_, *turning_, equations_, harmonics_);
+}
+
+}  // namespace bielle::mechanism
