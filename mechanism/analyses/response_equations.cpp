@@ -1,5 +1,6 @@
 #include "mechanism/analyses/response_equations.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "mechanism/analyses/steady_response.hpp"
@@ -15,7 +16,7 @@ ResponseEquations::ResponseEquations(Session& session, const std::vector<Respons
   about_ = standing_state(session, rotation);
   if (rotation && rotation->joint) turning_.emplace(system, about_, *rotation);
   if (turning_ && !turning_->periodic.constant()) {
-    make_turning(system);
+    make_turning(system, inputs);
     return;
   }
   setting_ = turning_ ? turning_->setting({}) : linearised_setting(system, about_.environment, about_.state);
@@ -26,14 +27,20 @@ ResponseEquations::ResponseEquations(Session& session, const std::vector<Respons
   response_ = std::make_unique<SteadyResponse>(system, about_.state, about_.environment, equations_);
 }
 
-/// The slowest modes tell how many harmonics are needed.
-void ResponseEquations::make_turning(const System& system) {
+/// The slowest modes tell how many harmonics a motion has about that of its standing part. A force on a turning node,
+/// of the harmonics +-1 in turning axes, moves the standing part at the harmonics up to +-2; so may an input of the
+/// model.
+void ResponseEquations::make_turning(const System& system, const std::vector<ResponseInput>& inputs) {
   ModeOptions slow;
   slow.count = 10;
-  HarmonicModes modes = turning_->search().find(slow);
+  const HarmonicModes modes = turning_->search().find(slow);
+  const bool standing = std::all_of(inputs.begin(), inputs.end(), [&](const ResponseInput& input) {
+    return input.node >= 0 && !turning_->part.turns(input.node);
+  });
+  harmonics_ = modes.harmonics + (standing ? 0 : 2);
   setting_ = turning_->setting(modes);
-  harmonics_ = modes.harmonics;
-  equations_ = std::move(modes.equations);
+  setting_.turning->harmonics = harmonics_;
+  equations_ = turning_->periodic.of_harmonics(harmonics_);
   for (int i = 0; i < turning_->periodic.first().unknowns(); ++i)
     rows_.push_back(turning_->periodic.index(0, i, harmonics_));
   response_ = std::make_unique<TurningResponse>(system, about_, *turning_, equations_, harmonics_);

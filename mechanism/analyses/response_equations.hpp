@@ -27,7 +27,7 @@ class ResponseEquations {
   const std::vector<int>& rows() const { return rows_; }
 
  private:
-  void make_turning(const System& system);
+  void make_turning(const System& system, const std::vector<ResponseInput>& inputs);
 
   StandingState about_;
   std::optional<TurningEquations> turning_;

@@ -105,10 +105,11 @@ class StateSpaceBuilder {
       factors.solve(found.B, answers);
     }
     const MatrixX ours = found.C * answers + found.D, sizes = found.C.cwiseAbs() * answers.cwiseAbs();
-    constexpr double agrees = 1e-6;
+    constexpr double agrees = 1e-6, rounding = 1e-12;
     for (Eigen::Index i = 0; i < H.rows(); ++i)
       for (Eigen::Index j = 0; j < H.cols(); ++j)
-        if (!(std::abs(H(i, j) - ours(i, j)) <= agrees * (std::abs(H(i, j)) + sizes(i, j))))
+        if (!(std::abs(H(i, j) - ours(i, j)) <=
+              agrees * (std::abs(H(i, j)) + sizes(i, j)) + rounding * found.C.row(i).norm() * answers.col(j).norm()))
           throw ComputationError(fmt::format(
               "a state space cannot have the output '{}' of the input '{}': it follows the input's derivatives, as "
               "reactions and velocities do where an input prescribes a motion (`frequency_response` can)",

@@ -133,12 +133,9 @@ TEST_CASE("a generator's torque turns a rotor against its support", "[linearised
   // J (phi + theta)'' = T, k phi = -T: the angle of the shaft is theta.
   constexpr double J = 0.01, k = 500;
   Turning rotor(disc_on_springs(5, "[0.02, 0.03, 0.01]", "[2e5, 1.2e5, 3e5, 800, 500, 500]") +
-                "inputs: {torque: {start: 0, units: N m}}
-                "
-                "drives: {generator: {joint: shaft, torque: torque}}
-                "
-                "measures: {speed: shaft.angle.rate, effort: torque + 0*shaft.angle}
-                ",
+                    "inputs: {torque: {start: 0, units: N m}}\n"
+                    "drives: {generator: {joint: shaft, torque: torque}}\n"
+                    "measures: {speed: shaft.angle.rate, effort: torque + 0*shaft.angle}\n",
                 30);
   rotor.options.inputs = {{"torque", -1, false, Vector3::Zero()}};
   rotor.options.outputs = {{"speed", -1, false, {}}, {"effort", -1, false, {}}};
@@ -164,7 +161,7 @@ TEST_CASE("forces on blades move blades as periodic equations say, also with a d
   rotor.force("blade_1", Vector3::UnitX());
   rotor.moves("blade_0", Vector3::UnitX());
   rotor.moves("blade_2", Vector3::UnitX());
-  rotor.options.frequencies = {0, 0.7, 2.3, 6};
+  rotor.options.frequencies = {0.3, 0.7, 2.3, 6};  // at 0 Hz the rotor turns without any force
   const FrequencyResponse found = rotor.responses();
   CHECK(found.turning->periodicity == (whole ? Periodicity::multiblade : Periodicity::periodic));
   for (std::size_t f = 0; f < rotor.options.frequencies.size(); ++f) {
