@@ -12,7 +12,7 @@ from command import PROGRAMS, CommandTest
 from in_folder import REPOSITORY
 
 FALLING = "{nodes: {a: {fixed: [rx, ry, rz]}}, elements: {a: {type: point_mass, node: a, mass: 1}}, analysis: [{type: dynamic, duration: 0.1, step: 0.1}]}"
-WITHOUT_ANALYSIS = "{nodes: {a: {}}}\n"
+WITHOUT_ANALYSIS = "{nodes: {a: {}}, elements: {a: {type: point_mass, node: a, mass: 1}}}\n"
 
 
 class Explain(CommandTest):
