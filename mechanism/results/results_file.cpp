@@ -9,6 +9,7 @@
 #include "mechanism/results/results_stream.hpp"
 #include "mechanism/results/step_log.hpp"
 #include "mechanism/system/system.hpp"
+#include "reduce/common/build.hpp"
 
 namespace bielle::mechanism {
 
@@ -62,7 +63,7 @@ ResultsFile::ResultsFile(const std::string& path, const Model& model, const std:
   file.write_attribute("/", "version", version_of(stream_->layout()));
   file.write_attribute("/", "layout", std::string(layout_name(stream_->layout())));
   file.write_attribute("/", "name", model.title);
-  file.write_attribute("/", "created_by", std::string("bielle-mechanism ") + BIELLE_VERSION);
+  file.write_attribute("/", "created_by", created_by("bielle-mechanism"));
   begin_run(*stream_, input_text);
 }
 

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <sched.h>
 
+#include "reduce/common/build.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/common/explanations.hpp"
 
 namespace bielle {
 
@@ -36,7 +38,8 @@ int available_processors() {
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
   options.threads = available_processors();
-  app.set_version_flag("--version", app.get_name() + " " + BIELLE_VERSION, "Print the version and exit");
+  app.set_version_flag("--version", version_text(app.get_name()),
+                       "Print version, commit, build and libraries, and exit");
   app.add_option("--threads", options.threads, "Threads to work with")
       ->type_name("N")
       ->capture_default_str()
@@ -44,6 +47,9 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
         int threads = 0;
         return CLI::detail::lexical_cast(text, threads) && threads >= 1 ? "" : "expected a whole number of at least 1";
       });
+  app.add_option("--explain", "explain a message: its name, or the message itself, in quotes; `all` lists the names")
+      ->type_name("TEXT")
+      ->expected(1);
   app.add_flag("--quiet", options.quiet, "Print errors and warnings only");
 }
 
@@ -68,6 +74,10 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
     throw InputError(fmt::format("'{}' is one argument too many{}", extras.empty() ? "" : extras.front(), hint));
   } catch (const CLI::ParseError& error) {
     throw InputError(error.what() + hint);
+  }
+  if (const CLI::Option* asked = app.get_option_no_throw("--explain"); asked != nullptr && asked->count() > 0) {
+    fmt::print("{}", explain(read_explanations(explanation_pages()), asked->as<std::string>()));
+    return false;
   }
   return true;
 }

@@ -14,12 +14,14 @@ struct CommonOptions {
   bool quiet = false;
 };
 
-/// Adds `--version`, `--threads N` (1 or more; default: the processors that this process may use) and `--quiet`;
+/// Adds `--version`, `--explain TEXT`, `--threads N` (1 or more; default: the processors that this process may use) and
+/// `--quiet`;
 /// `--help` is CLI11's own.
 void add_common_options(CLI::App& app, CommonOptions& options);
 
 /// Parses the command line.
-/// @returns false when `--help` or `--version` was given and has been printed: the program ends with status 0
+/// @returns false when `--help`, `--version` or `--explain` was given and has been printed: the program ends with
+/// status 0
 /// @throws InputError in one line, naming the nearest option where one is unknown
 bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
 

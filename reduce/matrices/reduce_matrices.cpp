@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/build.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
@@ -168,7 +169,7 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   const Eigen::Index kept = ties.carry.cols(), modes = basis.eigenvalues.size(), size = kept + modes;
   Superelement body;
   body.name = options.name.empty() ? set.name : options.name;
-  body.created_by = "bielle-reduce " BIELLE_VERSION;
+  body.created_by = created_by("bielle-reduce");
   body.input = options.input_text.empty() ? fmt::format("# from {}\n", set.source) : options.input_text;
   body.interfaces = ties.interfaces;
   body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);

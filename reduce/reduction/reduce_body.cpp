@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/build.hpp"
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/dense/dense_products.hpp"
@@ -108,7 +109,7 @@ Superelement described_body(const ReductionOptions& options, const MassPropertie
                             const Basis& basis) {
   Superelement body;
   body.name = options.name;
-  body.created_by = "bielle-reduce " BIELLE_VERSION;
+  body.created_by = created_by("bielle-reduce");
   body.input = options.input_text;
   body.interfaces = ties.interfaces;
   body.frequencies = basis.eigenvalues.cwiseSqrt() / (2 * std::numbers::pi);

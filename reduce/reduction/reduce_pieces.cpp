@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/build.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/fe/solid.hpp"
 #include "reduce/reduction/added_masses.hpp"
@@ -87,7 +88,7 @@ CutBody reduce_pieces(const Mesh& mesh, const std::vector<CutPlane>& planes, con
   const CutMesh cut = cut_mesh(mesh, planes, options.interfaces.empty() ? "" : options.interfaces.front().group);
   CutBody body;
   body.name = options.name;
-  body.created_by = "bielle-reduce " BIELLE_VERSION;
+  body.created_by = created_by("bielle-reduce");
   body.input = options.input_text;
   body.cuts = cut_surfaces(cut);
   const std::vector<ReductionOptions> of_pieces = piece_options(mesh, cut, planes, body.cuts, options, request.tie);

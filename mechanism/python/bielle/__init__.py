@@ -22,11 +22,12 @@ A model is the same as in a file of bielle-mechanism: a YAML file, a text, or a 
 `load` and `read` make a `Model`, `Model.session` a `Session`, `Session.dynamics` a `Motion`; `run` gives a `Run` of
 `Results`. Units are SI and radians. A request that cannot be satisfied raises `InputError` or
 `ComputationError`, with the messages of the programs. mechanism/README.md describes the model, mechanism/io/README.md the names of results.
-`superelement` makes a superelement of matrices. `bielle.rotations` has the parametrisations of rotations, with their rates.
+`superelement` makes a superelement of matrices, `explain` explains a message. `bielle.rotations` has the parametrisations of rotations, with their rates.
 """
 
 from . import rotations
-from ._core import ComputationError, Error, InputError, Node, State
+from ._core import ComputationError, Error, InputError, Node, State, explain
+from ._core import commit as __commit__
 from ._core import version as __version__
 from .models import Model, load, read
 from .motions import Motion
@@ -37,8 +38,8 @@ from .superelements import superelement
 from .views import View, view
 
 __all__ = ["ComputationError", "Dataset", "Error", "Event", "InputError", "Inputs", "Model", "Motion", "Node", "Recording",
-           "Results", "Run", "Session", "State", "View", "load", "read", "rotations", "run", "superelement", "view",
-           "__version__"]
+           "Results", "Run", "Session", "State", "View", "explain", "load", "read", "rotations", "run", "superelement",
+           "view", "__commit__", "__version__"]
 
 for _each in (Node, State):
     _each.__module__ = "bielle"

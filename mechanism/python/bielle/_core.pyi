@@ -6,6 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 version: str
+commit: str
+
+
+def explain(text: str) -> str:
+    """Cause and cure of a message: its name, the message itself, or words; `all` lists the names."""
 
 class Error(Exception): ...
 class InputError(Error): ...

@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include <unistd.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/explanations.hpp"
 #include "reduce/common/process/address_space.hpp"
 
 namespace bielle {
@@ -67,11 +69,20 @@ void finish_standard_output() {
   throw ComputationError(output_fault(errno == EPIPE));
 }
 
+/// A line that leads from a message to its explanation, if there is one. Only a reader at a terminal gets it: scripts
+/// find one line for each error.
+std::string hint(const std::string& program, const std::string& message) {
+  if (isatty(STDERR_FILENO) == 0) return "";
+  const std::vector<Explanation> explanations = read_explanations(explanation_pages());
+  const Explanation* found = explanation_of(explanations, message);
+  return found == nullptr ? "" : fmt::format("{} --explain {} says more\n", program, found->name);
+}
+
 }  // namespace
 
 int run_program(const std::string& program, int (*body)(int argc, char** argv), int argc, char** argv) {
   const auto report = [&](const std::string& message, int status) {
-    std::fputs(fmt::format("{}: error: {}\n", program, message).c_str(), stderr);
+    std::fputs(fmt::format("{}: error: {}\n{}", program, message, hint(program, message)).c_str(), stderr);
     return status;
   };
   open_closed_streams();

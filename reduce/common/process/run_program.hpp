@@ -7,7 +7,7 @@ namespace bielle {
 
 /// Runs a program's body and converts its outcome to the exit status: 0, 1 (InputError), 2 (ComputationError and all
 /// unexpected errors, also output that cannot be written). Prints one line `<program>: error: <message>` on standard
-/// error.
+/// error; on a terminal a second one names the explanation of the message (`--explain`), if there is one.
 ///
 /// Closed standard streams are opened to /dev/null, so that no results file gets their numbers; a run continues if the
 /// reader of standard error closes it.

@@ -51,6 +51,16 @@ class Models(WithModel):
         self.assertIn("did you mean 'damping'?", sentence)
         self.assertIn("model.yaml:11: joints.shoulder:", sentence)
 
+    def test_messages_are_explained(self):
+        message = "t = 0.1 s: the equations are singular at rz of node 'wheel': it has no mass"
+        self.assertTrue(bielle.explain(message).startswith("singular-equations\n"))
+        self.assertRegex(bielle.explain("all"), r"(?m)^singular-equations  ")
+        with self.assertRaisesRegex(bielle.InputError, "did you mean 'singular-equations'"):
+            bielle.explain("singular-equatons")
+        with self.assertRaises(TypeError):
+            bielle.explain(7)
+        self.assertRegex(bielle.__commit__, r"^([0-9a-f]{12}(-modified)?|unknown)$")
+
     def test_a_missing_file(self):
         self.expect_same_refusal(bielle.InputError, 1, os.path.join(self.folder, "nowhere.yaml"))
 

@@ -10,10 +10,11 @@ LIBRARIES = ("openblas", "blas", "lapack", "cholmod", "umfpack", "spqr", "arpack
              "stdc++")
 
 
-def described(programs, repository):
+def described(programs):
     """Pairs of a name and a text for the head of the report."""
     program = os.path.join(programs, "bielle-mechanism")
-    facts = [("program", " ".join(filter(None, (_output([program, "--version"]), _commit(repository))))),
+    version, *more = _output([program, "--version"]).splitlines() or [""]
+    facts = [("program", version), *(tuple(line.split(maxsplit=1)) for line in more if not line.startswith("libraries")),
              ("date", datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")),
              ("processor", _first(r"^model name\s*:\s*(.*)$", "/proc/cpuinfo") or platform.machine()),
              ("cores", f"{len(os.sched_getaffinity(0))} available of {os.cpu_count()}; load before the run "
@@ -40,13 +41,6 @@ def _output(command):
         return subprocess.run(command, capture_output=True, text=True, timeout=20, check=False).stdout.strip()
     except OSError:
         return ""
-
-
-def _commit(repository):
-    """The commit of the sources, and whether they were changed since."""
-    commit = _output(["git", "-C", repository, "rev-parse", "--short=10", "HEAD"])
-    changed = _output(["git", "-C", repository, "status", "--porcelain", "--untracked-files=no"])
-    return f"(commit {commit}{', changed' if changed else ''})" if commit else ""
 
 
 def _first(pattern, path):

@@ -7,17 +7,20 @@ import shutil
 import subprocess
 
 from ..messages import InputError
+from .source_messages import explained, list_of_messages
 
 CONTENTS = {  # page that leads a part, and the pages of the part, in order
-    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md"],
+    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md",
+                    "mechanism/manual/messages/README.md", "mechanism/manual/messages/[a-z]*.md"],
     "Mechanisms": ["mechanism/README.md", "mechanism/manual/reference/*.md", "mechanism/language/README.md", "reduce/common/README.md", "mechanism/io/README.md",
                    "mechanism/python/README.md", "mechanism/glossary.md", "mechanism/keys.md"],
     "Bodies": ["reduce/README.md", "reduce/matrices/README.md", "reduce/superelement/README.md", "reduce/distributed/README.md", "meshes/README.md",
                "reduce/keys.md"],
     "Tools": ["tools/README.md"],
     "Theory and proof": ["mechanism/solvers/README.md", "reduce/reduction/README.md", "tests/*/README.md"],
-    "Development": ["CONTRIBUTING.md", "CHANGELOG.md"],
+    "Development": ["CONTRIBUTING.md", "CHANGELOG.md", "LICENSES.md"],
 }
+ALL_MESSAGES = "mechanism/manual/messages/all_messages.md"  # page of the site alone, written from the sources
 CONFIGURATION = """project = "Bielle"
 extensions = ["myst_parser"]
 html_theme = "furo"
@@ -53,6 +56,8 @@ def write_sources(repository, folder):
             text = file.read()
         with open(target, "w", encoding="utf-8") as file:
             file.write(LINK.sub(lambda match: _link(match, repository, page, pages, folder), text))
+    _write_all_messages(repository, folder)
+    parts["First steps"].append(ALL_MESSAGES)
     with open(os.path.join(folder, "conf.py"), "w", encoding="utf-8") as file:
         file.write(CONFIGURATION)
     with open(os.path.join(folder, "index.md"), "w", encoding="utf-8") as file:
@@ -60,6 +65,15 @@ def write_sources(repository, folder):
         for title, part in parts.items():
             lines = "\n".join(page[:-3] for page in part)
             file.write(f"\n```{{toctree}}\n:caption: {title}\n:maxdepth: 1\n\n{lines}\n```\n")
+
+
+def _write_all_messages(repository, folder):
+    explanations = {}
+    for path in sorted(glob.glob(os.path.join(repository, os.path.dirname(ALL_MESSAGES), "[a-z]*.md"))):
+        with open(path, encoding="utf-8") as file:
+            explanations[os.path.basename(path)] = explained(file.read())
+    with open(os.path.join(folder, ALL_MESSAGES), "w", encoding="utf-8") as file:
+        file.write(list_of_messages(repository, explanations))
 
 
 def _link(match, repository, page, pages, folder):
