@@ -1,4 +1,5 @@
-"""The car: the load of its front axle against statics, and its ride frequencies against a plane car with the rates of its wishbones."""
+"""The car: the load of its front axle against statics, and its ride frequencies against a plane car with the rates of
+its wishbones."""
 
 import math
 
@@ -78,8 +79,8 @@ def check(paths):
 
 MACHINE = Machine(
     title="Car on four double wishbones over a bump",
-    teaches="One corner is written once and placed four times, the right ones as mirror images. The left wheels pass a bump one after the other; the car heaves, "
-            "pitches and rolls, and comes to rest.",
+    teaches="One corner is written once and placed four times, the right ones as mirror images. The left wheels "
+            "pass a bump one after the other; the car heaves, pitches and rolls, and comes to rest.",
     runs={"drive": ["car.yaml"]},
     pictures=[Picture("drive", ["--view", "iso", "--from", "0.4", "--to", "0.9", "--frames", "3"])],
     page="drive",

@@ -38,8 +38,8 @@ def check(paths):
 
 MACHINE = Machine(
     title="Hydraulic crane with a swinging load",
-    teaches="A flexible boom, two cylinders and one circuit with pump, accumulator, relief, counterbalance and servo-valves. Trapped oil is a spring; "
-            "commands that stop the boom let the load swing.",
+    teaches="A flexible boom, two cylinders and one circuit with pump, accumulator, relief, counterbalance and "
+            "servo-valves. Trapped oil is a spring; commands that stop the boom let the load swing.",
     bodies=["boom"],
     runs={"crane": ["crane.yaml"]},
     pictures=[Picture("crane", ["--view=-y", "--from", "0", "--to", "4", "--frames", "3"])],

@@ -32,8 +32,8 @@ def check(paths):
 
 MACHINE = Machine(
     title="Delta robot along a circle",
-    teaches="One arm is written once and placed three times. The platform's motion is prescribed and the torques of the motors are sought: inverse dynamics "
-            "of closed loops, without integration.",
+    teaches="One arm is written once and placed three times. The platform's motion is prescribed and the torques "
+            "of the motors are sought: inverse dynamics of closed loops, without integration.",
     runs={"delta": ["delta_robot.yaml"]},
     pictures=[Picture("delta", ["--view", "iso", "--from", "0.4", "--to", "1", "--frames", "3"])],
     page="delta",

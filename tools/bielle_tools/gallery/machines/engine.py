@@ -21,10 +21,11 @@ def check(paths):
 
 MACHINE = Machine(
     title="Engine with a flexible connecting rod",
-    teaches="A solid part becomes a superelement between two bearings, a crankshaft is a beam. The stress of the rod follows from its own inertia and "
-            "from the gas. One degree of freedom is left: the count of the joints is in the comments of the model.",
+    teaches="A solid part becomes a superelement between two bearings, a crankshaft is a beam. The stress of the "
+            "rod follows from its own inertia and from the gas. One degree of freedom is left: the count of the "
+            "joints is in the comments of the model.",
     bodies=["conrod"],
     runs={"engine": ["slider_crank.yaml"]},
-    pictures=[Picture("engine", ["--view=z", "--from", "0.146", "--to", "0.156", "--frames", "4", "--scale", "50"])],
+    pictures=[Picture("engine", ["--view=z", "--from", "0.146", "--to", "0.156", "--frames", "3", "--scale", "50"])],
     page="engine",
     check=check)

@@ -71,10 +71,11 @@ def check(paths):
 
 MACHINE = Machine(
     title="Four-bar linkage with a coupler from an Abaqus deck",
-    teaches="Mesh, material and the couplings of the pins come from the deck of another program, in mm and tonnes. A tool sits on the third interface. "
-            "The joints leave one degree of freedom without being redundant.",
+    teaches="Mesh, material and the couplings of the pins come from the deck of another program, in mm and "
+            "tonnes. A tool sits on the third interface. The joints leave one degree of freedom without being "
+            "redundant.",
     bodies=["coupler"],
     runs={"four_bar": ["four_bar.yaml"]},
-    pictures=[Picture("four_bar", ["--view=z", "--from", "0.5", "--to", "0.7", "--frames", "4", "--scale", "50"])],
+    pictures=[Picture("four_bar", ["--view=z", "--from", "0.5", "--to", "0.7", "--frames", "3", "--scale", "50"])],
     page="four_bar",
     check=check)

@@ -42,10 +42,11 @@ def engaging_force(torque):
 
 MACHINE = Machine(
     title="Gearbox with clutch and freewheel",
-    teaches="Teeth have play, errors, and a stiffness that changes with the pairs in contact: the transmission error excites the shafts. A friction clutch "
-            "slips by its plates and then holds exactly; the freewheel lets the drum run on.",
+    teaches="Teeth have play, errors, and a stiffness that changes with the pairs in contact: the transmission "
+            "error excites the shafts. A friction clutch slips by its plates and then holds exactly; the "
+            "freewheel lets the drum run on.",
     runs={"gearbox": ["gearbox.yaml"]},
-    pictures=[Picture("gearbox", ["--view", "iso", "--from", "0.1", "--to", "0.14", "--frames", "2"]),
+    pictures=[Picture("gearbox", ["--view=z", "--from", "0.1", "--to", "0.12", "--frames", "2"]),
               Picture("gearbox", ["--quantity", "joints/first/transmission_error", "--span", "0:0.2"], tool="bielle-plot",
                       figure="joints_first_transmission_error.png")],
     page="gearbox",

@@ -37,9 +37,9 @@ def check(paths):
 
 MACHINE = Machine(
     title="Mast that unfolds, latches and rises",
-    teaches="Events release the sling, lock the knee when it is in line, free the base and latch it upright. An inelastic impulse at each latch keeps the "
-            "momentum and takes energy, which the balance counts.",
+    teaches="Events release the sling, lock the knee when it is in line, free the base and latch it upright. An "
+            "inelastic impulse at each latch keeps the momentum and takes energy, which the balance counts.",
     runs={"latch": ["latch.yaml"]},
-    pictures=[Picture("latch", ["--from", "0", "--to", "1.5", "--frames", "6"])],
+    pictures=[Picture("latch", ["--from", "0.3", "--to", "1.4", "--frames", "3"])],
     page="latch",
     check=check)

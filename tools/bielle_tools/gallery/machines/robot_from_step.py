@@ -10,7 +10,7 @@ G, UPPER, LOWER, MOTOR, PAYLOAD, DENSITY = 9.81, 0.6, 0.5, 3, 5, 2700
 
 def mass(length, height, boss, bore, margin, slot, width):
     """Mass [kg] of a link: a plate with two bosses, two bores and a slot with round ends."""
-    within = height / 2 * math.sqrt(boss**2 - height**2 / 4) + boss**2 * math.asin(height / 2 / boss)  # of a boss, within the plate
+    within = height / 2 * math.sqrt(boss**2 - height**2 / 4) + boss**2 * math.asin(height / 2 / boss)  # area of a boss within the plate
     cut = 2 * math.pi * bore**2 + (length - 2 * margin) * 2 * slot + math.pi * slot**2
     return DENSITY * width * (length * height + 2 * (math.pi * boss**2 - within) - cut)
 
@@ -38,8 +38,9 @@ def check(paths):
 
 MACHINE = Machine(
     title="Robot arm from a STEP file, and its rigid twin",
-    teaches="Two solids of one STEP file become flexible links, their bores interfaces. The twin with rigid links, made by the same part of the model, "
-            "makes the same motion: the measures are the deviations of the tool, a few millimetres on the way and in the vibration after the stop.",
+    teaches="Two solids of one STEP file become flexible links, their bores interfaces. The twin with rigid "
+            "links, made by the same part of the model, makes the same motion: the measures are the deviations of "
+            "the tool, a few millimetres on the way and in the vibration after the stop.",
     bodies=["robot_upper_arm", "robot_forearm"],
     runs={"robot": ["robot_from_step.yaml"]},
     pictures=[Picture("robot", ["--view", "iso", "--from", "0", "--to", "0.8", "--frames", "3"]),

@@ -26,8 +26,9 @@ def check(paths):
 
 MACHINE = Machine(
     title="Weak instability of Newmark's rule",
-    teaches="A mass on a circle needs a constant force. Newmark's rule without dissipation lets the smallest error of the constraint force grow 535 times with "
-            "each revolution while the motion looks right. A little dissipation, or the default form of the constraints, prevents it.",
+    teaches="A mass on a circle needs a constant force. Newmark's rule without dissipation lets the smallest "
+            "error of the constraint force grow 535 times with each revolution while the motion looks right. A "
+            "little dissipation, or the default form of the constraints, prevents it.",
     runs={"newmark": ["weak_instability.yaml"], "hht": ["weak_instability.yaml", "--set", "alpha=0.1"]},
     pictures=[Picture("newmark", ["--quantity", "pivot.reaction.norm"], tool="bielle-plot", figure="pivot.reaction.norm.png")],
     page="newmark",

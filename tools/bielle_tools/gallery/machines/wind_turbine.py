@@ -40,8 +40,9 @@ def check(paths):
 
 MACHINE = Machine(
     title="Wind turbine with its Campbell diagram",
-    teaches="One blade is written once and placed three times. While the rotor turns and the tower stands still, multiblade coordinates give the modes "
-            "over the speed: the flap of the blades splits into whirls, and critical speeds are where 1P and 3P meet a mode.",
+    teaches="One blade is written once and placed three times. While the rotor turns and the tower stands still, "
+            "multiblade coordinates give the modes over the speed: the flap of the blades splits into whirls, and "
+            "critical speeds are where 1P and 3P meet a mode.",
     runs={"run_up": ["wind_turbine.yaml"], "campbell": ["wind_turbine_modes.yaml"]},
     pictures=[Picture("run_up", ["--view", "iso", "--from", "6", "--to", "7", "--frames", "3"]),
               Picture("campbell", tool="bielle-plot", figure="campbell.png")],
