@@ -42,7 +42,7 @@ class Making(InFolder):
     def test_a_good_machine_passes_and_faults_are_told(self):
         os.mkdir(self.path("machines"))
         self.machine("good")
-        self.machine("moved", ("2 * math.pi, 0.01", "2 * math.pi + 0.15, 0.01"))
+        self.machine("moved", ("/ 2, 2 * math.pi,", "/ 2, 2 * math.pi + 0.15,"))
         self.machine("refused", ("alpha=0.1", "alpa=0.1"))
         self.machine("without_figure", ('figure="pivot.reaction.norm.png"', 'figure="pivots.png"'))
         self.machine("crashing", ("growing, _ = errors", "growing, _ = 1 / 0, errors"))

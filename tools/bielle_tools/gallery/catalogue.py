@@ -26,7 +26,8 @@ def chosen(folder, wanted):
     for name in wanted:
         if name not in known:
             near = difflib.get_close_matches(name, known, 1)
-            raise InputError(f"there is no machine '{name}'" + (f"; did you mean '{near[0]}'?" if near else f" (there are: {', '.join(known)})"))
+            advice = f"; did you mean '{near[0]}'?" if near else f" (there are: {', '.join(known)})"
+            raise InputError(f"there is no machine '{name}'{advice}")
     return {name: _read(folder, name) for name in known if name in wanted or not wanted}
 
 
@@ -41,6 +42,7 @@ def _read(folder, name):
     machine = getattr(module, "MACHINE", None)
     if not isinstance(machine, Machine):
         raise InputError(f"'{path}' defines no MACHINE")
-    if machine.page not in machine.runs or not machine.pictures or not {picture.run for picture in machine.pictures} <= set(machine.runs):
+    shown = {machine.page, *(picture.run for picture in machine.pictures)}
+    if not machine.pictures or not shown <= set(machine.runs):
         raise InputError(f"'{path}': its pictures and its page belong to its runs ({', '.join(machine.runs)})")
     return machine

@@ -20,8 +20,11 @@ class Failure(Exception):
 
 @dataclasses.dataclass
 class Made:
-    """A machine with its outputs. checks: list of Check; failure: a sentence, empty if all commands succeeded; pictures, page: paths
-    relative to the folder of the gallery."""
+    """A machine with its outputs.
+
+    checks: list of Check; failure: a sentence, empty if all commands succeeded; pictures, page: paths relative to the
+    folder of the gallery.
+    """
 
     name: str
     machine: object
@@ -55,9 +58,11 @@ def make(name, machine, folder):
         for body in machine.bodies:
             reduce_body(body, folder)
         paths = {run: run_model(run, words, name, folder) for run, words in machine.runs.items()}
-        made.pictures = [draw(picture, number, paths[picture.run], name, folder) for number, picture in enumerate(machine.pictures, 1)]
-        made.page = os.path.join(name, "machine.html")
-        command([os.path.join(TOOLS, "bielle-view"), paths[machine.page], "-o", os.path.join(folder, made.page)])
+        made.pictures = [draw(picture, number, paths[picture.run], name, folder)
+                         for number, picture in enumerate(machine.pictures, 1)]
+        target = os.path.join(name, "machine.html")
+        command([os.path.join(TOOLS, "bielle-view"), paths[machine.page], "-o", os.path.join(folder, target)])
+        made.page = target
         made.checks = machine.check(paths)
     except Failure as error:
         made.failure = str(error)
@@ -76,7 +81,8 @@ def reduce_body(body, folder):
 def run_model(run, words, name, folder):
     """Runs a model and returns the path of its results."""
     target = os.path.join(folder, name, run + ".h5")
-    command([find_program("bielle-mechanism"), os.path.join(folder, MODELS, words[0]), *words[1:], "--quiet", "-o", target])
+    command([find_program("bielle-mechanism"), os.path.join(folder, MODELS, words[0]), *words[1:], "--quiet", "-o",
+             target])
     return target
 
 
@@ -98,7 +104,8 @@ def command(words):
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"}
     name = os.path.basename(words[0])
     try:
-        done = subprocess.run(words, capture_output=True, text=True, errors="replace", timeout=LONGEST, env=environment, check=False)
+        done = subprocess.run(words, capture_output=True, text=True, errors="replace", timeout=LONGEST,
+                              env=environment, check=False)
     except subprocess.TimeoutExpired:
         raise Failure(f"{name} did not end within {LONGEST} s") from None
     if done.returncode:

@@ -20,9 +20,11 @@ def page(machines):
     """The text of the page. @param machines  list of Made"""
     failed = [made.name for made in machines if not made.passed]
     verdict = f"Failed: {', '.join(failed)}." if failed else "All checks passed."
-    parts = ["<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Bielle: gallery</title>", f"<style>{STYLE}</style></head><body>",
+    parts = ["<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Bielle: gallery</title>",
+             f"<style>{STYLE}</style></head><body>",
              "<h1>Gallery of machines</h1>", f"<p class='{'failed' if failed else 'passed'}'>{text(verdict)}</p>",
-             "<p>Each machine is a complete model. Its check compares a number of the run with one that is computed without Bielle.</p>",
+             "<p>Each machine is a complete model. Its checks compare numbers of the run with others that are computed "
+             "without Bielle.</p>",
              "<ul>", *(f"<li><a href='#{made.name}'>{text(made.machine.title)}</a></li>" for made in machines), "</ul>",
              *map(section, machines)]
     return "\n".join(parts) + "\n</body></html>\n"
@@ -35,9 +37,11 @@ def section(made):
     if made.page:
         links.insert(0, f"<a href='{text(made.page)}'>the machine in motion</a>")
     return "\n".join([f"<section id='{made.name}'><h2>{text(made.machine.title)} {mark(made.passed)}</h2>",
-                      *(f"<img src='{text(picture)}' alt='{text(os.path.basename(picture))}'>" for picture in made.pictures),
+                      *(f"<img src='{text(picture)}' alt='{text(os.path.basename(picture))}'>"
+                        for picture in made.pictures),
                       f"<p>{text(made.machine.teaches)}</p>", f"<p>{', '.join(links)}; {made.seconds:.0f} s</p>",
-                      f"<p class='failed'>{text(made.failure)}</p>" if made.failure else "", table(made.checks), "</section>"])
+                      f"<p class='failed'>{text(made.failure)}</p>" if made.failure else "",
+                      table(made.checks), "</section>"])
 
 
 def table(checks):
@@ -47,7 +51,8 @@ def table(checks):
     heads = ("quantity", "run", "independent", "difference", "accepted", "")
     lines = [f"<tr><td>{text(check.quantity)} [{text(check.unit)}]</td><td class='number'>{check.value:.7g}</td>"
              f"<td class='number'>{check.reference:.7g}</td><td class='number'>{100 * check.difference:.3g} %</td>"
-             f"<td>{100 * check.within:.3g} %: {text(check.reason)}<br>independent: {text(check.formula)}</td><td>{mark(check.passed)}</td></tr>"
+             f"<td>{100 * check.within:.3g} %: {text(check.reason)}"
+             f"<br>independent: {text(check.formula)}</td><td>{mark(check.passed)}</td></tr>"
              for check in checks]
     return "<table><tr>" + "".join(f"<th>{head}</th>" for head in heads) + "</tr>" + "".join(lines) + "</table>"
 

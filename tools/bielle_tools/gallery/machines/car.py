@@ -38,7 +38,7 @@ def corner(angle):
 
 
 def wheel_rates(load):
-    """Stiffness and damping of a wheel relative to the chassis [N/m], [N s/m] where the strut carries a load [N] at the hub."""
+    """Stiffness [N/m] and damping [N s/m] of a wheel relative to the chassis under a load [N] at the hub."""
     heights, lengths = np.array([corner(angle) for angle in np.linspace(-0.2, 0.2, 401)]).T
     ratio = np.gradient(lengths, heights)
     force = SPRING * (lengths - FREE) * ratio  # by which the strut presses the wheel down
@@ -47,7 +47,7 @@ def wheel_rates(load):
 
 
 def ride():
-    """Frequencies [Hz], sizes of the eigenvalues, of the two slowest modes of a plane car: heave, pitch, front and rear wheels."""
+    """Frequencies [Hz], sizes of the eigenvalues, of the two slowest modes of a plane car on its front and rear wheels."""
     a, b = WHEELBASE / 2 - CENTRE, WHEELBASE / 2 + CENTRE
     unsprung = 2 * (WHEEL + LOWER / 3 + UPPER / 3)
     mass = np.diag([CHASSIS, PITCH, unsprung, unsprung])
@@ -71,7 +71,8 @@ def check(paths):
     expected = G * (CHASSIS * (WHEELBASE / 2 + CENTRE) / WHEELBASE + 2 * (LOWER + UPPER + WHEEL))
     with Results(paths["drive"]) as results:
         found = results.array("eigen/frequency")[:2]
-    return [Check("load of the front tyres at rest", "N", front, expected, 2e-3, "the tyres stand at a small angle", "moments of the weights"),
+    return [Check("load of the front tyres at rest", "N", front, expected, 2e-3, "the tyres stand at a small angle",
+                  "moments of the weights"),
             *(Check(f"ride frequency {k + 1}", "Hz", value, closed, 0.03, "the plane car leaves out camber and scrub",
                     "plane car with the rates of its wishbones")
               for k, (value, closed) in enumerate(zip(found, ride())))]

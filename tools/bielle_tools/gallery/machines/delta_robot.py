@@ -9,7 +9,7 @@ BASE, PLATFORM, ARM, ROD, DROOP = 0.2, 0.05, 0.25, 0.6, math.radians(30)
 
 
 def motor_angle(place):
-    """Angle [rad] of the first motor below the horizontal: the rods reach from its arm, in the plane y = 0, to the platform."""
+    """Angle [rad] of the first motor below the horizontal: rods reach from its arm, in the plane y = 0, to a place."""
     x, y, z = place
     reach = x + PLATFORM - BASE
     ratio = (reach**2 + y**2 + z**2 + ARM**2 - ROD**2) / (2 * ARM)
@@ -25,8 +25,10 @@ def check(paths):
     angle = rows("joints/arm_1.motor/coordinate")
     worst = int(np.argmax(np.abs(angle - expected)))
     largest = int(np.argmax(np.abs(expected)))
-    return [Check("largest angle of a motor", "rad", angle[largest], expected[largest], 1e-9, "both are exact", "inverse kinematics in closed form"),
-            Check("angle where it deviates most", "rad", angle[worst] + DROOP, expected[worst] + DROOP, 1e-9, "both are exact",
+    return [Check("largest angle of a motor", "rad", angle[largest], expected[largest], 1e-9, "both are exact",
+                  "inverse kinematics in closed form"),
+            Check("angle where it deviates most", "rad", angle[worst] + DROOP, expected[worst] + DROOP, 1e-9,
+                  "both are exact",
                   "inverse kinematics in closed form")]
 
 

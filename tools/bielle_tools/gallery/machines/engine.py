@@ -14,8 +14,10 @@ def check(paths):
     acceleration = rows("nodes/piston/acceleration")[window, 0]
     first, second = (-2 / (3 * period) * np.trapz(acceleration * np.cos(k * angle), time) for k in (1, 2))
     series = RATIO + RATIO**3 / 4 + 15 * RATIO**5 / 128
-    return [Check("first harmonic of the piston", "m/s^2", first, R * SPEED**2, 0.01, "the gas pushes shaft and rod", "r omega^2"),
-            Check("second harmonic of the piston", "m/s^2", second, R * SPEED**2 * series, 0.05, "the gas has this order as well",
+    return [Check("first harmonic of the piston", "m/s^2", first, R * SPEED**2, 0.01, "the gas pushes shaft and rod",
+                  "r omega^2"),
+            Check("second harmonic of the piston", "m/s^2", second, R * SPEED**2 * series, 0.05,
+                  "the gas has this order as well",
                   "r omega^2 (c + c^3/4 + 15 c^5/128), c = r/l")]
 
 

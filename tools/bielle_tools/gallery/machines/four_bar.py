@@ -11,12 +11,13 @@ ROCKER_MASS, CRANK_INERTIA = DENSITY * 0.012 * 0.025 * ROCKER, 5 * 0.15**2 / 2
 
 
 def plate():
-    """Mass, centre and moment of inertia of the coupler, from a raster of its drawing: three discs, three bars, three bores."""
+    """Mass, centre and moment of inertia of the coupler, from a raster of its drawing: discs, bars and bores."""
     d = 5e-4
     x, y = np.meshgrid(np.arange(-0.03, 0.43, d) + d / 2, np.arange(-0.03, 0.19, d) + d / 2)
     pins = [(0, 0, 0.025, 0.012), (COUPLER, 0, 0.025, 0.012), (*PIN, 0.02, 0.008)]
     solid = np.zeros(x.shape, bool)
-    for (x0, y0, _, _), (x1, y1, _, _), width in ((pins[0], pins[1], 0.026), (pins[0], pins[2], 0.022), (pins[2], pins[1], 0.022)):
+    bars = (pins[0], pins[1], 0.026), (pins[0], pins[2], 0.022), (pins[2], pins[1], 0.022)
+    for (x0, y0, _, _), (x1, y1, _, _), width in bars:
         length = math.hypot(x1 - x0, y1 - y0)
         along = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length
         across = ((y - y0) * (x1 - x0) - (x - x0) * (y1 - y0)) / length
@@ -38,11 +39,12 @@ def places(theta):
     phi = np.arctan2(-ay, BASE - ax) + np.arccos((COUPLER**2 + across**2 - ROCKER**2) / (2 * COUPLER * across))
     psi = np.arctan2(ay + COUPLER * np.sin(phi), ax + COUPLER * np.cos(phi) - BASE)
     c, s = np.cos(phi), np.sin(phi)
-    return np.array([ax + cx * c - cy * s, ay + cx * s + cy * c, ax + PIN[0] * c - PIN[1] * s, ay + PIN[0] * s + PIN[1] * c, phi, psi])
+    tool = ax + PIN[0] * c - PIN[1] * s, ay + PIN[0] * s + PIN[1] * c
+    return np.array([ax + cx * c - cy * s, ay + cx * s + cy * c, *tool, phi, psi])
 
 
 def torque(rate):
-    """Torque of the motor [N m] over a turn of rigid links at a constant rate: the derivative of their energy by the crank angle."""
+    """Torque of the motor [N m] over a turn of rigid links at a constant rate: the derivative of their energy."""
     theta = np.linspace(0, 2 * np.pi, 4001)
     mass, _, _, inertia = plate()
     q = places(theta)
@@ -63,9 +65,11 @@ def check(paths):
 
     swing = math.degrees(np.ptp(rows("joints/pivot/coordinate")[steady, 0]))
     rms = math.sqrt(np.mean(rows("joints/main/drive_force")[steady]**2))
-    return [Check("swing of the rocker", "deg", swing, dead(CRANK + COUPLER) - dead(COUPLER - CRANK), 3e-4, "the rocker bends",
+    return [Check("swing of the rocker", "deg", swing, dead(CRANK + COUPLER) - dead(COUPLER - CRANK), 3e-4,
+                  "the rocker bends",
                   "law of cosines at the dead centres"),
-            Check("torque of the motor, root of the mean square", "N m", rms, math.sqrt(np.mean(torque(2 * np.pi * 4)[:-1]**2)), 0.01,
+            Check("torque of the motor, root of the mean square", "N m", rms,
+                  math.sqrt(np.mean(torque(2 * np.pi * 4)[:-1]**2)), 0.01,
                   "flexible links vibrate", "derivative of the energy of rigid links")]
 
 

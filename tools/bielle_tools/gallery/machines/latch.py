@@ -1,4 +1,4 @@
-"""The mast that latches: the time at which its knee is in line, and the speed after the impact, against closed forms."""
+"""The mast that latches: the time at which its knee is in line, and the speed after it, against closed forms."""
 
 import math
 
@@ -11,12 +11,13 @@ ABOUT_KNEE = OWN[1] + UPPER * (0.25 + (OFFSET / 2)**2)
 
 
 def unfolded():
-    """Time [s] and rate [rad/s] at which the upper link has turned by half a turn: a damped oscillation about the rest angle."""
+    """Time [s] and rate [rad/s] at which the upper link has turned by half a turn: a damped oscillation."""
     omega, ratio = math.sqrt(STIFFNESS / ABOUT_KNEE), DAMPING / (2 * math.sqrt(STIFFNESS * ABOUT_KNEE))
     damped = omega * math.sqrt(1 - ratio**2)
 
     def angle(t):
-        return REST - REST * math.exp(-ratio * omega * t) * (math.cos(damped * t) + ratio * omega / damped * math.sin(damped * t))
+        swing = math.cos(damped * t) + ratio * omega / damped * math.sin(damped * t)
+        return REST - REST * math.exp(-ratio * omega * t) * swing
 
     time = brentq(lambda t: angle(t) - math.pi, 1e-3, math.pi / damped)
     return time, REST * math.exp(-ratio * omega * time) * omega**2 / damped * math.sin(damped * time)
@@ -29,7 +30,8 @@ def check(paths):
     momentum = (OWN[1] + UPPER * (0.25 + 0.5)) * rate
     mast = LOWER / 4 + OWN[0] + UPPER * 2.25 + OWN[1]
     after = int((rows.time <= rows.event("latched")).sum())
-    return [Check("time at which the knee latches", "s", rows.event("latched"), 0.2 + time, 1e-3, "the sling has stretched the links",
+    return [Check("time at which the knee latches", "s", rows.event("latched"), 0.2 + time, 1e-3,
+                  "the sling has stretched the links",
                   "damped oscillation of the upper link"),
             Check("speed of the mast after it", "rad/s", abs(rows("joints/base/rate")[after]), momentum / mast, 0.03,
                   "the row is up to a step later", "angular momentum about the base")]

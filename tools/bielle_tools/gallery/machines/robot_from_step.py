@@ -10,7 +10,8 @@ G, UPPER, LOWER, MOTOR, PAYLOAD, DENSITY = 9.81, 0.6, 0.5, 3, 5, 2700
 
 def mass(length, height, boss, bore, margin, slot, width):
     """Mass [kg] of a link: a plate with two bosses, two bores and a slot with round ends."""
-    within = height / 2 * math.sqrt(boss**2 - height**2 / 4) + boss**2 * math.asin(height / 2 / boss)  # area of a boss within the plate
+    # Area of a boss within the plate.
+    within = height / 2 * math.sqrt(boss**2 - height**2 / 4) + boss**2 * math.asin(height / 2 / boss)
     cut = 2 * math.pi * bore**2 + (length - 2 * margin) * 2 * slot + math.pi * slot**2
     return DENSITY * width * (length * height + 2 * (math.pi * boss**2 - within) - cut)
 
@@ -20,9 +21,9 @@ LOWER_MASS = mass(LOWER, 0.06, 0.045, 0.018, 0.105, 0.017, 0.04)
 
 
 def moment(upper, lower):
-    """Moment of the weights [N m] about the shoulder for lengths of 1 m of links and tool along the horizontal (or vertical)."""
-    return G * (UPPER_MASS * UPPER / 2 * upper + MOTOR * UPPER * upper + LOWER_MASS * (UPPER * upper + LOWER / 2 * lower)
-                + PAYLOAD * (UPPER * upper + (LOWER + 0.1) * lower))
+    """Moment of the weights [N m] about the shoulder, for the shares of the links' lengths that lie across gravity."""
+    return G * (UPPER_MASS * UPPER / 2 * upper + MOTOR * UPPER * upper
+                + LOWER_MASS * (UPPER * upper + LOWER / 2 * lower) + PAYLOAD * (UPPER * upper + (LOWER + 0.1) * lower))
 
 
 def check(paths):
@@ -30,9 +31,11 @@ def check(paths):
     joints = [f"joints/robot.{joint}" for joint in ("base", "shoulder", "elbow")]
     power = sum(rows(joint + "/drive_force") * rows(joint + "/rate") for joint in joints)
     lifted = moment(math.sin(math.radians(45)), -math.sin(math.radians(15)))
-    return [Check("torque of the shoulder at rest", "N m", rows("joints/robot.shoulder/drive_force")[0], -moment(1, 1), 1e-4,
+    return [Check("torque of the shoulder at rest", "N m", rows("joints/robot.shoulder/drive_force")[0], -moment(1, 1),
+                  1e-4,
                   "the mesh cuts the round bosses off by little", "weights of the drawn solids times their arms"),
-            Check("work of the motors", "J", np.trapz(power, rows.time), lifted, 5e-3, "the arm still vibrates at the end",
+            Check("work of the motors", "J", np.trapz(power, rows.time), lifted, 5e-3,
+                  "the arm still vibrates at the end",
                   "weights times the lifts of their centres")]
 
 
@@ -44,6 +47,7 @@ MACHINE = Machine(
     bodies=["robot_upper_arm", "robot_forearm"],
     runs={"robot": ["robot_from_step.yaml"]},
     pictures=[Picture("robot", ["--view", "iso", "--from", "0", "--to", "0.8", "--frames", "3"]),
-              Picture("robot", ["--quantity", "along, across, droop"], tool="bielle-plot", figure="along+across+droop.png")],
+              Picture("robot", ["--quantity", "along, across, droop"], tool="bielle-plot",
+                      figure="along+across+droop.png")],
     page="robot",
     check=check)

@@ -19,15 +19,16 @@ def long_end(angle):
 
 
 def accelerations(y, on_trough):
-    """Second derivatives of y = (angle of the beam, of the hanger, x, z of the stone, and their rates), and multipliers of the sling
-    and of the trough: Lagrange's equations of the first kind."""
+    """Second derivatives of y = (angle of the beam, of the hanger, x, z of the stone, and their rates), and multipliers
+    of the sling and of the trough: Lagrange's equations of the first kind."""
     beam, hanger, x, z, beam_rate, hanger_rate, u, v = y
     sine, cosine = math.sin(beam), math.cos(beam)
     by_beam, by_hanger = SHORT * np.array([-sine, cosine]), HANGER * np.array([math.cos(hanger), math.sin(hanger)])
     coupled = WEIGHT * by_beam @ by_hanger
     mass = np.diag([BEAM_INERTIA + WEIGHT * SHORT**2, WEIGHT_INERTIA + WEIGHT * HANGER**2, STONE, STONE])
     mass[0, 1] = mass[1, 0] = coupled
-    turning = -SHORT * np.array([cosine, sine]) * beam_rate**2 + HANGER * np.array([-math.sin(hanger), math.cos(hanger)]) * hanger_rate**2
+    turning = -SHORT * np.array([cosine, sine]) * beam_rate**2
+    turning += HANGER * np.array([-math.sin(hanger), math.cos(hanger)]) * hanger_rate**2
     force = -WEIGHT * (np.array([0, G]) + turning)
     loads = [force @ by_beam + BEAM * G * (LONG - SHORT) / 2 * cosine, force @ by_hanger, 0, -STONE * G]
     sling, end_rate = long_end(beam) - [x, z], LONG * np.array([sine, -cosine])
@@ -59,7 +60,8 @@ def throw():
     hooked.direction = 1
     time = 0.0
     for on_trough, end in ((True, lifted), (False, hooked)):
-        found = solve_ivp(lambda _, y, on=on_trough: np.r_[y[4:], accelerations(y, on)[0]], (time, time + 3), y, events=end, rtol=1e-8, atol=1e-10)
+        found = solve_ivp(lambda _, y, on=on_trough: np.r_[y[4:], accelerations(y, on)[0]], (time, time + 3), y,
+                          events=end, rtol=1e-8, atol=1e-10)
         time, y = found.t[-1], found.y[:, -1]
     return time, math.hypot(y[6], y[7])
 
@@ -71,10 +73,13 @@ def check(paths):
     row = int(np.searchsorted(rows.time, released + 1e-9))
     (x, _, z), (u, _, v) = rows("nodes/stone/position")[row], rows("nodes/stone/velocity")[row, :3]
     landing = x + u / G * (v + math.sqrt(v**2 + 2 * G * (z - RADIUS)))
-    return [Check("time from the trigger to the release", "s", released - PULLED, time, 5e-3, "the play of the axle", "Lagrange's equations without play"),
-            Check("speed of the stone at the release", "m/s", math.sqrt(u * u + (v + G * (rows.time[row] - released))**2), speed, 0.01,
+    return [Check("time from the trigger to the release", "s", released - PULLED, time, 5e-3, "the play of the axle",
+                  "Lagrange's equations without play"),
+            Check("speed of the stone at the release", "m/s",
+                  math.sqrt(u * u + (v + G * (rows.time[row] - released))**2), speed, 0.01,
                   "the play of the axle", "Lagrange's equations without play"),
-            Check("place of the landing", "m", flight("nodes/stone/position")[-1, 0], landing, 1e-5, "steps", "parabola from the release")]
+            Check("place of the landing", "m", flight("nodes/stone/position")[-1, 0], landing, 1e-5, "steps",
+                  "parabola from the release")]
 
 
 MACHINE = Machine(
@@ -83,6 +88,7 @@ MACHINE = Machine(
             "and events that pull the trigger, let go of the sling and end the run at the landing. Play and "
             "impacts cost little of the throw: the speed is that of the ideal machine within one per cent.",
     runs={"throw": ["trebuchet.yaml"]},
-    pictures=[Picture("throw", ["--analysis", "1", "--view=-y", "--to", "0.96", "--frames", "6", "--hide", "contact", "--hide", "trigger"])],
+    pictures=[Picture("throw", ["--analysis", "1", "--view=-y", "--to", "0.96", "--frames", "6", "--hide", "contact",
+                      "--hide", "trigger"])],
     page="throw",
     check=check)

@@ -19,9 +19,11 @@ def errors(path):
 def check(paths):
     growing, _ = errors(paths["newmark"])
     _, force = errors(paths["hht"])
-    return [Check("exponent of the growth per revolution", "-", math.log(growing[2] / growing[0]) / 2, 2 * math.pi, 0.01,
+    return [Check("exponent of the growth per revolution", "-", math.log(growing[2] / growing[0]) / 2, 2 * math.pi,
+                  0.01,
                   "envelopes by whole revolutions", "2 pi (Cardona and Geradin, 1989)"),
-            Check("force of the pivot with dissipation", "N", force, FORCE, 0.005, "error of the scheme, (omega h)^2", "m L omega^2")]
+            Check("force of the pivot with dissipation", "N", force, FORCE, 0.005, "error of the scheme, (omega h)^2",
+                  "m L omega^2")]
 
 
 MACHINE = Machine(
@@ -30,6 +32,7 @@ MACHINE = Machine(
             "error of the constraint force grow 535 times with each revolution while the motion looks right. A "
             "little dissipation, or the default form of the constraints, prevents it.",
     runs={"newmark": ["weak_instability.yaml"], "hht": ["weak_instability.yaml", "--set", "alpha=0.1"]},
-    pictures=[Picture("newmark", ["--quantity", "pivot.reaction.norm"], tool="bielle-plot", figure="pivot.reaction.norm.png")],
+    pictures=[Picture("newmark", ["--quantity", "pivot.reaction.norm"], tool="bielle-plot",
+                      figure="pivot.reaction.norm.png")],
     page="newmark",
     check=check)

@@ -17,7 +17,7 @@ def blade_mass():
 
 
 def tower_sideways():
-    """Frequency [Hz] of the tower across the shaft, by the deflection under a force at the top; the rotor turns freely."""
+    """Frequency [Hz] of the tower across the shaft, by the deflection under a force at its top."""
     inertia, area = math.pi / 4 * (OUTER**4 - INNER**4), math.pi * (OUTER**2 - INNER**2)
     z = (np.arange(4000) + 0.5) / 4000
     tilt = 1.5 / HEIGHT
@@ -33,8 +33,10 @@ def check(paths):
     expected = tower_sideways()
     frequency = frequencies[np.argmin(np.abs(frequencies - expected))]
     rows = Rows(paths["run_up"])
-    return [Check("tower across the shaft, at rest", "Hz", frequency, expected, 0.015, "the quotient is an upper bound", "Rayleigh's quotient"),
-            Check("angle at the end of the run-up", "rad", rows("joints/shaft/coordinate")[-1], math.pi * (10 - 6 / 2), 1e-4,
+    return [Check("tower across the shaft, at rest", "Hz", frequency, expected, 0.015,
+                  "the quotient is an upper bound", "Rayleigh's quotient"),
+            Check("angle at the end of the run-up", "rad", rows("joints/shaft/coordinate")[-1], math.pi * (10 - 6 / 2),
+                  1e-4,
                   "the shaft is driven", "speed times (time less half the run-up)")]
 
 
