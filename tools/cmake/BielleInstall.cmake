@@ -19,7 +19,8 @@ endif()
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/convert_mesh.py DESTINATION ${BIELLE_INSTALL_TOOLS} COMPONENT programs)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bielle_tools DESTINATION ${BIELLE_INSTALL_TOOLS} COMPONENT programs FILES_MATCHING PATTERN "*.py"
         PATTERN "*.js" PATTERN "*.css" PATTERN "*.html"
-        PATTERN __pycache__ EXCLUDE)
+        PATTERN __pycache__ EXCLUDE
+        PATTERN gallery EXCLUDE)  # needs the examples of the repository
 foreach(tool bielle-animate bielle-exchange bielle-loads bielle-paraview bielle-plot bielle-rainflow bielle-table bielle-view study)
   install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/${tool} DESTINATION ${BIELLE_INSTALL_TOOLS} COMPONENT programs)
   string(REPLACE study bielle-study command ${tool})
