@@ -1,4 +1,4 @@
-// The body file: a YAML file that describes a body and how it is to be reduced (format: reduce/README.md).
+// The body file: a YAML file that describes a body and how it is to be reduced (format: reduce/manual/body_file.md).
 #pragma once
 
 #include <map>

@@ -108,7 +108,7 @@ const KeyTable& matrices_keys() {
   using namespace keys;
   static const KeyTable table{
       "the matrices",
-      "Files of another program with stiffness and mass; tools/README.md lists the formats.",
+      "Files of another program with stiffness and mass; tools/guide/exchange.md lists the formats.",
       {{"file", file("matrices"), required, "File of both matrices, or of the stiffness."},
        {"mass", file("matrices"), optional, "Another file with the mass, for formats with one matrix in each."},
        {"nodes", file("deck or table"), optional,

@@ -20,7 +20,7 @@ struct ForeignMatrices {
   std::string mass;                          ///< another file with the mass; empty: none
   std::string nodes;                         ///< another file with the nodes (a deck, a table); empty: none
   std::string unknowns;                      ///< another file with the order of the unknowns; empty: none
-  std::string format;                        ///< its name in tools/README.md; empty: known by the file
+  std::string format;                        ///< its name in tools/guide/exchange.md; empty: known by the file
   std::map<std::string, std::string> names;  ///< of matrices in the file: "stiffness" -> "KAAX"
   std::vector<std::int64_t> interfaces;      ///< numbers of nodes that become interfaces; empty: not told
   std::string units;                         ///< units of its numbers, "mm-t-s"; empty: SI, or what the file declares

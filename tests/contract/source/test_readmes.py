@@ -13,13 +13,14 @@ TOOLS = ["keys", "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rai
          "test", "verify", "package", "convert_mesh.py", "manual", "gallery"]
 OTHERS = {"--preset", "--build", "--install", "--prefix",  # options of CMake
           "--hostfile"}  # options of mpirun
+MANUALS = [os.path.join("mechanism", "manual"), os.path.join("reduce", "manual"), os.path.join("tools", "guide")]
 
 
 def readmes():
     for folder, folders, files in os.walk(REPOSITORY):
         folders[:] = [name for name in folders if name not in ("build", ".git") and not name.startswith(".")]
         for name in files:
-            manual = os.path.join("mechanism", "manual") in folder and name.endswith(".md")
+            manual = any(pages in folder for pages in MANUALS) and name.endswith(".md")
             if manual or name in ("README.md", "CONTRIBUTING.md", "glossary.md", "keys.md"):
                 yield os.path.join(folder, name)
 

@@ -1,7 +1,7 @@
 """Pages of the manual whose files and commands are run.
 
 In such a page a block of code is
-- a file, if its first line is a comment with the name of the file: `# pendulum.yaml`;
+- a file, if its first line is a comment with the name of the file: `# pendulum.yaml`, `// bar.geo`;
 - commands, one per line, if its language is `sh`. Lines that only set variables of the shell (`export`) are for the reader;
 - the output of the last command before it, if its language is `text`. A line `...` stands for lines that are left out;
   lines before the first and after the last of the block may be left out as well.
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from ..messages import InputError
 
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-FILE_NAME = re.compile(r"# ([\w-]+\.\w+)\n")
+FILE_NAME = re.compile(r"(?:#|//) ([\w-]+\.\w+)\n")
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 TOLERANCE = 0.01  # relative, of numbers in output: pages show the digits of one compiler and one BLAS
 
@@ -34,6 +34,12 @@ def blocks(path):
     with open(path, encoding="utf-8") as file:
         page = file.read()
     return [Block(match.group(1), match.group(2), page.count("\n", 0, match.start(2)) + 1) for match in BLOCK.finditer(page)]
+
+
+def environment_of(repository, programs, tools):
+    """The environment of the commands of pages: `$BIELLE` is the repository, programs, tools and the Python package are found."""
+    return {**os.environ, "BIELLE": repository, "PATH": os.pathsep.join([programs, tools, os.environ.get("PATH", "")]),
+            "PYTHONPATH": os.path.join(os.path.dirname(programs), "python")}
 
 
 def run_page(path, folder, environment):
