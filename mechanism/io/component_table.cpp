@@ -18,7 +18,7 @@
 #include "mechanism/joints/actions/drive.hpp"
 #include "mechanism/joints/cables/rope_section.hpp"
 #include "mechanism/joints/cams/cam.hpp"
-#include "mechanism/joints/couplings/linear_coupling.hpp"
+#include "mechanism/joints/couplings/coupling_reader.hpp"
 #include "mechanism/joints/flexible/bearing.hpp"
 #include "mechanism/joints/flexible/bushing.hpp"
 #include "mechanism/joints/flexible/clearance_joint.hpp"

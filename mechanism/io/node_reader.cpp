@@ -1,6 +1,7 @@
 #include "mechanism/io/node_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -10,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "mechanism/drawing/reading/shape_reader.hpp"
+#include "mechanism/elements/forces/held_directions.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_frame.hpp"
@@ -85,20 +87,54 @@ PrescribedMotion read_motion(const YamlValue& value) {
                                            value.at("displacement").number());
 }
 
-void read_holds(const YamlValue& entry, Node& node) {
-  if (const auto fixed = entry.find("fixed")) {
-    if (fixed->is_sequence()) {
-      std::set<std::string> seen;
-      for (const YamlValue& item : fixed->items()) {
-        const std::string direction = item.word();
-        check_once(item, direction, seen);
-        node.freedom[direction_index(direction)] = Freedom::fixed;
-      }
-    } else if (fixed->boolean()) {
-      node.freedom.fill(Freedom::fixed);
+/// The directions in which a node is held, along axes whose columns are inertial components.
+struct Holds {
+  std::array<bool, 6> fixed{};
+  Matrix3 axes = Matrix3::Identity();
+  bool own_axes = false;
+};
+
+Holds read_fixed(const YamlValue& entry, const Frame& frame) {
+  Holds holds;
+  const auto fixed = entry.find("fixed");
+  if (fixed && fixed->is_sequence()) {
+    std::set<std::string> seen;
+    for (const YamlValue& item : fixed->items()) {
+      const std::string direction = item.word();
+      check_once(item, direction, seen);
+      holds.fixed[direction_index(direction)] = true;
     }
+  } else if (fixed && fixed->boolean()) {
+    holds.fixed.fill(true);
   }
+  if (const auto axes = entry.find("fixed_axes")) {
+    if (!fixed || !fixed->is_sequence()) axes->fail("belongs to a list of `fixed` directions");
+    holds.own_axes = axes->word() == "own";
+    if (holds.own_axes) holds.axes = frame.R;
+  }
+  return holds;
+}
+
+/// Returns the directions that a constraint holds: one rotation alone, and along axes that are not the inertial ones
+/// all but three displacements or three rotations together.
+std::array<bool, 6> constrained(const Holds& holds) {
+  std::array<bool, 6> result{};
+  for (const std::ptrdiff_t first : {0, 3}) {
+    const auto begin = holds.fixed.begin() + first;
+    const auto count = std::count(begin, begin + 3, true);
+    if (count == 3 || (!holds.own_axes && !(first == 3 && count == 1))) continue;
+    std::copy(begin, begin + 3, result.begin() + first);
+  }
+  return result;
+}
+
+void read_holds(const YamlValue& entry, const Holds& holds, Node& node) {
+  for (std::size_t k = 0; k < 6; ++k)
+    if (holds.fixed[k]) node.freedom[k] = Freedom::fixed;
   if (const auto motion = entry.find("motion")) {
+    if (holds.own_axes)
+      motion->fail(
+          "a motion is along inertial axes, and the node is fixed along its own: move it by a joint and a drive");
     for (const auto& [name, value] : motion->entries()) {
       const std::size_t k = direction_index(name);
       if (node.freedom[k] == Freedom::fixed && entry.at("fixed").is_sequence())
@@ -114,24 +150,31 @@ void read_holds(const YamlValue& entry, Node& node) {
   }
 }
 
-/// Checks that all, two or none of the rotations of a node are held.
-void check_holds(const YamlValue& entry, const Node& node) {
-  const auto rotations = node.freedom.begin() + 3;
-  if (std::count(rotations, node.freedom.end(), Freedom::fixed) == 1 &&
-      std::count(rotations, node.freedom.end(), Freedom::free) == 2)
-    entry.at("fixed").fail(
-        "all three rotations of a node can be held, or two, or none, but not one alone; a universal joint holds one");
-}
-
 /// A held direction has no velocity of its own: a given one is an error, and must not be ignored.
-void check_velocities(const YamlValue& entry, const Node& node) {
+void check_velocities(const YamlValue& entry, const Holds& holds, const Node& node) {
+  const Vector3 v = holds.axes.transpose() * node.velocity;
+  const double rounding = holds.own_axes ? 1e-12 * v.norm() : 0;
+  const char* axes = holds.own_axes ? " of its own axes" : "";
   for (std::size_t k = 0; k < 3; ++k)
-    if (node.velocity[static_cast<int>(k)] != 0 && node.freedom[k] != Freedom::free)
-      entry.at("velocity").fail(fmt::format("the node is held along {}", directions[k]));
-  const Vector3 omega = node.frame.R * node.angular_velocity;
+    if (std::abs(v[static_cast<int>(k)]) > rounding && node.freedom[k] != Freedom::free)
+      entry.at("velocity").fail(fmt::format("the node is held along {}{}", directions[k], axes));
+  const Vector3 omega = holds.axes.transpose() * (node.frame.R * node.angular_velocity);
   for (std::size_t k = 0; k < 3; ++k)
     if (node.freedom[3 + k] != Freedom::free && std::abs(omega[static_cast<int>(k)]) > 1e-12 * omega.norm())
-      entry.at("angular_velocity").fail(fmt::format("the node is held against turning about {}", "xyz"[k]));
+      entry.at("angular_velocity").fail(fmt::format("the node is held against turning about {}{}", "xyz"[k], axes));
+}
+
+/// Adds the constraints of a node. @param held  directions that they hold
+void add_constraints(const YamlValue& entry, const Holds& holds, const std::array<bool, 6>& held, int index,
+                     Model& model) {
+  const Node& node = model.node(index);
+  model.add(std::make_unique<HeldDirections>(node, index, holds.axes, held), Entry{Section::supports, node.name},
+            Recorded::no);
+  model.when_read(Model::Stage::connections, [entry, index, &model] {
+    if (const auto& carrier = model.node(index).carrier)
+      entry.at("fixed").fail(
+          fmt::format("the node is carried rigidly by '{}' and cannot be fixed as well", model.node(*carrier).name));
+  });
 }
 
 /// The entries of the section, which may be placed relative to each other.
@@ -188,10 +231,18 @@ void read_node(const std::string& name, const YamlValue& entry, const Frame& fra
   node.frame = frame;
   node.velocity = entry.at("velocity").vector3();
   node.angular_velocity = entry.at("angular_velocity").vector3();
-  read_holds(entry, node);
-  check_holds(entry, node);
-  check_velocities(entry, node);
+  const Holds holds = read_fixed(entry, frame);
+  read_holds(entry, holds, node);
+  check_velocities(entry, holds, node);
+  std::array<bool, 6> by_constraint = constrained(holds);
+  // Prescribed rotations are prescribed all three together.
+  if (std::find(node.freedom.begin() + 3, node.freedom.end(), Freedom::prescribed) != node.freedom.end())
+    std::fill(by_constraint.begin() + 3, by_constraint.end(), false);
+  for (std::size_t k = 0; k < 6; ++k)
+    if (by_constraint[k]) node.freedom[k] = Freedom::free;
   const int index = model.add_node(std::move(node));
+  if (std::find(by_constraint.begin(), by_constraint.end(), true) != by_constraint.end())
+    add_constraints(entry, holds, by_constraint, index, model);
   if (const auto shape = entry.find("shape")) read_shapes(*shape, {Section::nodes, name}, index, model);
 }
 
@@ -201,25 +252,29 @@ const KeyTable& node_keys() {
   using namespace keys;
   static const KeyTable table{
       "a node", "A point with axes, which move.",
-      joined({{{"position", vector3("m").as_point().in_inertial_axes(), otherwise("[0, 0, 0]"),
-                "Position of the origin: inertial, or in the axes of the node `at`."}},
-              inertial_orientation_keys(),
-              {{"at", name_of("node"), computed("the inertial axes"),
-                "Node in whose axes the position and the orientation are given."},
-               {"carried_by", name_of("element"), optional,
-                "Rigid body that carries the node, as one of those that it names `also`."},
-               {"velocity", vector3("m/s").as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),
-                "Velocity at the start, in inertial components, along free directions."},
-               {"angular_velocity", vector3("rad/s").as_axial(), otherwise("[0, 0, 0]"),
-                "Angular velocity at the start, in the node's own axes, about free directions."},
-               {"fixed",
-                {boolean(), number(), list_of(word(directions, "a direction"))},
-                otherwise("false"),
-                "Held directions: `true`, or a number or formula of parameters that is not zero, for all six; or a "
-                "list of displacements x, y, z and rotations rx, ry, rz, along and about the inertial axes."},
-               {"motion", nested(motion_keys), optional,
-                "Prescribed motion from the start, each direction as a formula of t or by its acceleration."},
-               shape_key()}})};
+      joined(
+          {{{"position", vector3("m").as_point().in_inertial_axes(), otherwise("[0, 0, 0]"),
+             "Position of the origin: inertial, or in the axes of the node `at`."}},
+           inertial_orientation_keys(),
+           {{"at", name_of("node"), computed("the inertial axes"),
+             "Node in whose axes the position and the orientation are given."},
+            {"carried_by", name_of("element"), optional,
+             "Rigid body that carries the node, as one of those that it names `also`."},
+            {"velocity", vector3("m/s").as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),
+             "Velocity at the start, in inertial components, along free directions."},
+            {"angular_velocity", vector3("rad/s").as_axial(), otherwise("[0, 0, 0]"),
+             "Angular velocity at the start, in the node's own axes, about free directions."},
+            {"fixed",
+             {boolean(), number(), list_of(word(directions, "a direction"))},
+             otherwise("false"),
+             "Held directions: `true`, or a number or formula of parameters that is not zero, for all six; or a "
+             "list of displacements x, y, z and rotations rx, ry, rz, along and about the axes `fixed_axes`."},
+            {"fixed_axes", word({"inertial", "own"}, "the axes"), otherwise("inertial"),
+             "Axes of the directions that `fixed` lists: the inertial ones, or the node's own as drawn. They stay in "
+             "space."},
+            {"motion", nested(motion_keys), optional,
+             "Prescribed motion from the start, each direction as a formula of t or by its acceleration."},
+            shape_key()}})};
   return table;
 }
 

@@ -140,10 +140,13 @@ void check_placed(const YamlNode& entry, const std::string& section, const Scope
   if (entry.kind != YamlNode::Kind::map || !turns(scope.placement)) return;
   if (section == "nodes") {
     const Tree fixed = find_value(entry, "fixed");
-    if (fixed && !are_same_when_placed(*fixed, scope.placement))
-      fail_at(*fixed, *scope.main_file, path + ".fixed",
-              "these directions are inertial axes, and the part is turned or mirrored: hold the node by a joint to "
-              "`ground`");
+    const Tree axes = find_value(entry, "fixed_axes");
+    const bool turn_along = axes && axes->scalar == "own";
+    if (fixed && !turn_along && !are_same_when_placed(*fixed, scope.placement))
+      fail_at(
+          *fixed, *scope.main_file, path + ".fixed",
+          "these directions are inertial axes, and the part is turned or mirrored: hold the node along its own axes "
+          "(`fixed_axes: own`), or by a joint to `ground`");
     if (const Tree motion = find_value(entry, "motion"); motion && !is_same_when_placed(*motion, scope.placement))
       fail_at(*motion, *scope.main_file, path + ".motion",
               "a motion is along inertial axes, and the part is turned or mirrored: move the node by a joint and a "

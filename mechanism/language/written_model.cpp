@@ -124,9 +124,9 @@ Frame WrittenModel::frame_of_entry(const Tree& entry, const std::string& path) c
 
 Frame WrittenModel::own_frame(const YamlNode& entry) const {
   if (entry.kind != YamlNode::Kind::map) return {};
-  YamlValue value =
-      YamlValue::of_tree(without(entry, {"velocity", "angular_velocity", "fixed", "motion", "at", "carried_by"}), "",
-                         entry.file ? *entry.file : main_file_);
+  YamlValue value = YamlValue::of_tree(
+      without(entry, {"velocity", "angular_velocity", "fixed", "fixed_axes", "motion", "at", "carried_by"}), "",
+      entry.file ? *entry.file : main_file_);
   value.set_parameters(parameters_);
   static const KeyTable table{"a node", "", frame_keys(), {}};
   return read_frame(value.keyed(table));

@@ -1,6 +1,5 @@
 #include "mechanism/measures/node_measures.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "mechanism/measures/orientation_measures.hpp"
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/measures/pair_rotation.hpp"
+#include "mechanism/measures/turn_measure.hpp"
 #include "mechanism/model/description.hpp"
 
 namespace bielle::mechanism {
@@ -167,6 +167,8 @@ std::unique_ptr<Measure> make_node_measure(const std::string& name, const Model&
     return std::make_unique<PositionMeasure>(name, pair, direction, quantity == NodeQuantity::velocity);
   const Matrix3 A = axes_with_first(direction);
   const Matrix3 B = model.node(pair.second).frame.R.transpose() * model.node(pair.first).frame.R * A;
+  if (quantity == NodeQuantity::turn || quantity == NodeQuantity::turn_rate)
+    return std::make_unique<TurnMeasure>(name, pair, A, B, quantity == NodeQuantity::turn_rate);
   return std::make_unique<RotationMeasure>(name, pair, A, B, quantity == NodeQuantity::angular_velocity);
 }
 
@@ -179,14 +181,24 @@ std::unique_ptr<Measure> make_angle(const std::string& name, const NodePair& pai
 }
 
 namespace {
-const std::vector<std::string> quantities = {"position", "velocity", "rotation", "angular_velocity"};
+
+struct AlongAxis {
+  std::string before, after;  ///< parts of the name around the axis
+  NodeQuantity quantity;
+};
+const std::vector<AlongAxis> along_axes = {
+    {"position.", "", NodeQuantity::position}, {"velocity.", "", NodeQuantity::velocity},
+    {"rotation.", "", NodeQuantity::rotation}, {"angular_velocity.", "", NodeQuantity::angular_velocity},
+    {"turn.", "", NodeQuantity::turn},         {"turn.", ".rate", NodeQuantity::turn_rate}};
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
 }  // namespace
 
 const std::vector<std::string>& node_measure_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const std::string& quantity : quantities)
-      for (const char* axis : {"x", "y", "z"}) all.push_back(fmt::format("{}.{}", quantity, axis));
+    for (const AlongAxis& each : along_axes)
+      for (const char* axis : axis_names) all.push_back(each.before + axis + each.after);
     all.insert(all.end(), orientation_measure_names().begin(), orientation_measure_names().end());
     return all;
   }();
@@ -195,13 +207,12 @@ const std::vector<std::string>& node_measure_names() {
 
 std::unique_ptr<Measure> make_node_measure(const std::string& name, const Model& model, int node,
                                            const std::string& measure) {
-  const std::vector<std::string>& of_orientation = orientation_measure_names();
-  if (std::find(of_orientation.begin(), of_orientation.end(), measure) != of_orientation.end())
-    return make_orientation_measure(name, node, measure);
-  const auto quantity = std::find(quantities.begin(), quantities.end(), measure.substr(0, measure.size() - 2));
-  const Vector3 axis = Vector3::Unit(measure.back() - 'x');
-  return make_node_measure(name, model, {0, node, Vector3::Zero(), Vector3::Zero()},
-                           static_cast<NodeQuantity>(quantity - quantities.begin()), axis);
+  for (const AlongAxis& each : along_axes)
+    for (int k = 0; k < 3; ++k)
+      if (measure == each.before + axis_names[k] + each.after)
+        return make_node_measure(name, model, {0, node, Vector3::Zero(), Vector3::Zero()}, each.quantity,
+                                 Vector3::Unit(k));
+  return make_orientation_measure(name, node, measure);
 }
 
 }  // namespace bielle::mechanism

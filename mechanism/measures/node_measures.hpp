@@ -6,6 +6,7 @@
 //   rotation.x       component of the rotation vector (principal value) by which the node has turned from where it
 //                    was drawn, relative to the other [rad]
 //   angular_velocity.x   component of the angular velocity relative to the other along the same axis [rad/s]
+//   turn.x           its turn about the axis, counted over turns, see turn_measure.hpp [rad]; turn.x.rate [rad/s]
 //   bryant.a, ...    its orientation, see orientation_measures.hpp
 //   distance(a, b)   [m];   angle(a, b)   of the rotation from a to b, 0 to pi [rad]
 #pragma once
@@ -19,7 +20,7 @@
 
 namespace bielle::mechanism {
 
-enum class NodeQuantity { position, velocity, rotation, angular_velocity };
+enum class NodeQuantity { position, velocity, rotation, angular_velocity, turn, turn_rate };
 
 /// A node relative to another.
 struct NodePair {

@@ -207,7 +207,9 @@ std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue&
   return std::make_unique<CombinedMeasure>(name, std::move(references), std::move(of_state), std::move(inferred));
 }
 
-const std::vector<std::string> quantity_words = {"position", "velocity", "rotation", "angular_velocity"};
+/// In the order of NodeQuantity.
+const std::vector<std::string> quantity_words = {"position",         "velocity", "rotation",
+                                                 "angular_velocity", "turn",     "turn_rate"};
 
 const KeyTable& measure_of_node_keys() {
   using namespace keys;
@@ -236,7 +238,7 @@ std::unique_ptr<Measure> read_of_node(const std::string& name, const YamlValue& 
   const auto chosen = std::find(quantity_words.begin(), quantity_words.end(), entry.at("quantity").word());
   const auto quantity = static_cast<NodeQuantity>(chosen - quantity_words.begin());
   if (const auto at = entry.find("at")) {
-    if (quantity == NodeQuantity::rotation || quantity == NodeQuantity::angular_velocity)
+    if (quantity != NodeQuantity::position && quantity != NodeQuantity::velocity)
       at->fail("a rotation is that of the whole node: it has no point");
     if (at->is_sequence() && at->size() == 2 && at->at(std::size_t{0}).is_sequence()) {
       pair.at_first = at->at(std::size_t{0}).vector3();

@@ -76,6 +76,11 @@ Gauge::Gauge(const std::string& name, const System& system) : measure_(known_mea
   measure_ = own_.get();
   Declaration declaration;
   measure_->declare(declaration);
+  if (!declaration.memory.empty())
+    throw InputError(
+        fmt::format("'{}' is counted from step to step: give it a name in `measures` of the model, by which "
+                    "it is read",
+                    name));
   slots_.nodes = declaration.nodes;
   for (const Component* reference : declaration.references) slots_.refer_to(system.slots_of(*reference));
 }

@@ -29,11 +29,13 @@ std::vector<int> loose_parts(const System& system) {
   const Model& model = system.model();
   const std::size_t count = model.nodes().size();
   Parts parts(count);
-  std::vector<bool> attached(count, false);
+  std::vector<bool> attached(count, false), constrained(count, false);
   for (std::size_t m = 0; m < system.slots().size(); ++m) {
     const Section section = model.members()[m].entry.section;
-    if (section != Section::elements && section != Section::joints) continue;
     const std::vector<int>& nodes = system.slots()[m].nodes;
+    if (section == Section::supports && system.slots()[m].multipliers > 0)
+      for (const int node : nodes) constrained[static_cast<std::size_t>(node)] = true;
+    if (section != Section::elements && section != Section::joints) continue;
     for (const int node : nodes) {
       attached[static_cast<std::size_t>(node)] = true;
       parts.join(static_cast<std::size_t>(nodes[0]), static_cast<std::size_t>(node));
@@ -42,7 +44,8 @@ std::vector<int> loose_parts(const System& system) {
   std::vector<bool> is_held(count, false);
   const auto held = [&](std::size_t node) {
     const auto& freedom = model.nodes()[node].freedom;
-    return node == 0 || std::any_of(freedom.begin(), freedom.end(), [](Freedom f) { return f != Freedom::free; });
+    return node == 0 || constrained[node] ||
+           std::any_of(freedom.begin(), freedom.end(), [](Freedom f) { return f != Freedom::free; });
   };
   for (std::size_t k = 0; k < count; ++k)
     if (const auto carrier = model.nodes()[k].carrier) parts.join(static_cast<std::size_t>(*carrier), k);

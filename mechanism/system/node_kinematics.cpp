@@ -50,10 +50,9 @@ NodeFreedom freedom_of(const Node& node, int begin) {
       if (node.freedom[static_cast<std::size_t>(3 + k)] == Freedom::free)
         f.G.col(f.count++).tail<3>() = node.frame.R.row(k).transpose();
   } else if (free_rotations == 2) {
-    throw InputError(
-        fmt::format("node '{}': all three rotations can be held, or two, or none, but not one alone; "
-                    "a universal joint holds one",
-                    node.name));
+    throw InputError(fmt::format(
+        "node '{}': of its rotations all three, two or none can be eliminated; one alone is held by a constraint",
+        node.name));
   }
   f.rotations = free_rotations;
   f.all_free = f.count == 6;

@@ -8,7 +8,8 @@
 //     v_j = A v_i,                        dv_j = A dv_i + V dz_i,        V   = [0, -R_i (Omega~ c)~; 0, 0]
 //     a_j = A a_i + [R_i Omega~ Omega~ c; 0],  da_j = A da_i + W_v dv_i + W_z dz_i,
 //     W_v = [0, -R_i ((Omega~ c)~ + Omega~ c~); 0, 0],  W_z = [0, -R_i (Omegadot~ c + Omega~ Omega~ c)~; 0, 0].
-// Fixed, prescribed and carried directions are eliminated, never constrained.
+// Fixed, prescribed and carried directions are eliminated. One rotation that is fixed alone and directions along other
+// than the inertial axes are free here, and constrained by elements/forces/held_directions.hpp.
 #pragma once
 
 #include <vector>

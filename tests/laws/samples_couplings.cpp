@@ -87,6 +87,16 @@ std::vector<Sample> coupling_samples() {
                           {{"factors", "[1, 0, 2]", "other than 0"},
                            {"factors", "[1, 2]", "as many"},
                            {"joints", "[one, two, three]", "several coordinates"}}));
+  list.push_back(coupling("gear", "elastic",
+                          "joints: [one, two.displacement, three], factors: [1, -0.7, 2.5], "
+                          "stiffness: 5, damping: 0.4",
+                          {{"stiffness", "", "give its `stiffness`"}}));
+  list.push_back(coupling("gear", "elastic coupling with play",
+                          "joints: [one, three], ratio: -0.4, stiffness: 5, damping: 0.1, backlash: 0.02", {}));
+  list.push_back(coupling("differential", "elastic", "joints: [one, two, three], ratio: 3.5, stiffness: 2, damping: 0",
+                          {{"stiffness", "", "give its `stiffness`"}}));
+  list.push_back(coupling("rack_and_pinion", "elastic coupling with play",
+                          "joints: [three, two], radius: 0.3, stiffness: 7, damping: 0.05, backlash: 0.03", {}));
   list.push_back(coupling("differential", "", "joints: [one, two, three], ratio: 3.5", {{"ratio", "0", ""}}));
   list.push_back(coupling("rack_and_pinion", "", "joints: [three, two], radius: 0.3",
                           {{"radius", "0", "other than 0"}, {"joints", "[three, one]", "it has no displacement"}}));

@@ -127,6 +127,15 @@ std::vector<Sample> drive_samples() {
             {{"torque", "'a.bryant.d'", "did you mean"}, {"torque", "'a.eulr.b'", "did you mean 'euler.b'"}});
   of_orientation.inertial = true;
   list.push_back(of_orientation);
+  Sample of_turns = drive("hinge", "torque", "2 + a.turn.x*b.turn.y.rate + 0.3*b.turn.z - a.turn.z.rate",
+                          {{"torque", "'a.turn'", "did you mean"}, {"torque", "'a.turns.z'", "did you mean 'turn.z'"}});
+  of_turns.inertial = true;
+  list.push_back(of_turns);
+  list.push_back(drive("hinge", "torque", "roll*sin(t) + 0.4*roll_rate^2", {}));
+  list.back().model +=
+      "measures:\n"
+      "  roll: {node: b, relative_to: a, quantity: turn, direction: [1, 2, 3]}\n"
+      "  roll_rate: {node: a, relative_to: b, quantity: turn_rate, direction: [-0.4, 1, 0.2]}\n";
   list.push_back(drive("spherical", "torque", "2 + axle.rx*axle.ry.rate", {{"coordinate", "angle", "rx"}}));
   list.back().model.replace(list.back().model.find("it: {joint: axle"), 16, "it: {coordinate: ry, joint: axle");
   list.push_back(drive("spherical", "rate", "0.3*t", {{"coordinate", "angle", "rx"}}));

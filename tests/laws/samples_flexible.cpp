@@ -243,6 +243,12 @@ std::vector<Sample> clearances() {
            {"friction.static", "0.1", "no smaller"}}),
       clearance("clearance_hinge", "one contact",
                 "axis: [1, 2, 3], radial_gap: 0.01, contact: {stiffness: 2, exponent: 1}", {{"axis", "[0, 0, 0]", ""}}),
+      clearance("clearance_hinge", "collars without play",
+                of_hinge +
+                    "radial_gap: 0.01, axial_gap: 0, radius: 0.3, contact: {stiffness: 3, exponent: 2, damping: "
+                    "0.1}, axial_contact: {stiffness: 2, exponent: 1, damping: 0.1}, friction: {coefficient: 0.3, "
+                    "velocity: 2}",
+                {{"axial_gap", "", "which is missing"}}),
       clearance("clearance_hinge", "materials",
                 "axis: [1, 2, 3], radial_gap: 0.01, length: 0.5, contact: {young: [2, 3], poisson: 0.3, damping: 0.1}",
                 {{"length", "", "which is missing"}, {"contact.stiffness", "5", "follows from"}}),

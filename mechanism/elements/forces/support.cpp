@@ -5,6 +5,8 @@
 #include <memory>
 #include <set>
 
+#include "mechanism/elements/forces/held_directions.hpp"
+
 namespace bielle::mechanism {
 
 Support::Support(std::string name, int node, std::vector<int> carried, std::vector<const Component*> acting)
@@ -80,8 +82,10 @@ const std::set<int>& nodes_of(const Component& component, std::map<const Compone
 }
 
 /// Whether only a node's rotations are held because the parts on it have no inertia: the support then has no reaction.
-bool holds_a_point_mass(const Node& node, const std::vector<const Component*>& acting) {
+/// @param held  directions held by constraints, or nullptr
+bool holds_a_point_mass(const Node& node, const HeldDirections* held, const std::vector<const Component*>& acting) {
   const auto& freedom = node.freedom;
+  if (held && held->holds_translations()) return false;
   return std::all_of(freedom.begin(), freedom.begin() + 3, [](Freedom f) { return f == Freedom::free; }) &&
          std::any_of(acting.begin(), acting.end(), [](const Component* c) { return c->type() == "point_mass"; });
 }
@@ -89,13 +93,18 @@ bool holds_a_point_mass(const Node& node, const std::vector<const Component*>& a
 }  // namespace
 
 void add_supports(Model& model) {
+  std::map<int, const HeldDirections*> constrained;
+  for (const Member& member : model.members())
+    if (const auto* held = dynamic_cast<const HeldDirections*>(member.component.get()))
+      constrained.emplace(held->node(), held);
   std::map<int, int> held_by;  // for each node that is held, or carried by a held one
   const int count = static_cast<int>(model.nodes().size());
   for (int k = 1; k < count; ++k) {
     const int top = model.root_carrier(k);
     const auto& freedom = model.node(top).freedom;
     if (top != 0 && !model.node(top).internal &&
-        std::any_of(freedom.begin(), freedom.end(), [](Freedom f) { return f != Freedom::free; }))
+        (constrained.contains(top) ||
+         std::any_of(freedom.begin(), freedom.end(), [](Freedom f) { return f != Freedom::free; })))
       held_by[k] = top;
   }
   if (held_by.empty()) return;
@@ -105,13 +114,15 @@ void add_supports(Model& model) {
   std::map<int, std::vector<const Component*>> acting;
   std::map<const Component*, std::set<int>> known;
   for (const Member& member : model.members()) {
+    if (dynamic_cast<const HeldDirections*>(member.component.get())) continue;  // its forces are the support's own
     std::set<int> supports;
     for (const int node : nodes_of(*member.component, known))
       if (const auto held = held_by.find(node); held != held_by.end()) supports.insert(held->second);
     for (const int support : supports) acting[support].push_back(member.component.get());
   }
   for (auto& [node, components] : acting) {
-    if (holds_a_point_mass(model.node(node), components)) continue;
+    const auto held = constrained.find(node);
+    if (holds_a_point_mass(model.node(node), held == constrained.end() ? nullptr : held->second, components)) continue;
     const std::string name = model.node(node).name;
     model.add(std::make_unique<Support>(name, node, std::move(carried_by[node]), std::move(components)),
               Entry{Section::supports, name});

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/joints/actions/event_reader.hpp"
 #include "mechanism/joints/actions/joint_clutch_reader.hpp"
 #include "mechanism/joints/actions/joint_lock.hpp"
 #include "mechanism/joints/actions/joint_spring.hpp"
@@ -68,14 +69,14 @@ void read_spring(const ByKey& values, const Joint& joint, std::size_t coordinate
   model.add(std::move(spring), Entry{Section::joints, joint.name()});
 }
 
-StopRange read_stop_range(const YamlValue& given, Moves moves) {
+StopLaw read_stop_range(const YamlValue& given, Moves moves) {
   const YamlValue entry = given.keyed(stop_keys(moves));
   const YamlValue range = entry.at("range");
   if (!range.is_sequence() || range.size() != 2) range.fail("expected [lower, upper]");
   // One end may be open: `~`.
   const auto end = [&](std::size_t k, double open) { return range.at(k).is_null() ? open : range.at(k).number(); };
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  StopRange stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").number(), entry.at("damping").number()};
+  StopLaw stops{end(0, -infinity), end(1, infinity), entry.at("stiffness").number(), entry.at("damping").number()};
   if (!(stops.lower < stops.upper)) range.fail("expected the lower end first, and a range between the two");
   if (stops.lower == -infinity && stops.upper == infinity) range.fail("both ends are open: these are no stops");
   return stops;

@@ -1,24 +1,15 @@
-// Stops at the ends of a coordinate's range [lower, upper]: linear spring and damper with unilateral force.
-//
-//     upper, p = q - upper:   N = max(0, k p + d qdot)  in contact, 0 otherwise;  lower stop similarly.
-// Contact begins and ends when p changes its sign: steps end there (events), because the damper's force jumps. At rest
-// only the sign of p matters. Reference of the model: linear Kelvin-Voigt contact without adhesion.
+// Stops at the ends of a coordinate's range (laws/stop_law.hpp).
 #pragma once
 
 #include "mechanism/joints/actions/coordinate_action.hpp"
+#include "mechanism/laws/stop_law.hpp"
 
 namespace bielle::mechanism {
 
-struct StopRange {
-  double lower, upper;  ///< ends [m] or [rad]; infinite: no stop
-  double stiffness;     ///< [N/m] or [N m/rad]
-  double damping;       ///< [N s/m] or [N m s/rad]
-};
-
 class JointStop final : public CoordinateAction {
  public:
-  JointStop(std::string name, const Joint& joint, std::size_t coordinate, const StopRange& range)
-      : CoordinateAction("stops", std::move(name), joint, coordinate), range_(range) {}
+  JointStop(std::string name, const Joint& joint, std::size_t coordinate, const StopLaw& law)
+      : CoordinateAction("stops", std::move(name), joint, coordinate), law_(law) {}
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
@@ -39,14 +30,8 @@ class JointStop final : public CoordinateAction {
   double calc_force(const LocalState& state, MeasureGradient& gradient) const;
 
  private:
-  struct Contact {
-    double side = 0;         ///< +1 at the upper stop, -1 at the lower one, 0 at neither
-    double penetration = 0;  ///< penetration p, positive in contact
-    double N = 0;            ///< resisting force along the coordinate, with the sign of `side`
-    bool pushes = false;
-  };
-  Contact contact(const LocalState& state, double q, double v) const;
-  StopRange range_;
+  StopLaw::Contact contact(const LocalState& state, double q, double v) const;
+  StopLaw law_;
 };
 
 }  // namespace bielle::mechanism

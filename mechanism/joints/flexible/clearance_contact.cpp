@@ -8,6 +8,8 @@ using Place = ClearancePlace::Kind;
 
 namespace {
 
+bool is_face(Place kind) { return kind == Place::face || kind == Place::faces; }
+
 constexpr double least_way = 1e-12;  // [m]: far below any gap, far above the rounding of its square
 
 }  // namespace
@@ -20,8 +22,9 @@ ClearanceContact::ClearanceContact(const NodeState& first, const NodeState& seco
   const Vector3 point = B.x + place.along * B.R.col(2);
   for (int k = 0; k < 3; ++k) s_[static_cast<std::size_t>(k)] = measure_position(first, second, A.R.col(k), A.x, point);
   W_ = rotation.rate_gradients();
-  if (place.kind == Place::face) {
-    p_ = place.side * s_[2] - place.gap;
+  if (is_face(place.kind)) {
+    // Collars without play are in contact in the middle, too: the force is zero there, but its stiffness is not.
+    p_ = place.kind == Place::face ? place.side * s_[2] - place.gap : sqrt(square(s_[2]) + least_way * least_way);
     Y_.row(0) = s_[0].gradient.transpose();
     Y_.row(1) = s_[1].gradient.transpose();
     Y_.row(2) = place.radius * W_.row(2);
@@ -53,7 +56,7 @@ ClearanceContact::Rows ClearanceContact::turned_sliding(const Vector3& w) const 
 //   Y^T f = sum f_k ds_k + r W^T (n x f),   d(n x f) = -f~ dn
 Matrix12 ClearanceContact::Z(const Vector3& f) const {
   Matrix12 Z = Matrix12::Zero();
-  if (place_.kind == Place::face) {
+  if (is_face(place_.kind)) {
     Z = f[0] * s_[0].second + f[1] * s_[1].second;
     rotation_.add_rate_second(place_.radius * f[2] * Vector3::UnitZ(), Z);
     return Z;

@@ -6,6 +6,7 @@
 //   bore     rho = [s_x, s_y, 0]:   p = |rho| - gap,   n = rho/|rho|
 //   socket   rho = s:               p and n as for the bore
 //   face     p = +-s_z - gap,       n = +-z, for the journal's collar on the end of the bush
+//   faces    rho = [0, 0, s_z]:     p = |rho|, for collars without play on both ends, one of which always touches
 // The penetration of the surfaces is p > 0. At the point of contact the journal's surface slides with
 //     w = sdot + omega x r n,   without its part along n   (bore, socket; omega seen from the bush, r the journal's
 //     radius) w = [sdot_x, sdot_y, r omega_z]                       (face: its centre, and the mean radius of its ring)
@@ -22,7 +23,7 @@
 namespace bielle::mechanism {
 
 struct ClearancePlace {
-  enum class Kind { bore, socket, face };
+  enum class Kind { bore, socket, face, faces };
   Kind kind = Kind::bore;
   double gap = 0;     ///< [m]
   double along = 0;   ///< position of the point on the journal's axis, from its origin [m]
@@ -49,7 +50,7 @@ class ClearanceContact {
   const PairRotation& rotation_;
   std::array<PairMeasure, 3> s_;
   PairMeasure p_;
-  Vector3 n_ = Vector3::Zero();  ///< zero for a face, whose w is only sliding
+  Vector3 n_ = Vector3::Zero();  ///< zero for faces, whose w is only sliding
   Rows n_slope_ = Rows::Zero(), Y_ = Rows::Zero(), W_ = Rows::Zero();
 };
 

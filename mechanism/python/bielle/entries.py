@@ -1673,7 +1673,8 @@ class Entries:
 
     def gear(self, name: str, *,
             joints: Sequence[Any], ratio: float | str | None = None, teeth: Sequence[Any] | None = None,
-            internal: bool | None = None, factors: Sequence[Any] | None = None, active: bool | None = None,
+            internal: bool | None = None, factors: Sequence[Any] | None = None, stiffness: float | str | None = None,
+            damping: float | str | None = None, backlash: float | str | None = None, active: bool | None = None,
             **more: Any) -> None:
         """Coordinates of joints in a fixed ratio.
 
@@ -1684,11 +1685,18 @@ class Entries:
         internal: Whether one of two wheels with `teeth` is a ring. (true or false; default: false)
         factors: Factors of the coordinates, in place of `ratio`: the sum of factor times coordinate is zero. (list
         of at least 2: number)
+        stiffness: Stiffness of the coupling, measured as an angle of the second joint (with `factors`, as their
+        sum); without it the coupling is rigid. (number [N m/rad or N/m] greater than 0)
+        damping: Damping of an elastic coupling, while its flanks touch. (number [N m s/rad or N s/m] of at least 0;
+        default: 0)
+        backlash: Play of an elastic coupling from flank to flank, measured as an angle of the second joint (with
+        `factors`, as their sum); the model is drawn in its middle. (number [rad or m] of at least 0; default: 0)
         active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
         true)
         """
         self.add("joints", name, {"type": "gear", "joints": joints, "ratio": ratio, "teeth": teeth,
-            "internal": internal, "factors": factors, "active": active, **more})
+            "internal": internal, "factors": factors, "stiffness": stiffness, "damping": damping,
+            "backlash": backlash, "active": active, **more})
 
     def gear_mesh(self, name: str, *,
             nodes: Sequence[Any], axes: Sequence[Any], carrier: Mapping[str, Any] | str | None = None,
@@ -1727,30 +1735,45 @@ class Entries:
             "errors": errors, "active": active, **more})
 
     def differential(self, name: str, *,
-            joints: Sequence[Any], ratio: float | str | None = None, active: bool | None = None,
+            joints: Sequence[Any], ratio: float | str | None = None, stiffness: float | str | None = None,
+            damping: float | str | None = None, backlash: float | str | None = None, active: bool | None = None,
             **more: Any) -> None:
         """Angles of an input shaft and of two others that share its motion.
 
         joints: Angles of the input, the left and the right shaft. (list of 3: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         ratio: Rate of the input over the mean of the other two; not 0. (number; default: 1)
+        stiffness: Stiffness of the coupling, measured as an angle of the input; without it the coupling is rigid.
+        (number [N m/rad] greater than 0)
+        damping: Damping of an elastic coupling, while its flanks touch. (number [N m s/rad] of at least 0; default:
+        0)
+        backlash: Play of an elastic coupling from flank to flank, measured as an angle of the input; the model is
+        drawn in its middle. (number [rad] of at least 0; default: 0)
         active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
         true)
         """
-        self.add("joints", name, {"type": "differential", "joints": joints, "ratio": ratio, "active": active, **more})
+        self.add("joints", name, {"type": "differential", "joints": joints, "ratio": ratio, "stiffness": stiffness,
+            "damping": damping, "backlash": backlash, "active": active, **more})
 
     def rack_and_pinion(self, name: str, *,
-            joints: Sequence[Any], radius: float | str, active: bool | None = None, **more: Any) -> None:
+            joints: Sequence[Any], radius: float | str, stiffness: float | str | None = None,
+            damping: float | str | None = None, backlash: float | str | None = None, active: bool | None = None,
+            **more: Any) -> None:
         """A displacement that is a radius times an angle.
 
         joints: Angle of the pinion and displacement of the rack. (list of 2: name of a joint; or formula of
         measures; or keys of a coordinate of a joint)
         radius: Displacement of the rack over the angle of the pinion; not 0. (number [m])
+        stiffness: Stiffness of the coupling, measured as a displacement of the rack; without it the coupling is
+        rigid. (number [N/m] greater than 0)
+        damping: Damping of an elastic coupling, while its flanks touch. (number [N s/m] of at least 0; default: 0)
+        backlash: Play of an elastic coupling from flank to flank, measured as a displacement of the rack; the model
+        is drawn in its middle. (number [m] of at least 0; default: 0)
         active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
         true)
         """
-        self.add("joints", name, {"type": "rack_and_pinion", "joints": joints, "radius": radius, "active": active,
-            **more})
+        self.add("joints", name, {"type": "rack_and_pinion", "joints": joints, "radius": radius,
+            "stiffness": stiffness, "damping": damping, "backlash": backlash, "active": active, **more})
 
     def cam(self, name: str, *,
             joints: Sequence[Any], lift: str | None = None, profile: str | None = None, follower: str | None = None,

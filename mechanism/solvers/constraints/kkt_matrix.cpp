@@ -32,8 +32,12 @@ VectorX small_diagonal(const System& system, const NewtonMatrix& linear, const S
 }
 
 void throw_massless(const std::string& what, const char* lack) {
+  const bool turns = what.rfind("rotation", 0) == 0;
   throw ComputationError(fmt::format(
-      "{}: it has no mass, and nothing holds it; hold it (`fixed`), join it, or give it a body with {}", what, lack));
+      "{}: it has no mass, and nothing holds it; hold it (`fixed`), join it, or give it a body with {}{}", what, lack,
+      turns ? " (a rod between two spherical joints turns about itself: a `universal` joint in place of one "
+              "holds it, or the rod is a `spherical_spherical` joint)"
+            : ""));
 }
 
 void KktMatrix::factor(const Environment& environment, const State& state) {

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "mechanism/analyses/modes.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/io/mechanism_file.hpp"
 #include "mechanism/session/session.hpp"
@@ -153,6 +154,34 @@ joints:
     CHECK(session.read("joints/it/reaction")[5] == Approx(0.2 * 50 * 0.02).epsilon(1e-6));
     CHECK(session.read("joints/it/reaction")[2] == Approx(-50).epsilon(1e-6));
   });
+}
+
+TEST_CASE("without play journal, ball and collars have their stiffness in the middle, once") {
+  // 3 kg; springs of n = 1: w^2 = k/m along each direction that has a contact.
+  struct Kind {
+    std::string keys;
+    int held;  ///< directions with a contact
+  };
+  for (const Kind& kind :
+       {Kind{"clearance_hinge, axis: [0, 0, 1], radial_gap: 0, axial_gap: 0, axial_contact: "
+             "{stiffness: 1200, exponent: 1}",
+             3},
+        Kind{"clearance_hinge, axis: [0, 0, 1], radial_gap: 0", 2}, Kind{"clearance_spherical, radial_gap: 0", 3}}) {
+    CAPTURE(kind.keys);
+    const MechanismFile file = read_mechanism_text(
+        "nodes: {journal: {fixed: [rx, ry, rz]}}\nelements: {journal: {type: point_mass, node: journal, mass: 3}}\n"
+        "joints: {it: {nodes: [ground, journal], contact: {stiffness: 1200, exponent: 1}, type: " +
+            kind.keys + "}}\n",
+        "model.yaml");
+    Session session(file.model);
+    int held = 0;
+    for (const Mode& mode : compute_modes(session, {}).found.modes) {
+      if (std::abs(mode.s) < 1e-3) continue;
+      CHECK(std::abs(mode.s) == Approx(20).epsilon(1e-6));
+      ++held;
+    }
+    CHECK(held == kind.held);
+  }
 }
 
 TEST_CASE("a journal tilts as far as its ends have play") {

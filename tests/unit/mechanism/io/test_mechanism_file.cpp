@@ -22,7 +22,8 @@ elements:
 }  // namespace
 
 TEST_CASE("holds that cannot be are refused where they stand") {
-  CHECK_THAT(refusal("  a: {fixed: [rz]}"), Contains("model.yaml:2: nodes.a.fixed") && Contains("two"));
+  CHECK_THAT(refusal("  a: {fixed: true, fixed_axes: own}"),
+             Contains("model.yaml:2: nodes.a.fixed_axes") && Contains("a list of `fixed` directions"));
   CHECK_THAT(refusal("  a: {fixed: [rx], motion: {rz: \"t\"}}"), Contains("model.yaml:2: nodes.a.motion"));
 }
 
