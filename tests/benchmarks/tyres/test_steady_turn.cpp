@@ -36,7 +36,8 @@ joints:
     text += fmt::format(R"yaml(
   {0}_axle: {{type: hinge, nodes: [chassis, {0}], axis: [{1:.17g}, {2:.17g}, 0]}}
   {0}_tyre: {{type: tyre, nodes: [ground, {0}], normal: [0, 0, 1], position: [0, 0, 0], axis: [{1:.17g}, {2:.17g}, 0],
-    radius: 0.315, stiffness: 2e5, slip: {{longitudinal: 1e5, lateral: {3}, friction: 1e6, relaxation: 0.3, trail: {4}}}}}
+    radius: 0.315, stiffness: 2e5,
+    slip: {{longitudinal: 1e5, lateral: {3}, friction: 1e6, relaxation: 0.3, trail: {4}}}}}
 )yaml",
                         name, -std::sin(angle), std::cos(angle), C, trail);
   return text;

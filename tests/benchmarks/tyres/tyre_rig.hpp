@@ -34,7 +34,8 @@ elements:
 joints:
   tow: {{type: prismatic, nodes: [ground, fork], axis: [1, 0, 0]}}
   axle: {{type: hinge, nodes: [fork, hub], axis: [{1:.17g}, {2:.17g}, {3:.17g}]}}
-  tyre: {{type: tyre, nodes: [ground, hub], normal: [0, 0, 1], position: [0, 0, 0], axis: [{1:.17g}, {2:.17g}, {3:.17g}],
+  tyre: {{type: tyre, nodes: [ground, hub], normal: [0, 0, 1], position: [0, 0, 0],
+          axis: [{1:.17g}, {2:.17g}, {3:.17g}],
           radius: 0.5, stiffness: 1e5, {7}}}
 drives:
   pull: {{joint: tow, speed: {0:.17g}}}
