@@ -33,6 +33,7 @@
 #include "mechanism/joints/pairs/slider.hpp"
 #include "mechanism/joints/pairs/universal.hpp"
 #include "mechanism/joints/pairs/wheel.hpp"
+#include "mechanism/joints/tyres/tyre.hpp"
 #include "mechanism/reading/read_activity.hpp"
 
 namespace bielle::mechanism {
@@ -79,6 +80,7 @@ const std::vector<ComponentType>& component_table() {
       {Section::joints, "point_on_curve", read_point_on_curve, with_activity<point_on_curve_keys>},
       {Section::joints, "slider", read_slider, with_activity<slider_keys>},
       {Section::joints, "wheel", read_wheel, with_activity<wheel_keys>},
+      {Section::joints, "tyre", read_tyre, with_activity<tyre_keys>},
       {Section::joints, "bushing", read_bushing, with_activity<bushing_keys>},
       {Section::joints, "bearing", read_bearing, with_activity<bearing_keys>},
       {Section::joints, "ball_bearing", read_ball_bearing, with_activity<ball_bearing_keys>},

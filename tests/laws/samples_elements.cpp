@@ -263,10 +263,10 @@ elements:
 }
 
 /// Aerodynamic forces on a curved and twisted beam.
-Sample airfoil() {
+Sample airfoil(bool pitch_rate) {
   Sample sample{Section::elements,
                 "beam",
-                "airfoil",
+                pitch_rate ? "airfoil" : "airfoil without pitch rate",
                 two_nodes + R"yaml(
 elements:
   it:
@@ -276,8 +276,8 @@ elements:
     arc_through: [0.7, 0.5, 0.3]
     twist: 0.4
     section: {EA: 4, GAy: 2, GAz: 3, GJ: 1, EIy: 2, EIz: 1}
-    airfoil: {chord: "0.5 + 0.3*s", twist: "0.2 - 0.4*s", at: [0.1, -0.05], lift: "2*sin(2*alpha)", drag: "0.1 + sin(alpha)^2", moment: "-0.1*cos(alpha)", density: 0.8, wind: ["3 + s", "7*cos(t)", "5 - s*t"]}
-)yaml",
+    airfoil: {chord: "0.5 + 0.3*s", twist: "0.2 - 0.4*s", at: [0.1, -0.05], lift: "2*sin(2*alpha)", drag: "0.1 + sin(alpha)^2", moment: "-0.1*cos(alpha)", density: 0.8, wind: ["3 + s", "7*cos(t)", "5 - s*t"])yaml" +
+                    std::string(pitch_rate ? "" : ", pitch_rate: false") + "}\n",
                 {{"airfoil.chord", "s", "chord greater than 0"}, {"airfoil.lift", "2*beta", "beta"}}};
   sample.inertial = true;             // the wind
   sample.scales.smooth_within = 0.3;  // the angle of attack changes within the speed of the air
@@ -509,7 +509,8 @@ std::vector<Sample> element_samples() {
       tapered_shape(),
       dead_line_load(),
       follower_line_load(),
-      airfoil(),
+      airfoil(true),
+      airfoil(false),
       spring(),
       spring_by_formula(),
       timed_spring(),

@@ -27,6 +27,49 @@ Sample variant(Sample sample, const std::string& name) {
   return sample;
 }
 
+/// Tyres on a plane and on a road; in the random states some touch, some are above the road.
+std::vector<Sample> tyre_samples() {
+  const std::string place = "normal: [0.1, 0.2, 1], axis: [1, 2, -0.2], radius: 0.9, position: [0, 0, -0.2]";
+  const std::string slip =
+      "slip: {longitudinal: 2, lateral: 1.5, friction: 5, relaxation: [0.4, 0.7], trail: 0.1, camber: 0.3";
+  const std::string all = place + ", stiffness: 3, damping: 0.4, rolling_resistance: 0.2, speed: 0.6, " + slip;
+  std::vector<Sample> list = {
+      higher_pair("tyre", place + ", stiffness: 3",
+                  {{"axis", "[0.1, 0.2, 1]", "lies flat"},
+                   {"position", "[0, 0, 9]", "below the plane"},
+                   {"stiffness", "", "which is missing"},
+                   {"curve", "none.csv", "give one of them"}}),
+      variant(higher_pair("tyre", all + ", stiffest_load: 1.1}", {{"slip.curvature", "0.5", "`shape` is missing"}}),
+              "brush model"),
+      variant(higher_pair("tyre", all + ", shape: 1.6, curvature: -0.5}", {}), "magic formula"),
+      variant(higher_pair("tyre",
+                          place + ", curve: force.csv, damping: 0.4, speed: 0.6, " + slip +
+                              "}, road: {table: road.csv, along: [1, 0.2, 0]}",
+                          {{"curve", "pulls.csv", "pushes"},
+                           {"curve", "preload.csv", "expected 0"},
+                           {"road.table", "none.csv", "no such file"},
+                           {"road.table", "narrow.csv", "valley"},
+                           {"road.table", "high.csv", "below the road"},
+                           {"road.along", "[0.1, 0.2, 1]", "along its plane"}}),
+              "on a road")};
+  for (Sample& sample : list) {
+    sample.scales.smooth_within = 0.05;  // slip of a tyre that is hardly pressed in
+    sample.scales.first_order = 0.2;     // deflections of the tread below and above those that friction holds
+    sample.scales.kinks_unloaded = !sample.variant.empty();  // slip at standstill
+  }
+  list.back().files = [](const std::string& folder) {
+    // The kinks of the curve are away from the states.
+    std::ofstream(folder + "/force.csv") << "0,0\n9,20\n";
+    std::ofstream(folder + "/pulls.csv") << "0,0\n1,-3\n";
+    std::ofstream(folder + "/preload.csv") << "0,1\n1,3\n";
+    // One piece, or two that join smoothly: finite differences stay within a piece.
+    std::ofstream(folder + "/road.csv") << "-9,0.9\n-3,0.1\n3,0.2\n9,-0.7\n";
+    std::ofstream(folder + "/narrow.csv") << "-1,1\n0,0\n1,1\n";
+    std::ofstream(folder + "/high.csv") << "-1,9\n1,9\n";
+  };
+  return list;
+}
+
 const BadValue bad_axis{"axis", "[0, 0, 0]", ""};
 
 }  // namespace
@@ -83,6 +126,7 @@ std::vector<Sample> higher_pair_samples() {
     tyre.scales.kinks_unloaded = true;  // at a push of zero
     list.push_back(variant(tyre, friction.empty() ? "linear tyre" : "saturating tyre"));
   }
+  for (Sample& sample : tyre_samples()) list.push_back(std::move(sample));
   for (const bool closed : {false, true}) {
     Sample curve = higher_pair("point_on_curve",
                                "position: [0.55, 0.2, 0.15], curve: points.csv, stiffness: 2, damping: 0.3, closed: " +

@@ -19,6 +19,17 @@ Matrix3 end_share_gradient(double z, const Vector3& psi, const Vector3& n) {
   return z * (inverse_transpose_gradient(psi, T.transpose() * n) + tangent_inverse(psi).transpose() * p_gradient);
 }
 
+/// d(W_k^T n)/dpsi of both ends with n fixed.
+std::array<Matrix3, 2> share_gradients(const SpanPoint& point, const SpanSection& at, const Vector3& n) {
+  return {-end_share_gradient(1 - point.z, -at.psi, n), end_share_gradient(point.z, at.psi, n)};
+}
+
+/// Derivatives of psi by small rotations of the section frames at the ends.
+std::array<Matrix3, 2> psi_gradients(const SpanSection& at) {
+  const Matrix3 T_inverse = tangent_inverse(at.psi);
+  return {-T_inverse.transpose(), T_inverse};
+}
+
 }  // namespace
 
 std::vector<SpanPoint> span_points(const BeamSpan& span, const std::vector<double>& ends) {
@@ -79,10 +90,7 @@ void add_span_residual(const BeamSpan& span, const SpanPoint& point, const SpanS
 
 void add_span_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const SpanForce& load,
                       const Matrix3& f_turn, const Matrix3& n_turn, const LocalState& state, Eigen::Ref<MatrixX> K) {
-  const Matrix3 T_inverse = tangent_inverse(at.psi);
-  const std::array<Matrix3, 2> psi_gradient{-T_inverse.transpose(), T_inverse};
-  const std::array<Matrix3, 2> W_gradient{-end_share_gradient(1 - point.z, -at.psi, load.n),
-                                          end_share_gradient(point.z, at.psi, load.n)};
+  const std::array<Matrix3, 2> psi_gradient = psi_gradients(at), W_gradient = share_gradients(point, at, load.n);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto x_i = static_cast<Eigen::Index>(6 * i), Theta_i = x_i + 3;
     const Matrix3& R_i = state.node(static_cast<int>(i)).R;
@@ -119,6 +127,40 @@ void add_span_rate_tangent(const BeamSpan& span, const SpanPoint& point, const S
       tangent.C.dense().block<6, 3>(x_i, x_j) += point.N[j] * by_velocity;
       tangent.C.dense().block<6, 3>(x_i, x_j + 3) -= by_velocity * node.R * skew(point.a[j]);
     }
+  }
+}
+
+// With n_k = W_k^T e_x(psi), the rate is the sum of n_k . R_Sk^T Omega_k.
+SpanTwistRate span_twist_rate(const BeamSpan& span, const SpanPoint& point, const SpanSection& at,
+                              const LocalState& state) {
+  const std::array<Matrix3, 2> psi_gradient = psi_gradients(at), share = share_gradients(point, at, Vector3::UnitX());
+  SpanTwistRate twist;
+  Eigen::RowVector3d by_psi = Eigen::RowVector3d::Zero();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Matrix3 to_end = span.section_frame(k).transpose();
+    const Vector3 omega = to_end * state.node(static_cast<int>(k)).Omega;
+    twist.by_rate[k] = at.W[k].row(0) * to_end;
+    twist.value += at.W[k].row(0).dot(omega);
+    by_psi += omega.transpose() * share[k];
+  }
+  for (std::size_t k = 0; k < 2; ++k) twist.by_turn[k] = by_psi * psi_gradient[k] * span.section_frame(k).transpose();
+  return twist;
+}
+
+void add_span_twist_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSection& at,
+                            const SpanTwistRate& twist, const SpanForce& by_twist, const LocalState& state,
+                            LocalTangent& tangent) {
+  Eigen::Matrix<double, 12, 1> rows = Eigen::Matrix<double, 12, 1>::Zero();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto x = static_cast<Eigen::Index>(6 * k);
+    rows.segment<3>(x) = -point.w * point.N[k] * by_twist.f;
+    rows.segment<3>(x + 3) = -point.w * (point.a[k].cross(state.node(static_cast<int>(k)).R.transpose() * by_twist.f) +
+                                         span.section_frame(k) * at.W[k].transpose() * by_twist.n);
+  }
+  for (std::size_t j = 0; j < 2; ++j) {
+    const auto Theta_j = static_cast<Eigen::Index>(6 * j + 3);
+    if (tangent.wants_K) tangent.K.dense().block<12, 3>(0, Theta_j) += rows * twist.by_turn[j];
+    if (tangent.wants_C) tangent.C.dense().block<12, 3>(0, Theta_j) += rows * twist.by_rate[j];
   }
 }
 

@@ -76,6 +76,19 @@ void add_span_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSe
 void add_span_rate_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const Matrix3& f_rate,
                            const Matrix3& n_rate, const LocalState& state, LocalTangent& tangent);
 
+/// Rate at which the section turns about its x axis [rad/s], with derivatives by rotations and by angular velocities of
+/// the two nodes.
+struct SpanTwistRate {
+  double value = 0;
+  std::array<Eigen::RowVector3d, 2> by_turn, by_rate;
+};
+SpanTwistRate span_twist_rate(const BeamSpan& span, const SpanPoint& point, const SpanSection& at,
+                              const LocalState& state);
+/// Adds the derivatives of the residual for  df = f_twist dOmega,  dn = n_twist dOmega  by this rate.
+void add_span_twist_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSection& at,
+                            const SpanTwistRate& twist, const SpanForce& by_twist, const LocalState& state,
+                            LocalTangent& tangent);
+
 /// A load along one element of a beam, integrated over its points. Its power is counted as input.
 class SpanLoad : public Component, public TimeDependent {
  public:

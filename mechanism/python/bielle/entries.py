@@ -1157,6 +1157,39 @@ class Entries:
             "start": start, "start_rate": start_rate, "friction": friction, "carries": carries, "active": active,
             **more})
 
+    def tyre(self, name: str, *,
+            nodes: Sequence[Any], normal: Sequence[Any], axis: Sequence[Any], radius: float | str,
+            position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
+            stiffness: float | str | None = None, curve: str | None = None, damping: float | str | None = None,
+            rolling_resistance: float | str | None = None, slip: Mapping[str, Any] | None = None,
+            speed: float | str | None = None, road: Mapping[str, Any] | None = None, active: bool | None = None,
+            **more: Any) -> None:
+        """A wheel of the second node with an elastic tyre on a road of the first.
+
+        nodes: Node of the plane and node of the wheel. (list of 2: name of a node)
+        normal: Normal of the plane, towards the wheel, as drawn. (list of 3: number)
+        axis: Axis of the wheel as drawn. (list of 3: number)
+        radius: Radius of the wheel. (number [m] greater than 0)
+        position: Point of the plane as drawn. (list of 3: number [m]; default: the point below the rim as drawn)
+        at: Point of the plane and middle of the wheel, each in the axes of its node, in place of `position`. (list
+        of 2: list of 3: number [m])
+        stiffness: Radial stiffness. (number [N/m] greater than 0)
+        curve: Deflections [m] and radial forces [N], joined by straight lines, in place of `stiffness`. (file (table
+        of two columns))
+        damping: Radial damping; the tyre never pulls at the road. (number [N s/m] of at least 0; default: 0)
+        rolling_resistance: Force against rolling over the load. (number of at least 0; default: 0)
+        slip: Forces along the road; without it the tyre has none. (keys of slip of a tyre)
+        speed: Rolling speed at which rolling resistance, trail and camber force begin to act. (number [m/s] greater
+        than 0; default: 0.1)
+        road: Profile of the road; without it the road is a plane. (keys of a road)
+        active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
+        true)
+        """
+        self.add("joints", name, {"type": "tyre", "nodes": nodes, "normal": normal, "axis": axis, "radius": radius,
+            "position": position, "at": at, "stiffness": stiffness, "curve": curve, "damping": damping,
+            "rolling_resistance": rolling_resistance, "slip": slip, "speed": speed, "road": road, "active": active,
+            **more})
+
     def bushing(self, name: str, *,
             nodes: Sequence[Any], position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
             axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,

@@ -15,7 +15,7 @@ FOLDERS = {
     "mechanism": ["math", "drawing", "model", "reading", "language", "measures", "laws", "contacts", "drawing/reading",
                   "elements/beam", "elements/control", "elements/forces", "elements/rigid_body",
                   "elements/superelement/recovery", "elements/superelement",
-                  "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams",
+                  "joints", "joints/friction", "joints/actions", "joints/cables", "joints/couplings", "joints/flexible", "joints/gears", "joints/pairs", "joints/cams", "joints/tyres",
                   "hydraulics/circuit", "hydraulics/lines", "hydraulics/actuators", "hydraulics/reading",
                   "system", "solvers/newton", "solvers/constraints", "solvers/start", "solvers/linearised", "solvers/statics", "solvers/dynamics",
                   "results", "session", "analyses", "io", "python", ""],
