@@ -1,0 +1,54 @@
+// Slip of a rope on a pulley with friction: the length s [m] of rope that has slid over the pulley in the direction of
+// the rope, from the section before it to the section after it.
+//
+// Slip follows from a balance of tensions without rates (rope_friction.hpp), relative to the slip s_0 at the end of the
+// last accepted step, at the time t_0: it is an algebraic unknown with a memory, like a plastic strain. Its mean rate
+// over the present step is (s - s_0)/(t - t_0). The rate at the end of a step, for powers and results, is extrapolated
+// from the mean rates of the last two steps, with an error of second order.
+#pragma once
+
+#include <string>
+
+#include "mechanism/model/component.hpp"
+
+namespace bielle::mechanism {
+
+class RopeSlip final : public Component {
+ public:
+  /// @param pulley  name of its node   @param length  initial length of the two sections next to it [m]
+  RopeSlip(std::string type, std::string name, std::string pulley, double length);
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& /*state*/, Eigen::Ref<VectorX> /*r*/) const override {}
+  void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const override;
+
+  // The following functions take the component's own local state.
+  static double slip(const LocalState& own) { return own.first_order()[0]; }
+  /// Returns s - s_0 [m].
+  static double increment(const LocalState& own) { return slip(own) - own.memory()[slip_memory]; }
+  /// Returns the increment of the present step; of the last one at its end [m].
+  static double last_increment(const LocalState& own) {
+    return may_change(own) ? increment(own) : own.memory()[mean_memory] * own.memory()[step_memory];
+  }
+  /// Whether slip may change at this state: not at the end of the last accepted step itself. In a static analysis, and
+  /// before the first step, it may change at once.
+  static bool may_change(const LocalState& own);
+  struct Rate {
+    double value = 0;    ///< [m/s]
+    double by_slip = 0;  ///< derivative by s [1/s]
+  };
+  /// Returns the mean rate over the present step; over the last one at its end; zero in a static analysis.
+  static Rate mean_rate(const LocalState& own);
+  /// Returns the rate at this state [m/s]; zero as long as the rope sticks.
+  static double rate(const LocalState& own);
+
+ private:
+  // Memory: s_0, t_0 (NaN before the first step), mean rate and length of the last step, rate at its end.
+  enum : Eigen::Index { slip_memory, time_memory, mean_memory, step_memory, rate_memory, memories };
+  static double passed(const LocalState& own) { return own.time() - own.memory()[time_memory]; }
+  static double rate_at_end(const LocalState& own, double mean, double step);
+  std::string pulley_;
+  double length_;
+};
+
+}  // namespace bielle::mechanism
