@@ -237,7 +237,7 @@ std::vector<Sample> coupling_samples() {
                  {"radii", "[0, 0, 0.1]", "radius is 0"},
                  {"turns", "[~, ~, 1]", "on which the rope slides"}}));
   for (Sample* sample : {&belt, &cable}) {
-    sample->scales.first_order = 0.1;  // of the length of the sections
+    sample->scales.first_order = 0.1;  // less than the length of rope in the sections
     list.push_back(*sample);
   }
   return list;

@@ -35,7 +35,7 @@ void DividedRope::add(const std::vector<std::vector<std::size_t>>& sections, boo
 }
 
 void DividedRope::add_slip(std::size_t place) {
-  double length = 0;  // of the ways to the next places
+  double length = 0;  // sum over the ways to the next places
   const std::size_t count = path_.nodes.size();
   const auto centre = [&](std::size_t k) -> Vector3 { return (path_.drawn[k] * path_.pulleys[k].on_node).x; };
   for (const std::size_t other : {(place + count - 1) % count, (place + 1) % count})

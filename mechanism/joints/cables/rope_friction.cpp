@@ -7,6 +7,12 @@
 #include <fmt/format.h>
 
 namespace bielle::mechanism {
+namespace {
+
+/// Resistance to slip, relative to the stiffness of the rope: it tells pulleys apart that slip at once.
+constexpr double hardening = 1e-9;
+
+}  // namespace
 
 RopeFriction::RopeFriction(const RopeSection& before, const RopeSection& after, RopeWrap wrap, double coefficient,
                            std::size_t number, std::size_t count)
@@ -43,33 +49,29 @@ double RopeFriction::excess(const Sides& sides, int towards) {
   return sides.reduction * sides.stretch[towards].pull - sides.stretch[1 - towards].tension;
 }
 
-/// Returns c d/h [N], positive if the rope slips towards the section after the pulley.
-double RopeFriction::regularisation(const LocalState& state) const {
-  return viscosity_ * RopeSlip::mean_rate(slip_of(state)).value;
+/// Returns the force per increment of the slip that only makes it unique [N/m].
+double RopeFriction::resistance(const LocalState& state) const {
+  return hardening * stiffness_ + viscosity_ * RopeSlip::mean_rate(slip_of(state)).by_slip;
 }
 
+/// A rope that slips at a distant iterate is drawn to the tight side, or else sticks in the next one.
 int RopeFriction::slips_towards(const LocalState& state, const Sides& sides) const {
   const LocalState slip = slip_of(state);
   if (!RopeSlip::may_change(slip)) return -1;
-  const double held = stiffness_ * RopeSlip::increment(slip), resists = regularisation(state);
-  if (held + excess(sides, 1) - resists > 0) return 1;
-  if (excess(sides, 0) + resists - held > 0) return 0;
-  return -1;
+  const double increment = RopeSlip::increment(slip), held = (stiffness_ - resistance(state)) * increment;
+  const int tight = sides.stretch[1].pull > sides.stretch[0].pull ? 1 : 0;
+  return (tight == 1 ? held : -held) + excess(sides, tight) > 0 ? tight : -1;
 }
 
 void RopeFriction::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const Sides& sides = calc_sides(state);
   double& row = r[slip_row(state.slots())];
-  switch (slips_towards(state, sides)) {
-    case 1:
-      row += regularisation(state) - excess(sides, 1);
-      break;
-    case 0:
-      row += regularisation(state) + excess(sides, 0);
-      break;
-    default:
-      row += stiffness_ * RopeSlip::increment(slip_of(state));
-  }
+  const int towards = slips_towards(state, sides);
+  const double increment = RopeSlip::increment(slip_of(state));
+  if (towards < 0)
+    row += stiffness_ * increment;
+  else
+    row += resistance(state) * increment + (towards == 1 ? -1 : 1) * excess(sides, towards);
 }
 
 /// Adds the derivatives of a section's pull. @param factor  factor on them
@@ -109,7 +111,7 @@ void RopeFriction::add_tangent(const LocalState& state, LocalTangent& tangent) c
   if (tangent.wants_K) {
     auto K = tangent.K.dense();
     K.row(row) += gradient.position().transpose();
-    K(row, row) += viscosity_ * RopeSlip::mean_rate(slip_of(state)).by_slip;
+    K(row, row) += resistance(state);
   }
   if (tangent.wants_C) tangent.C.dense().row(row) += gradient.rate().transpose();
 }
@@ -122,7 +124,7 @@ void RopeFriction::add_pattern(const Slots& slots, LocalPattern& pattern) const 
 void RopeFriction::add_energy(const LocalState& state, Energy& energy) const {
   const Sides& sides = calc_sides(state);
   const double power = (sides.stretch[1].tension - sides.stretch[0].tension) * RopeSlip::rate(slip_of(state));
-  energy.input += power;  // what the sections give away by the slip
+  energy.input += power;  // the power that the sections give away by the slip
   energy.dissipation += power;
 }
 

@@ -4,13 +4,15 @@
 //     T_b > exp(mu theta) T_a,
 // with the smaller tension T_a, the coefficient mu and the present wrap theta (rope_wrap.hpp); while it slips both
 // sides are equal. Otherwise it sticks: the slip s of rope_slip.hpp keeps its value exactly. With a = exp(-mu theta),
-// the increment d = s - s_0 of a step, and a stiffness k that only scales the equation, this is
+// the increment d = s - s_0 of a step of size h, and the stiffness k of both sections, which only scales the equation,
+// this is
 //     0 = k d - max(0, k d + F) + max(0, R - k d),
-//     F = a T_2 - T_1 - c d/h,   R = a T_1 - T_2 + c d/h,
-// for the tensions T_1 before and T_2 after the pulley. The term c d/h with c = 1e-10 s/m EA is no model of friction:
-// it is far below rounding of measured tensions, and decides on the slip of a rope whose slack end is free of tension.
-// A negative wrap counts as zero: both tensions are then equal. The friction T_2 - T_1 acts on the rim of the pulley by
-// the tensions themselves. The power (T_2 - T_1) ds/dt is dissipated.
+//     F = a T_2 - T_1 - (1e-9 k + c/h) d,   R = a T_1 - T_2 + (1e-9 k + c/h) d,
+// for the tensions T_1 before and T_2 after the pulley. The terms with d are no model of friction: they keep a rope
+// whose other side is slack under a negligible tension greater than zero while it slides, c = 1e-10 s/m EA, and make
+// the slip unique where several pulleys of a belt slip at once. A negative wrap counts as zero: both tensions are then
+// equal. The friction T_2 - T_1 acts on the rim of the pulley by the tensions themselves. The power (T_2 - T_1) ds/dt
+// is dissipated.
 //
 // The rope has no mass, and so no centrifugal tension. Its elastic creep on the pulley is neglected.
 // L. Euler, Remarques sur l'effet du frottement dans l'equilibre (1762); J. A. Eytelwein, Handbuch der Statik fester
@@ -70,7 +72,7 @@ class RopeFriction final : public Component {
   static double excess(const Sides& sides, int towards);
   /// The side to which the rope slips in this step: 0 or 1; -1: it sticks.
   int slips_towards(const LocalState& state, const Sides& sides) const;
-  double regularisation(const LocalState& state) const;
+  double resistance(const LocalState& state) const;
   void add_pull(const LocalState& state, const Sides& sides, int side, double factor, MeasureGradient& gradient) const;
   void add_wrap(const LocalState& state, const Sides& sides, double factor, MeasureGradient& gradient) const;
 

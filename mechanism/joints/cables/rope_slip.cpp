@@ -1,5 +1,6 @@
 #include "mechanism/joints/cables/rope_slip.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -29,9 +30,16 @@ void RopeSlip::declare(Declaration& declaration) const {
   declaration.memory[time_memory] = std::numeric_limits<double>::quiet_NaN();
 }
 
-bool RopeSlip::may_change(const LocalState& own) {
-  return own.environment().statics || std::isnan(own.memory()[time_memory]) || passed(own) > 0;
+double RopeSlip::passed(const LocalState& own) {
+  constexpr double just_after = 1e-6, shortest = 1e-12;  // share of the last step; a time [s]
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  const double passed = own.time() - own.memory()[time_memory];
+  const double negligible =
+      std::max({just_after * own.memory()[step_memory], rounding * std::abs(own.time()), shortest});
+  return std::abs(passed) <= negligible ? 0 : passed;
 }
+
+bool RopeSlip::may_change(const LocalState& own) { return own.environment().statics || passed(own) > 0; }
 
 RopeSlip::Rate RopeSlip::mean_rate(const LocalState& own) {
   if (own.environment().statics || std::isnan(own.memory()[time_memory])) return {};

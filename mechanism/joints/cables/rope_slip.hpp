@@ -30,8 +30,8 @@ class RopeSlip final : public Component {
   static double last_increment(const LocalState& own) {
     return may_change(own) ? increment(own) : own.memory()[mean_memory] * own.memory()[step_memory];
   }
-  /// Whether slip may change at this state: not at the end of the last accepted step itself. In a static analysis, and
-  /// before the first step, it may change at once.
+  /// Whether slip may change at this state: in a static analysis, and within a step, but not at the beginning of a
+  /// motion or of a step.
   static bool may_change(const LocalState& own);
   struct Rate {
     double value = 0;    ///< [m/s]
@@ -45,7 +45,8 @@ class RopeSlip final : public Component {
  private:
   // Memory: s_0, t_0 (NaN before the first step), mean rate and length of the last step, rate at its end.
   enum : Eigen::Index { slip_memory, time_memory, mean_memory, step_memory, rate_memory, memories };
-  static double passed(const LocalState& own) { return own.time() - own.memory()[time_memory]; }
+  /// Returns t - t_0; zero if it is rounding, or the short time by which a branch begins after its discontinuity [s].
+  static double passed(const LocalState& own);
   static double rate_at_end(const LocalState& own, double mean, double step);
   std::string pulley_;
   double length_;

@@ -76,8 +76,10 @@ TEST_CASE("an overloaded belt drive transmits the torque of the capstan equation
     CHECK(std::min(T[0], T[1]) == Approx(limit.slack).epsilon(1e-6));
     CHECK(std::abs(session.read("joints/belt/slip_velocity")[0]) == Approx(2).epsilon(1e-6));
     // All power of the motor is lost.
-    CHECK(session.energy().dissipation == Approx(limit.torque * 20).epsilon(1e-6));
-    CHECK(std::abs(motion.balance()) < 2e-3 * limit.torque * 20 * 0.5);
+    // The error of the start, at which the belt begins to slip within a step, is less than the loss of a step.
+    const double lost = limit.torque * 20 * 0.5;
+    CHECK(motion.energy_balance().totals().dissipation == Approx(lost).margin(limit.torque * 20 * 1e-3));
+    CHECK(std::abs(motion.balance()) < limit.torque * 20 * 1e-3);
   }
 }
 
@@ -92,7 +94,7 @@ TEST_CASE("a belt that slips while a flywheel starts loses the flywheel's kineti
   std::vector<Event> events;
   session.on_event([&](const Event& event) { events.push_back(event); });
   DynamicsOptions options;
-  options.duration = 1.5 * together;
+  options.duration = 4 * together;
   options.stepping.size = 1e-3;
   Motion motion = session.dynamics(options);
   motion.advance_to(0.5 * together);
@@ -106,7 +108,7 @@ TEST_CASE("a belt that slips while a flywheel starts loses the flywheel's kineti
   CHECK(session.read("joints/h2/rate")[0] == Approx(w).epsilon(0.01));
   CHECK(session.read("joints/belt/slips")[0] == 0);
   CHECK(motion.energy_balance().totals().dissipation == Approx(J * w * w / 2).epsilon(0.02));
-  CHECK(std::abs(motion.balance()) < 2e-3 * J * w * w);
+  CHECK(std::abs(motion.balance()) < limit.torque * w * 1e-3);  // the loss of a step, at the start
 }
 
 TEST_CASE("a belt slips on the pulley with the smaller wrap, and there alone") {
@@ -156,7 +158,7 @@ nodes:
   a: {position: [-0.1, 0, -1], fixed: true}
   drum: {fixed: true}
   b: {position: [0.1, 0, -1], motion: {x: 0, y: 0, z: "-0.004*sin(2*pi*t)", rx: 0, ry: 0, rz: 0}}
-joints: {rope: {type: cable, nodes: [a, drum, b], radii: [0, 0.1, 0], axis: [0, 1, 0], EA: 1e5, pretension: 600, friction: 0.25}}
+joints: {rope: {type: cable, nodes: [a, drum, b], radii: [0, 0.1, 0], axis: [0, 1, 0], EA: 1e5, pretension: 600, friction: 0.1}}
 )yaml";
     const MechanismFile file = read_mechanism_text(text, "model.yaml");
     Session session(file.model);

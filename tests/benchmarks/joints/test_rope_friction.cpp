@@ -73,9 +73,9 @@ TEST_CASE("a rope slips over a fixed drum with the tensions of the capstan equat
       const std::vector<double> T = session.read("joints/rope/tension");
       REQUIRE(T.size() == 2);
       if (session.time() < 0.1) return;  // after the first oscillations of the rope
-      CHECK(std::max(T[0], T[1]) / std::min(T[0], T[1]) == Approx(k).epsilon(1e-6));
+      // The resistance that makes the slip unique, 1e-10 s/m EA, adds 1e-5.
+      CHECK(std::max(T[0], T[1]) / std::min(T[0], T[1]) == Approx(k).epsilon(3e-5));
     });
-    const MechanismFile file = read_mechanism_text(text, "model.yaml");
     move_to(text, 1e-3, end, [&](const Session& session) {
       const double way = 0.5 * a * end * end;
       // The rope is longer by 1e-4 under its loads.
@@ -96,19 +96,31 @@ TEST_CASE("a rope slips over a fixed drum with the tensions of the capstan equat
 }
 
 TEST_CASE("a rope below the limit of friction does not move on its drum at all") {
-  // k = 2.566: 2 kg against 1 kg hang at rest, each on its own section.
-  const Moved moved = account(over_drum(1, 2, "fixed: true", ", friction: 0.3, pretension: 14.715"), 1e-3, 2,
-                              [](const Session& session) {
-                                CHECK(session.read("joints/rope/slip")[0] == 0);
-                                CHECK(session.read("joints/rope/slip_velocity")[0] == 0);
-                                CHECK(session.read("joints/rope/slips")[0] == 0);
-                              });
-  CHECK(moved.events.empty());
-  move_to(over_drum(1, 2, "fixed: true", ", friction: 0.3, pretension: 14.715"), 1e-3, 2, [](const Session& session) {
+  // k = 2.566: 2 kg against 1 kg hang in equilibrium, then b is shaken so that the ratio stays below 2.5.
+  const std::string text = over_drum(1, 2, "fixed: true", ", friction: 0.3, pretension: 14.715") +
+                           "loads: {shaker: {node: b, force: [0, 0, \"3*sin(40*t)\"]}}\n";
+  const MechanismFile file = read_mechanism_text(text, "model.yaml");
+  Session session(file.model);
+  compute_statics(session);
+  CHECK(session.read("joints/rope/slip")[0] == 0);
+  CHECK(session.read("joints/rope/tension")[0] == Approx(g).epsilon(1e-9));
+  CHECK(session.read("joints/rope/tension")[1] == Approx(2 * g).epsilon(1e-9));
+  int events = 0;
+  session.on_event([&](const Event&) { ++events; });
+  DynamicsOptions options;
+  options.duration = 2;
+  options.stepping.size = 1e-3;
+  Motion motion = session.dynamics(options);
+  double highest = 0;
+  while (motion.step()) {
+    CHECK(session.read("joints/rope/slip")[0] == 0);
+    CHECK(session.read("joints/rope/slip_velocity")[0] == 0);
+    CHECK(session.read("joints/rope/slips")[0] == 0);
     const std::vector<double> T = session.read("joints/rope/tension");
-    CHECK(T[0] == Approx(g).epsilon(1e-6));
-    CHECK(T[1] == Approx(2 * g).epsilon(1e-6));
-  });
+    highest = std::max(highest, T[1] / T[0]);
+  }
+  CHECK(highest > 2.2);
+  CHECK(events == 0);
 }
 
 TEST_CASE("further turns round a bollard multiply the friction") {
@@ -117,8 +129,11 @@ TEST_CASE("further turns round a bollard multiply the friction") {
   move_to(over_drum(1, 23, "fixed: true", keys), 1e-3, 0.2,
           [](const Session& session) { CHECK(session.read("joints/rope/wrap")[0] == Approx(5 * M_PI).epsilon(1e-9)); });
   const double k = std::exp(M_PI), a = g * (30 - k) / (30 + k);
-  move_to(over_drum(1, 30, "fixed: true", keys), 1e-3, 0.3, [&](const Session& session) {
-    CHECK(session.read("joints/rope/slip_velocity")[0] == Approx(a * 0.3).epsilon(5e-3));
+  double at_first = 0;  // the pretension makes the rope slip at the start as well
+  move(over_drum(1, 30, "fixed: true", keys), 1e-3, 0.3, [&](const Session& session) {
+    if (session.time() < 0.1501) at_first = session.read("joints/rope/slip_velocity")[0];
+    if (session.time() > 0.2999)
+      CHECK(session.read("joints/rope/slip_velocity")[0] - at_first == Approx(a * 0.15).epsilon(5e-3));
   });
 }
 
@@ -172,5 +187,28 @@ joints: {rope: {type: cable, nodes: [a, drum, b], radii: [0, 0.1, 0], axis: [0, 
     CHECK(session.node("b").x.z() == Approx(-1 - 0.5 * g * session.time() * session.time()).margin(1e-5));
     CHECK(session.read("joints/rope/tension")[0] == 0);
     CHECK(session.read("joints/rope/tension")[1] == Approx(0).margin(1e-3));
+  });
+}
+
+TEST_CASE("the friction of a rope follows its wrap as its end moves away from the drum") {
+  // The end b moves sideways from below the drum's rim: the straight rope has the length l = sqrt(d^2 - r^2), with the
+  // distance d of b from the drum's centre, and turns up by gamma. The wrap is pi - gamma.
+  const std::string text = R"yaml(
+nodes:
+  a: {position: [-0.1, 0, -1], fixed: true}
+  drum: {fixed: true}
+  b: {position: [0.1, 0, -1], motion: {x: "t", y: 0, z: 0, rx: 0, ry: 0, rz: 0}}
+joints: {rope: {type: cable, nodes: [a, drum, b], radii: [0, 0.1, 0], axis: [0, 1, 0], EA: 1e6, pretension: 100, friction: 0.4}}
+)yaml";
+  move(text, 5e-3, 1, [](const Session& session) {
+    const double x = 0.1 + session.time(), d = std::hypot(x, 1.0);
+    // The radius to the point of tangency is at the angle acos(r/d) above that to b.
+    const double from_x = -std::atan2(1.0, x) + std::acos(0.1 / d);
+    CHECK(session.read("joints/rope/wrap")[0] == Approx(M_PI - from_x).epsilon(1e-9));
+    const std::vector<double> T = session.read("joints/rope/tension");
+    if (session.read("joints/rope/slips")[0] == 1)
+      CHECK(T[1] / T[0] == Approx(std::exp(0.4 * (M_PI - from_x))).epsilon(1e-6));
+    else
+      CHECK(session.time() < 0.1);
   });
 }
