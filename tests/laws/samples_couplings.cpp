@@ -221,6 +221,7 @@ std::vector<Sample> coupling_samples() {
   const std::vector<BadValue> bad_frictions = {{"friction", "-0.1", "0"},
                                                {"friction", "[0.1, -0.2, 0.3]", "0"},
                                                {"friction", "[0.1]", "3 coefficients"},
+                                               {"friction", "[0.1, 0.2, 0.3]", "all pulleys at once"},
                                                {"friction", "b", ""},
                                                {"friction", "{b: 0.1}", ""}};
   Sample belt = rope("belt", "that slips",

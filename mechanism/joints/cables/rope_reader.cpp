@@ -1,5 +1,7 @@
 // Readers of `belt` and `cable`.
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -136,9 +138,9 @@ void add_course(const std::string& name, const RopePath& path, bool closed, Mode
 
 namespace {
 
-KeyForms friction_forms() {
+KeyForm list_of_frictions() {
   using namespace keys;
-  return {number().non_negative(), list_of(KeyForms{number().non_negative(), null()})};
+  return list_of(KeyForms{number().non_negative(), null()});
 }
 
 std::vector<Key> rope_keys() {
@@ -162,12 +164,12 @@ std::vector<Key> rope_keys() {
 
 const KeyTable& belt_keys() {
   using namespace keys;
-  static const KeyTable table{
-      "a belt", "A closed belt or chain that grips its pulleys, or slips on them with friction.",
-      joined(
-          {rope_keys(),
-           {{"friction", friction_forms(), optional,
-             "Coefficient of friction on all pulleys, or on each; the belt grips the others (`~`) without slip."}}})};
+  static const KeyTable table{"a belt",
+                              "A closed belt or chain that grips its pulleys, or slips on them with friction.",
+                              joined({rope_keys(),
+                                      {{"friction", list_of_frictions(), optional,
+                                        "Coefficients of friction, one for each node; the belt grips pulleys with `~` "
+                                        "without slip, one at least."}}})};
   return table;
 }
 
@@ -177,7 +179,7 @@ const KeyTable& cable_keys() {
       "a cable", "A rope from the first node to the last, over pulleys on which it slides, with friction or without.",
       joined({rope_keys(),
               {{"grips", list_of(name_of("node")), optional, "Nodes of pulleys that the rope grips."},
-               {"friction", friction_forms(), optional,
+               {"friction", KeyForms{number().non_negative(), list_of_frictions()}, optional,
                 "Coefficient of friction on all pulleys between the ends, or on each; the rope slides on the others "
                 "(`~`) without friction."},
                {"turns", list_of(KeyForms{integer().non_negative(), null()}), optional,
@@ -195,6 +197,12 @@ void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
   for (std::size_t k = 0; k < count; ++k)
     if (path.pulleys[k].radius == 0) entry.at("radii").fail("a belt runs over pulleys: radii other than 0");
   const RopeFrictions frictions = read_frictions(entry, path, std::vector<bool>(count, false));
+  const auto slips = [](const std::optional<double>& each) { return each.has_value(); };
+  if (std::all_of(frictions.begin(), frictions.end(), slips))
+    entry.at("friction")
+        .fail(
+            "a belt cannot slip on all pulleys at once: let it grip (`~`) the one with the largest product of "
+            "coefficient and wrap, on which it would slip last");
   std::vector<std::vector<std::size_t>> sections;
   for (std::size_t k = 0; k < count; ++k) sections.push_back({k, (k + 1) % count});
   DividedRope("belt", name, path, material, frictions, entry, model).add(sections, true);

@@ -111,18 +111,16 @@ TEST_CASE("a belt that slips while a flywheel starts loses the flywheel's kineti
   CHECK(std::abs(motion.balance()) < limit.torque * w * 1e-3);  // the loss of a step, at the start
 }
 
-TEST_CASE("a belt slips on the pulley with the smaller wrap, and there alone") {
-  // Pulleys of 0.05 m and 0.2 m, 0.5 m apart: wraps pi -+ 2 asin(0.15/0.5).
-  std::string text = drive("0.3", "drives: {motor: {joint: h1, rate: 20}, brake: {joint: h2, angle: 0}}\n");
+TEST_CASE("the small pulley of a belt slips at its own wrap") {
+  // Pulleys of 0.05 m and 0.2 m, 0.5 m apart: the wrap is pi - 2 asin(0.15/0.5).
+  std::string text = drive("[0.3, ~]", "drives: {motor: {joint: h1, rate: 20}, brake: {joint: h2, angle: 0}}\n");
   text.replace(text.find("[0.1, 0.1]"), 10, "[0.05, 0.2]");
   const double wrap = M_PI - 2 * std::asin(0.3);
   move_to(text, 1e-3, 0.5, [&](const Session& session) {
     CHECK(session.read("joints/belt/wrap")[0] == Approx(wrap).epsilon(1e-9));
-    CHECK(session.read("joints/belt/wrap")[1] == Approx(2 * M_PI - wrap).epsilon(1e-9));
-    const std::vector<double> T = session.read("joints/belt/tension"), slip = session.read("joints/belt/slip");
+    const std::vector<double> T = session.read("joints/belt/tension");
     CHECK(std::max(T[0], T[1]) / std::min(T[0], T[1]) == Approx(std::exp(mu * wrap)).epsilon(1e-6));
-    CHECK(std::abs(slip[0]) > 0.45);
-    CHECK(slip[1] == 0);
+    CHECK(std::abs(session.read("joints/belt/slip")[0]) == Approx(0.5).epsilon(0.02));
   });
 }
 
@@ -186,7 +184,7 @@ joints: {rope: {type: cable, nodes: [a, drum, b], radii: [0, 0.1, 0], axis: [0, 
 }
 
 TEST_CASE("an interrupted motion with a slipping belt continues as if it had not been interrupted") {
-  const std::string text = drive("[0.3, 0.25]", "drives: {motor: {joint: h1, rate: 40}}\n", 0.2);
+  const std::string text = drive("[0.3, ~]", "drives: {motor: {joint: h1, rate: 40}}\n", 0.2);
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   DynamicsOptions options;
   options.duration = 0.4;
@@ -201,5 +199,5 @@ TEST_CASE("an interrupted motion with a slipping belt continues as if it had not
     CAPTURE(name);
     CHECK(second.read(fmt::format("joints/belt/{}", name)) == whole.read(fmt::format("joints/belt/{}", name)));
   }
-  CHECK(std::abs(whole.read("joints/belt/slip")[1]) > 0.01);
+  CHECK(std::abs(whole.read("joints/belt/slip")[0]) > 0.01);
 }

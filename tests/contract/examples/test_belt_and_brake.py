@@ -18,7 +18,6 @@ class BeltAndBrake(ExampleTest):
         slips, wrap = self.rows("joints/belt/slips"), self.rows("joints/belt/wrap")
         limit = math.exp(0.3 * (math.pi - 2 * math.asin(0.1 / 0.5)))
         np.testing.assert_allclose(wrap[:, 0], math.pi - 2 * math.asin(0.2), rtol=1e-9)
-        self.assertEqual(slips[:, 1].max(), 0)
         tension = self.rows("joints/belt/tension")
         ratio = tension.max(axis=1) / tension.min(axis=1)
         slipping = slips[:, 0] == 1
@@ -32,11 +31,10 @@ class BeltAndBrake(ExampleTest):
 
     def test_the_band_stops_the_drum_with_the_torque_of_the_capstan_equation(self):
         rate = self.rows("joints/drum_bearing/rate")[:, 0]
-        # The pedal comes down within 0.1 s from 0.5 s on, as if it came at 0.55 s at once.
         torque = 0.15 * (math.exp(0.3 * math.pi) - 1) * 50
-        for t in (1.0, 1.5, 2.0):
-            self.assertAlmostEqual(rate[np.argmin(abs(self.time - t))], 40 - torque * (t - 0.55) / 0.5, delta=0.2)
-        self.assertGreater(0.55 + 40 * 0.5 / torque, 2.0)
+        for t in (0.5, 1.0, 1.5):
+            self.assertAlmostEqual(rate[np.argmin(abs(self.time - t))], 40 - torque * t / 0.5, delta=0.1)
+        self.assertGreater(40 * 0.5 / torque, 1.5)
         self.assertLess(abs(rate[-1]), 0.5)
 
 
