@@ -15,7 +15,9 @@ TEST_CASE("ropes that slip within a step have the tangents of their forces") {
   int sections = 0, slipping = 0, sticking = 0;
   for (const Sample& sample : samples()) {
     if (sample.variant != "that slips") continue;
-    for (const Subject& subject : subjects(sample)) {
+    Sample damped = sample;
+    damped.model.replace(damped.model.find("EA: 6"), 5, "EA: 6, damping: 0.3");
+    for (const Subject& subject : subjects(damped)) {
       const DenseModel& dense = *subject.dense;
       for (unsigned seed = 2; seed <= 13; ++seed) {
         State state = subject.random_state(1, seed);
@@ -30,11 +32,11 @@ TEST_CASE("ropes that slip within a step have the tangents of their forces") {
                 (dense.*move)(other, change);
                 return dense.residual(other);
               },
-              dense.size(), 0.002);
+              dense.size(), 1e-5);  // few states are so near to a kink
         };
         const auto K = dense.tangent(state, DenseModel::Part::K), C = dense.tangent(state, DenseModel::Part::C);
-        CHECK((moved(&DenseModel::move) - K).cwiseAbs().maxCoeff() < 1e-7 * (1 + K.cwiseAbs().maxCoeff()));
-        CHECK((moved(&DenseModel::move_rates) - C).cwiseAbs().maxCoeff() < 1e-7 * (1 + C.cwiseAbs().maxCoeff()));
+        CHECK((moved(&DenseModel::move) - K).cwiseAbs().maxCoeff() < 1e-6 * (1 + K.cwiseAbs().maxCoeff()));
+        CHECK((moved(&DenseModel::move_rates) - C).cwiseAbs().maxCoeff() < 1e-6 * (1 + C.cwiseAbs().maxCoeff()));
         const int first = dense.first_order_begin(), count = dense.multiplier_begin() - first;
         const VectorX rows = dense.residual(state).segment(first, count);
         if (rows.isZero(0)) {

@@ -51,7 +51,9 @@ double RopeFriction::excess(const Sides& sides, int towards) {
 
 /// Returns the force per increment of the slip that only makes it unique [N/m].
 double RopeFriction::resistance(const LocalState& state) const {
-  return hardening * stiffness_ + viscosity_ * RopeSlip::mean_rate(slip_of(state)).by_slip;
+  const LocalState slip = slip_of(state);
+  const double rate = RopeSlip::has_begun(slip) ? RopeSlip::mean_rate(slip).by_slip : 0;
+  return hardening * stiffness_ + viscosity_ * rate;
 }
 
 /// A rope that slips at a distant iterate is drawn to the tight side, or else sticks in the next one.

@@ -196,6 +196,8 @@ void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
     entry.at("nodes").fail("a belt closes by itself: name its first node once");
   for (std::size_t k = 0; k < count; ++k)
     if (path.pulleys[k].radius == 0) entry.at("radii").fail("a belt runs over pulleys: radii other than 0");
+  if (const auto given = entry.find("friction"); given && !given->is_sequence())
+    given->fail("expected a list with a coefficient or `~` for each node: a belt grips one of its pulleys at least");
   const RopeFrictions frictions = read_frictions(entry, path, std::vector<bool>(count, false));
   const auto slips = [](const std::optional<double>& each) { return each.has_value(); };
   if (std::all_of(frictions.begin(), frictions.end(), slips))

@@ -14,10 +14,14 @@ namespace {
 /// do not add up.
 constexpr double negligible_slip = 1e-10;
 
+/// At the start of a motion a rope that slips has a rate, which follows from its damping: it is the slip over this
+/// short time [s].
+constexpr double start_time = 1e-9;
+
 }  // namespace
 
-RopeSlip::RopeSlip(std::string type, std::string name, std::string pulley, double length)
-    : Component(std::move(type), std::move(name)), pulley_(std::move(pulley)), length_(length) {}
+RopeSlip::RopeSlip(std::string type, std::string name, std::string pulley, double length, bool damped)
+    : Component(std::move(type), std::move(name)), pulley_(std::move(pulley)), length_(length), damped_(damped) {}
 
 void RopeSlip::declare(Declaration& declaration) const {
   Declaration::Scalar slip{fmt::format("slip on pulley '{}'", pulley_), "m"};
@@ -28,6 +32,7 @@ void RopeSlip::declare(Declaration& declaration) const {
   declaration.first_order = {std::move(slip)};
   declaration.memory.assign(memories, 0.0);
   declaration.memory[time_memory] = std::numeric_limits<double>::quiet_NaN();
+  if (damped_) declaration.memory[step_memory] = start_time;
 }
 
 double RopeSlip::passed(const LocalState& own) {
@@ -39,10 +44,16 @@ double RopeSlip::passed(const LocalState& own) {
   return std::abs(passed) <= negligible ? 0 : passed;
 }
 
-bool RopeSlip::may_change(const LocalState& own) { return own.environment().statics || passed(own) > 0; }
+bool RopeSlip::may_change(const LocalState& own) {
+  return own.environment().statics || !has_begun(own) || passed(own) > 0;
+}
 
 RopeSlip::Rate RopeSlip::mean_rate(const LocalState& own) {
-  if (own.environment().statics || std::isnan(own.memory()[time_memory])) return {};
+  if (own.environment().statics) return {};
+  if (!has_begun(own)) {
+    const double start_step = own.memory()[step_memory];
+    return start_step > 0 ? Rate{increment(own) / start_step, 1 / start_step} : Rate{};
+  }
   const double step = passed(own);
   if (!(step > 0)) return {own.memory()[mean_memory], 0};
   return {increment(own) / step, 1 / step};
@@ -57,7 +68,7 @@ double RopeSlip::rate_at_end(const LocalState& own, double mean, double step) {
 }
 
 double RopeSlip::rate(const LocalState& own) {
-  if (own.environment().statics || std::isnan(own.memory()[time_memory])) return 0;
+  if (own.environment().statics || !has_begun(own)) return 0;
   const double step = passed(own);
   if (!(step > 0)) return own.memory()[rate_memory];
   return rate_at_end(own, increment(own) / step, step);
@@ -65,12 +76,14 @@ double RopeSlip::rate(const LocalState& own) {
 
 void RopeSlip::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   const bool slips = std::abs(increment(state)) > negligible_slip * length_;
-  const bool in_time = !state.environment().statics && !std::isnan(state.memory()[time_memory]);
-  const double step = in_time ? passed(state) : 0;
+  const bool in_statics = state.environment().statics, starts = !has_begun(state);
+  const double step = in_statics || starts ? 0 : passed(state);
   if (slips) memory[slip_memory] = slip(state);
   memory[time_memory] = state.time();
-  if (in_time && !(step > 0)) return;
-  const double mean = slips && in_time ? increment(state) / step : 0;
+  if (in_statics) memory[mean_memory] = memory[rate_memory] = 0;
+  if (starts && !in_statics) memory[mean_memory] = memory[rate_memory] = mean_rate(state).value;
+  if (!(step > 0)) return;
+  const double mean = slips ? increment(state) / step : 0;
   memory[mean_memory] = mean;
   memory[step_memory] = step;
   memory[rate_memory] = mean == 0 ? 0 : rate_at_end(state, mean, step);
