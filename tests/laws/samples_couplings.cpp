@@ -228,6 +228,23 @@ std::vector<Sample> coupling_samples() {
       "cable", "gripped",
       "nodes: [a, b, c], radii: [0, -0.2, 0.4], axis: [1, 0.2, 3], grips: [b], EA: 6, pretension: 14, damping: 0.1",
       with({{"grips", "[d]", "no node 'd'"}, {"grips", "[ground]", "none of the cable"}})));
+  // Without damping: before the first step the rate of the slip belongs to a very short time. See
+  // test_slipping_rope.cpp.
+  Sample belt = rope("belt", "that slips",
+                     "nodes: [a, b, c], radii: [0.3, -0.2, 0.4], axis: [1, 0.2, 3], EA: 6, pretension: 12, friction: "
+                     "[0.15, ~, 0.3]",
+                     with({{"friction", "[0.1]", "3 coefficients"}, {"friction", "[0.1, 0.2, 0.3]", "at once"}}));
+  Sample cable =
+      rope("cable", "that slips",
+           "nodes: [a, b, c], radii: [0, 0.2, 0.4], axis: [1, 0.2, 3], EA: 6, pretension: 14, friction: [~, 0.1, ~], "
+           "turns: [~, 1, ~]",
+           with({{"friction", "[0.1, 0.2, ~]", "ends here"},
+                 {"friction", "[~, 0.2, 0.1]", "ends here"},
+                 {"turns", "[~, ~, 1]", "on which the rope slides"}}));
+  for (Sample* sample : {&belt, &cable}) {
+    sample->scales.first_order = 0.1;  // less than the length of rope in the sections
+    list.push_back(*sample);
+  }
   return list;
 }
 

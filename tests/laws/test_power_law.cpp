@@ -1,6 +1,8 @@
 // Law 3: the power that a component takes from the motion is the rate of its energy, plus what it dissipates, less what
 // it puts in, plus that of its reactions on constraints that are not met:
 //     r_q . qdot = d(T + V + V_gravity)/dt + dissipation - input + lambda . dPhi/dt
+#include <vector>
+
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
@@ -12,12 +14,21 @@ using bielle::mechanism::Energy;
 
 namespace {
 
-/// Rates of first-order unknowns for which their equations hold (they are linear in the rates).
+/// Rates of first-order unknowns for which their equations hold (they are linear in the rates); algebraic ones have
+/// none.
 void satisfy_first_order(const DenseModel& dense, State& state) {
-  const int begin = dense.first_order_begin(), count = dense.multiplier_begin() - begin;
-  if (count == 0) return;
-  const MatrixX C = dense.tangent(state, DenseModel::Part::C).block(begin, begin, count, count);
-  state.first_order_rate -= C.partialPivLu().solve(dense.residual(state).segment(begin, count));
+  const int begin = dense.first_order_begin();
+  std::vector<int> rows;
+  for (int k = begin; k < dense.multiplier_begin(); ++k)
+    if (dense.is_algebraic(k - begin))
+      state.first_order_rate[k - begin] = 0;
+    else
+      rows.push_back(k);
+  if (rows.empty()) return;
+  const MatrixX C = dense.tangent(state, DenseModel::Part::C)(rows, rows);
+  const VectorX change = C.partialPivLu().solve(dense.residual(state)(rows));
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    state.first_order_rate[rows[k] - begin] -= change[static_cast<Eigen::Index>(k)];
 }
 
 }  // namespace

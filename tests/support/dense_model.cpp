@@ -48,6 +48,7 @@ void DenseModel::number(const mechanism::Component& /*component*/, const Declara
   multipliers_ += s.multipliers = static_cast<int>(d.multipliers.size());
   s.memory_begin = memories_;
   memories_ += s.memories = static_cast<int>(d.memory.size());
+  for (const auto& unknown : d.first_order) algebraic_.push_back(unknown.algebraic);
   all_declarations_.push_back(d);
 }
 

@@ -37,6 +37,8 @@ class DenseModel {
     return declarations_;
   }  ///< declarations of the tested
      ///< members
+  /// Whether a first-order unknown has no rate.
+  bool is_algebraic(int first_order) const { return algebraic_[static_cast<std::size_t>(first_order)]; }
   mechanism::ConstraintKind constraint_kind(int multiplier) const {
     return constraint_kinds_[static_cast<std::size_t>(multiplier)];
   }
@@ -82,6 +84,7 @@ class DenseModel {
   std::vector<Declaration> all_declarations_;  ///< in the order of numbers
   std::vector<Declaration> declarations_;
   std::vector<mechanism::ConstraintKind> constraint_kinds_;
+  std::vector<bool> algebraic_;  ///< for each first-order unknown
   const Model& model_;
   int nodes_ = 0, amplitudes_ = 0, first_orders_ = 0, multipliers_ = 0, memories_ = 0, multiplier_begin_ = 0,
       own_multipliers_ = 0;

@@ -1,22 +1,21 @@
-// Monitors a pulley that a rope grips, between two of its sections: the rope is assumed to stay on it.
+// Monitors a pulley that a rope grips, or on which it slips with friction, between two of its sections: the rope is
+// assumed to stay on it.
 //
-// With the angle beta by which each section's end is wound on the pulley (alpha + gamma of rope_span.hpp), the rope is
-// on the rim along
-//     theta = (initial) + sign(rho) (beta_after - beta_before).
-// The rope would leave the pulley when theta has decreased to zero: an event is recorded. The pulley still grips it,
-// like a cam whose contact is kept when it would lift off.
+// The rope would leave the pulley when its wrap (rope_wrap.hpp) has decreased to zero: an event is recorded. The rope
+// is still kept on the pulley, like a cam whose contact is kept when it would lift off.
 #pragma once
 
 #include <string>
 
-#include "mechanism/joints/cables/rope_section.hpp"
+#include "mechanism/joints/cables/rope_wrap.hpp"
 
 namespace bielle::mechanism {
 
 class RopeGrip final : public Component {
  public:
   /// @param before,after  sections that end and begin at the pulley
-  RopeGrip(const RopeSection& before, const RopeSection& after);
+  /// @param slips         whether the rope slips on the pulley with friction
+  RopeGrip(const RopeSection& before, const RopeSection& after, RopeWrap wrap, bool slips);
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& /*state*/, Eigen::Ref<VectorX> /*r*/) const override {}
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
@@ -24,8 +23,8 @@ class RopeGrip final : public Component {
 
  private:
   const RopeSection &before_, &after_;
-  double radius_;      ///< signed radius [m]
-  double drawn_wrap_;  ///< initial wrap; negative: not touched [rad]
+  RopeWrap wrap_;
+  bool slips_;
 };
 
 }  // namespace bielle::mechanism

@@ -1,10 +1,12 @@
 // Readers of `belt` and `cable`.
+#include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "mechanism/joints/cables/rope_grip.hpp"
+#include "mechanism/joints/cables/divided_rope.hpp"
 #include "mechanism/joints/counted_from_drawing.hpp"
 #include "mechanism/math/axes_along.hpp"
 #include "mechanism/model/model.hpp"
@@ -87,35 +89,34 @@ RopeMaterial read_material(const YamlValue& entry) {
   return material;
 }
 
-/// Adds the section from one place of the path to another.
-const RopeSection& add_section(const char* type, const std::string& name, const RopePath& path,
-                               const std::vector<std::size_t>& places, const RopeMaterial& material,
-                               const YamlValue& entry, Recorded recorded, Model& model) {
-  RopePath part;
-  for (const std::size_t k : places) {
-    part.nodes.push_back(path.nodes[k]);
-    part.names.push_back(path.names[k]);
-    part.pulleys.push_back(path.pulleys[k]);
-    part.drawn.push_back(path.drawn[k]);
-    part.turns.push_back(path.turns[k]);
+/// Reads one coefficient of friction for all pulleys, or one for each node; `~`: none.
+/// @param held  for each place, whether the rope is fixed or gripped there
+RopeFrictions read_frictions(const YamlValue& entry, const RopePath& path, const std::vector<bool>& held) {
+  const std::size_t count = path.nodes.size();
+  RopeFrictions frictions(count);
+  const auto given = entry.find("friction");
+  if (!given) return frictions;
+  if (!given->is_sequence()) {
+    bool any = false;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (held[k] || path.pulleys[k].radius == 0) continue;
+      frictions[k] = given->number();
+      any = true;
+    }
+    if (!any) given->fail("there is no pulley on which the rope could slip: it is gripped or ends at all of them");
+    return frictions;
   }
-  try {
-    auto section = std::make_unique<RopeSection>(type, name, std::move(part), material);
-    const RopeSection& added = *section;
-    model.add(std::move(section), Entry{Section::joints, name}, recorded);
-    return added;
-  } catch (const std::domain_error& error) {
-    entry.at("radii").fail(error.what());
+  if (given->size() != count)
+    given->fail(
+        fmt::format("expected {} coefficients, one for each node (`~`: no friction), or one for all pulleys", count));
+  for (std::size_t k = 0; k < count; ++k) {
+    const YamlValue item = given->at(k);
+    if (item.is_null()) continue;
+    if (held[k]) item.fail("is for pulleys on which the rope can slip: it is gripped or ends here");
+    if (path.pulleys[k].radius == 0) item.fail("is for a pulley: the radius is 0 here");
+    frictions[k] = item.number();
   }
-}
-
-/// Adds monitors of the pulleys that the rope grips between its sections.
-void add_grips(const std::string& name, const std::vector<const RopeSection*>& sections, bool closed, Model& model) {
-  for (std::size_t k = closed ? 0 : 1; k < sections.size(); ++k) {
-    const RopeSection &before = *sections[(k + sections.size() - 1) % sections.size()], &after = *sections[k];
-    if (after.path().pulleys.front().radius != 0)
-      model.add(std::make_unique<RopeGrip>(before, after), Entry{Section::joints, name}, Recorded::no);
-  }
+  return frictions;
 }
 
 /// Draws the course of the rope, and its pulleys.
@@ -137,6 +138,11 @@ void add_course(const std::string& name, const RopePath& path, bool closed, Mode
 
 namespace {
 
+KeyForm list_of_frictions() {
+  using namespace keys;
+  return list_of(KeyForms{number().non_negative(), null()});
+}
+
 std::vector<Key> rope_keys() {
   using namespace keys;
   return {type_key(),
@@ -157,16 +163,25 @@ std::vector<Key> rope_keys() {
 }  // namespace
 
 const KeyTable& belt_keys() {
-  static const KeyTable table{"a belt", "A closed belt or chain that grips its pulleys.", rope_keys()};
+  using namespace keys;
+  static const KeyTable table{"a belt",
+                              "A closed belt or chain that grips its pulleys, or slips on them with friction.",
+                              joined({rope_keys(),
+                                      {{"friction", list_of_frictions(), optional,
+                                        "Coefficients of friction, one for each node; the belt grips pulleys with `~` "
+                                        "without slip, one at least."}}})};
   return table;
 }
 
 const KeyTable& cable_keys() {
   using namespace keys;
   static const KeyTable table{
-      "a cable", "A rope from the first node to the last, over pulleys on which it slides without friction.",
+      "a cable", "A rope from the first node to the last, over pulleys on which it slides, with friction or without.",
       joined({rope_keys(),
               {{"grips", list_of(name_of("node")), optional, "Nodes of pulleys that the rope grips."},
+               {"friction", KeyForms{number().non_negative(), list_of_frictions()}, optional,
+                "Coefficient of friction on all pulleys between the ends, or on each; the rope slides on the others "
+                "(`~`) without friction."},
                {"turns", list_of(KeyForms{integer().non_negative(), null()}), optional,
                 "Whole turns round each pulley in addition to the rope as drawn; `~` is none."}}})};
   return table;
@@ -181,11 +196,18 @@ void read_belt(const std::string& name, const YamlValue& entry, Model& model) {
     entry.at("nodes").fail("a belt closes by itself: name its first node once");
   for (std::size_t k = 0; k < count; ++k)
     if (path.pulleys[k].radius == 0) entry.at("radii").fail("a belt runs over pulleys: radii other than 0");
-  std::vector<const RopeSection*> sections;
-  for (std::size_t k = 0; k < count; ++k)
-    sections.push_back(
-        &add_section("belt", name, path, {k, (k + 1) % count}, material, entry, Recorded::stacked, model));
-  add_grips(name, sections, true, model);
+  if (const auto given = entry.find("friction"); given && !given->is_sequence())
+    given->fail("expected a list with a coefficient or `~` for each node: a belt grips one of its pulleys at least");
+  const RopeFrictions frictions = read_frictions(entry, path, std::vector<bool>(count, false));
+  const auto slips = [](const std::optional<double>& each) { return each.has_value(); };
+  if (std::all_of(frictions.begin(), frictions.end(), slips))
+    entry.at("friction")
+        .fail(
+            "a belt cannot slip on all pulleys at once: let it grip (`~`) the one with the largest product of "
+            "coefficient and wrap, on which it would slip last");
+  std::vector<std::vector<std::size_t>> sections;
+  for (std::size_t k = 0; k < count; ++k) sections.push_back({k, (k + 1) % count});
+  DividedRope("belt", name, path, material, frictions, entry, model).add(sections, true);
   add_course(name, path, true, model);
 }
 
@@ -206,19 +228,16 @@ void read_cable(const std::string& name, const YamlValue& entry, Model& model) {
   for (std::size_t k = 0; k < path.nodes.size(); ++k)
     if (path.turns[k] > 0 && (grips[k] || path.pulleys[k].radius == 0))
       entry.at("turns").at(k).fail("is for pulleys on which the rope slides: it begins or ends here, or there is none");
+  const RopeFrictions frictions = read_frictions(entry, path, grips);
   std::vector<std::size_t> places{0};
   std::vector<std::vector<std::size_t>> sections;
   for (std::size_t k = 1; k < path.nodes.size(); ++k) {
     places.push_back(k);
-    if (!grips[k]) continue;
+    if (!grips[k] && !frictions[k]) continue;
     sections.push_back(places);
     places = {k};
   }
-  const Recorded recorded = sections.size() > 1 ? Recorded::stacked : Recorded::alone;
-  std::vector<const RopeSection*> added;
-  for (const std::vector<std::size_t>& section : sections)
-    added.push_back(&add_section("cable", name, path, section, material, entry, recorded, model));
-  add_grips(name, added, false, model);
+  DividedRope("cable", name, path, material, frictions, entry, model).add(sections, false);
   add_course(name, path, false, model);
 }
 

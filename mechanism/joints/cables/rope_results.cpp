@@ -69,15 +69,11 @@ class TensionMeasure final : public Measure {
     const LocalState of_rope = state.of(0);
     rope_.calc_stretch(of_rope, s);
     if (!s.taut) return s.tension;
-    const int row = state.slots().reference_row(0);
-    const auto n = s.E_gradient.size();
-    const double natural = s.L - s.E, k = rope_.material().EA / natural, by_rate = k * rope_.material().damping;
-    VectorX v(of_rope.slots().size());
-    get_local_velocities(of_rope, v);
-    gradient.position().segment(row, n) = (k + s.tension / natural) * s.E_gradient -
-                                          (s.tension / natural) * s.L_gradient +
-                                          by_rate * (s.E_second.transpose() * v.head(n));
-    gradient.rate().segment(row, n) = by_rate * s.E_gradient;
+    thread_local MeasureGradient pull;
+    rope_.calc_pull_gradient(of_rope, s, pull);
+    const int row = state.slots().reference_row(0), size = of_rope.slots().size();
+    gradient.position().segment(row, size) = pull.position();
+    gradient.rate().segment(row, size) = pull.rate();
     return s.tension;
   }
 

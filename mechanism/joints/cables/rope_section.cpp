@@ -11,7 +11,8 @@
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
-RopeSection::RopeSection(std::string type, std::string name, RopePath path, const RopeMaterial& material)
+RopeSection::RopeSection(std::string type, std::string name, RopePath path, const RopeMaterial& material,
+                         EndSlips slips)
     : Component(std::move(type), std::move(name)),
       path_(std::move(path)),
       courses_(path_.pulleys),
@@ -41,10 +42,13 @@ RopeSection::RopeSection(std::string type, std::string name, RopePath path, cons
   for (int k = 1; k < courses_.last(); ++k)
     if (courses_.may_leave(k)) watched_.push_back(k);
   E_drawn_ = material_.pretension * drawn_length_ / (material_.EA + material_.pretension);
+  for (const End end : {first_end, last_end})
+    if (slips[end]) slip_references_[end] = references_.add(*slips[end]);
 }
 
 void RopeSection::declare(Declaration& declaration) const {
   declaration.nodes = path_.nodes;
+  references_.declare(declaration);
   declaration.stiffness = declaration.kinks = true;
   declaration.damping = material_.damping > 0;
   declaration.memory.assign(places_memory + 3 * static_cast<std::size_t>(courses_.last() - 1), 0.0);
@@ -98,6 +102,13 @@ void RopeSection::calc_stretch(const LocalState& state, Stretch& stretch) const 
   calc_along(state, stretch);
 }
 
+/// @param act  takes the end, the state of its slip, and the elongation per slip: -1 or 1
+template <class Act>
+void RopeSection::for_each_slip(const LocalState& state, const Act& act) const {
+  for (const End end : {first_end, last_end})
+    if (slip_references_[end] >= 0) act(end, slip_at(state, end), end == last_end ? 1.0 : -1.0);
+}
+
 /// @param stretch  contains the states of the places
 void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
   thread_local RopeCourse course;
@@ -106,23 +117,29 @@ void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
   stretch.E_gradient.setZero(n);
   stretch.L_gradient.setZero(n);
   stretch.E_second.setZero(n, n);
+  for (VectorX& gradient : stretch.end_gradients) gradient.setZero(n);
   stretch.wrap_rates.assign(stretch.places.size(), 0.0);
   stretch.E = E_drawn_ - drawn_length_;
   stretch.L = stretch.E_rate = 0;
   CoordinateRate arriving;
   for (std::size_t s = 0; s + 1 < course.places.size(); ++s) arriving = add_span(state, course, s, arriving, stretch);
   stretch.E += stretch.L;
+  for_each_slip(state, [&](End, const LocalState& slip, double sign) {
+    stretch.E += sign * RopeSlip::slip(slip);
+    stretch.E_rate += sign * RopeSlip::mean_rate(slip).value;
+  });
   const double natural = stretch.L - stretch.E;
   if (!(natural > 0)) {
     stretch.taut = stretch.stretched = false;
-    stretch.tension = std::numeric_limits<double>::quiet_NaN();  // wound to its end: not a valid trial state
+    // It is wound to its end: not a valid trial state.
+    stretch.tension = stretch.pull = std::numeric_limits<double>::quiet_NaN();
     return;
   }
   const bool stretched = state.environment().statics ? stretch.E >= 0 : state.memory()[taut_memory] != 0;
-  const double T = material_.EA * (stretch.E + material_.damping * stretch.E_rate) / natural;
+  stretch.pull = material_.EA * (stretch.E + material_.damping * stretch.E_rate) / natural;
   stretch.stretched = stretched;
-  stretch.taut = stretched && T >= 0;
-  stretch.tension = stretch.taut ? T : 0;
+  stretch.taut = stretched && stretch.pull >= 0;
+  stretch.tension = stretch.taut ? stretch.pull : 0;
 }
 
 /// Adds a span and the wrap on the place at which it begins.
@@ -152,7 +169,9 @@ CoordinateRate RopeSection::add_span(const LocalState& state, const RopeCourse& 
   const CoordinateRate leaving{span.first_turn.value, span.first_turn.rate(v)};
   const CoordinateRate there{span.second_turn.value, span.second_turn.rate(v)};
   const auto memory = state.memory();
-  const auto end = [&](End which, const CoordinateRate& angle) {
+  const auto end = [&](End which, const CoordinateRate& angle, const Vector12& gradient) {
+    stretch.end_gradients[which].segment<6>(6 * i) = gradient.head<6>();
+    stretch.end_gradients[which].segment<6>(6 * j) = gradient.tail<6>();
     const double before = memory[ends_memory + 2 * which], rate = memory[ends_memory + 2 * which + 1];
     stretch.ends[which] = {
         counted_angle({angle.value - drawn_ends_[which], angle.rate}, {before, rate}, memory[time_memory], state),
@@ -160,10 +179,10 @@ CoordinateRate RopeSection::add_span(const LocalState& state, const RopeCourse& 
     return stretch.ends[which].value;
   };
   if (begins)
-    stretch.E += from.radius * end(first_end, leaving);
+    stretch.E += from.radius * end(first_end, leaving, span.first_turn.gradient);
   else if (from.radius != 0)
     stretch.L += std::abs(from.radius) * count_wrap(state, i, from.radius, leaving, arriving, stretch);
-  if (ends) stretch.E -= to.radius * end(last_end, there);
+  if (ends) stretch.E -= to.radius * end(last_end, there, span.second_turn.gradient);
   return there;
 }
 
@@ -201,27 +220,43 @@ void RopeSection::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) c
 }
 
 // dT = EA/N (dE + tau dEdot) + T/N (dE - dL),   N = L - E
+void RopeSection::calc_pull_gradient(const LocalState& state, const Stretch& stretch, MeasureGradient& gradient) const {
+  const auto n = stretch.E_gradient.size();
+  const double natural = stretch.L - stretch.E, k = material_.EA / natural, by_rate = k * material_.damping;
+  const double strain_slope = stretch.pull / natural;
+  gradient.prepare(state.slots().size());
+  auto position = gradient.position();
+  position.head(n) = (k + strain_slope) * stretch.E_gradient - strain_slope * stretch.L_gradient;
+  for_each_slip(state, [&](End end, const LocalState& slip, double sign) {
+    position[slip_row(state.slots(), end)] += sign * (k + strain_slope + by_rate * RopeSlip::mean_rate(slip).by_slip);
+  });
+  if (by_rate == 0) return;
+  thread_local VectorX v;
+  v.resize(state.slots().size());
+  get_local_velocities(state, v);
+  position.head(n).noalias() += by_rate * (stretch.E_second.transpose() * v.head(n));
+  gradient.rate().head(n) = by_rate * stretch.E_gradient;
+}
+
 void RopeSection::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
   thread_local Stretch s;
   calc_stretch(state, s);
   if (!s.taut) return;
+  thread_local MeasureGradient pull;
+  calc_pull_gradient(state, s, pull);
   const auto n = s.E_gradient.size();
-  const double natural = s.L - s.E, k = material_.EA / natural, by_rate = k * material_.damping;
   if (tangent.wants_K) {
-    thread_local VectorX slope, v;
-    slope = (k + s.tension / natural) * s.E_gradient - (s.tension / natural) * s.L_gradient;
-    if (by_rate != 0) {
-      v.resize(state.slots().size());
-      get_local_velocities(state, v);
-      slope.noalias() += by_rate * (s.E_second.transpose() * v.head(n));
-    }
     auto K = tangent.K.dense();
     K.topLeftCorner(n, n) += s.tension * s.E_second;
-    K.topLeftCorner(n, n).noalias() += s.E_gradient * slope.transpose();
+    K.topRows(n).noalias() += s.E_gradient * pull.position().transpose();
   }
-  if (tangent.wants_C && by_rate != 0)
-    tangent.C.dense().topLeftCorner(n, n).noalias() += by_rate * s.E_gradient * s.E_gradient.transpose();
+  if (tangent.wants_C && material_.damping > 0)
+    tangent.C.dense().topRows(n).noalias() += s.E_gradient * pull.rate().transpose();
+}
+
+void RopeSection::add_pattern(const Slots& slots, LocalPattern& pattern) const {
+  pattern.add_block(0, 0, slots.own_size(), slots.size());
 }
 
 void RopeSection::add_energy(const LocalState& state, Energy& energy) const {
@@ -236,6 +271,9 @@ void RopeSection::add_energy(const LocalState& state, Energy& energy) const {
   // d/dt (EA E^2/(2 N)) = EA strain Edot - EA strain^2/2 Ndot
   energy.input -= 0.5 * elastic_tension * strain * (L_rate - s.E_rate);
   energy.dissipation += (s.tension - elastic_tension) * s.E_rate;
+  for_each_slip(state, [&](End, const LocalState& slip, double sign) {
+    energy.input += sign * s.tension * RopeSlip::rate(slip);
+  });
 }
 
 // -- memory

@@ -1,13 +1,16 @@
-// A rope, belt or chain between two places that grip it, over pulleys on which it slides without friction.
+// A rope, belt or chain between two places that grip it, or on which it slips with friction, over pulleys on which it
+// slides without friction.
 //
 // The tension is constant along a section. With the lengths l of its spans (rope_span.hpp), the wraps theta of the
 // touched pulleys of radius rho in between (rope_course.hpp), and the angles alpha + gamma by which its ends are wound,
 //     L = sum of l + sum of rho theta,   E = L + rho_0 (alpha_0 + gamma_0) - rho_n (alpha_n + gamma_n) - (initially)
-// are its length and its elongation, and
+// are its length and its elongation, to which slip s on the place at its end adds s, and on that at its beginning -s
+// (rope_slip.hpp), and
 //     T = max(0, EA (E + tau Edot)/(L - E)) while E > 0, and 0 otherwise;   L - E: unloaded length of that piece.
 // Steps end when the rope leaves a pulley or touches it: the memory contains the touched ones. Drums wind and unwind
 // rope, so that the section's stiffness EA/(L - E) changes with its length. Wound rope keeps its strain: its energy 1/2
-// T^2/EA per length is counted as input (negative when wound).
+// T^2/EA per length is counted as input (negative when wound). Rope that slips over a place takes the power T sdot out
+// of the section before it and into that after it, which is counted as input.
 // A belt is a chain of sections of one span each. A rope has no mass and cannot push: steps end when it becomes slack
 // or taut.
 #pragma once
@@ -17,7 +20,10 @@
 #include <vector>
 
 #include "mechanism/joints/cables/rope_course.hpp"
+#include "mechanism/joints/cables/rope_slip.hpp"
+#include "mechanism/model/measure.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/references.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -39,13 +45,17 @@ struct RopePath {
 
 class RopeSection final : public Component {
  public:
+  enum End : std::size_t { first_end, last_end };
+  /// The slip at each end; nullptr: the rope is gripped there.
+  using EndSlips = std::array<const RopeSlip*, 2>;
   /// @param path  at least two places
   /// @throws std::domain_error if pulleys overlap
-  RopeSection(std::string type, std::string name, RopePath path, const RopeMaterial& material);
+  RopeSection(std::string type, std::string name, RopePath path, const RopeMaterial& material, EndSlips slips = {});
 
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
@@ -59,23 +69,30 @@ class RopeSection final : public Component {
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
-  enum End : std::size_t { first_end, last_end };
   /// The whole section at a state, along the increments of its nodes.
   struct Stretch {
     double E = 0, E_rate = 0, L = 0, tension = 0;
+    double pull = 0;  ///< EA (E + tau Edot)/(L - E): the tension of a section that could push as well [N]
     VectorX E_gradient, L_gradient;
     MatrixX E_second;
     bool stretched = false;              ///< whether E > 0 on the present branch
     bool taut = false;                   ///< and under tension
     std::array<CoordinateRate, 2> ends;  ///< alpha + gamma there, relative to the initial value [rad]
+    std::array<VectorX, 2> end_gradients;
     std::vector<RopePlace> places;
     std::vector<double> wrap_rates;  ///< for each place [rad/s]
   };
   void calc_stretch(const LocalState& state, Stretch& stretch) const;
+  /// Computes the derivatives of `pull` over the whole local layout. @param gradient  resized by this function
+  void calc_pull_gradient(const LocalState& state, const Stretch& stretch, MeasureGradient& gradient) const;
+  /// Returns the state of the slip at an end that has one, and the row of this unknown in the local layout.
+  LocalState slip_at(const LocalState& state, End end) const { return state.of(slip_references_[end]); }
+  int slip_row(const Slots& slots, End end) const { return slots.reference_row(slip_references_[end]); }
   const RopeMaterial& material() const { return material_; }
   const RopePath& path() const { return path_; }
   /// Initial value of alpha + gamma at an end.
   double drawn_end(End end) const { return drawn_ends_[end]; }
+  double drawn_length() const { return drawn_length_; }  ///< [m]
 
  private:
   // Memory: the time of the last accepted step, whether the rope is taut; then angle and rate of both ends; then sense,
@@ -86,6 +103,8 @@ class RopeSection final : public Component {
   void get_places(const LocalState& state, std::vector<RopePlace>& places) const;
   void remember_places(const std::vector<RopePlace>& places, Eigen::Ref<VectorX> memory) const;
   void calc_along(const LocalState& state, Stretch& stretch) const;
+  template <class Act>
+  void for_each_slip(const LocalState& state, const Act& act) const;
   CoordinateRate add_span(const LocalState& state, const RopeCourse& course, std::size_t s,
                           const CoordinateRate& arriving, Stretch& stretch) const;
   double count_wrap(const LocalState& state, int place, double radius, const CoordinateRate& leaving,
@@ -95,6 +114,8 @@ class RopeSection final : public Component {
   RopePath path_;
   RopeCourses courses_;
   RopeMaterial material_;
+  References references_;                          ///< the slips at its ends
+  std::array<int, 2> slip_references_ = {-1, -1};  ///< number of the slip among them; -1: none
   std::vector<RopePlace> drawn_places_;
   std::vector<int> watched_;            ///< places that the rope may leave
   std::array<double, 2> drawn_ends_{};  ///< initial alpha + gamma at both ends
@@ -104,9 +125,11 @@ class RopeSection final : public Component {
 
 const KeyTable& belt_keys();
 const KeyTable& cable_keys();
-/// Reads `belt: {nodes, radii, axis, EA, pretension, damping}`: closed, gripped by every pulley.
+/// Reads `belt: {nodes, radii, axis, EA, pretension, damping, friction}`: closed, gripped by every pulley unless it
+/// slips.
 void read_belt(const std::string& name, const YamlValue& entry, Model& model);
-/// Reads `cable: {nodes, radii, axis, at, grips, turns, EA, pretension, damping}`: from the first node to the last.
+/// Reads `cable: {nodes, radii, axis, at, grips, friction, turns, EA, pretension, damping}`: from the first node to the
+/// last.
 void read_cable(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

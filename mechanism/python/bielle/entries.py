@@ -1837,8 +1837,9 @@ class Entries:
     def belt(self, name: str, *,
             nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, pretension: float | str | None = None,
-            damping: float | str | None = None, active: bool | None = None, **more: Any) -> None:
-        """A closed belt or chain that grips its pulleys.
+            damping: float | str | None = None, friction: Sequence[Any] | None = None, active: bool | None = None,
+            **more: Any) -> None:
+        """A closed belt or chain that grips its pulleys, or slips on them with friction.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
         radii: Radii of the pulleys, one for each node: negative if the rope turns them backwards about `axis`, 0 for
@@ -1849,18 +1850,21 @@ class Entries:
         [m]; or `~`; default: the nodes)
         pretension: Tension as drawn. (number [N] of at least 0; default: 0)
         damping: Time constant of Kelvin-Voigt damping. (number [s] of at least 0; default: 0)
+        friction: Coefficients of friction, one for each node; the belt grips pulleys with `~` without slip, one at
+        least. (list: number of at least 0; or `~`)
         active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
         true)
         """
         self.add("joints", name, {"type": "belt", "nodes": nodes, "radii": radii, "EA": EA, "axis": axis, "at": at,
-            "pretension": pretension, "damping": damping, "active": active, **more})
+            "pretension": pretension, "damping": damping, "friction": friction, "active": active, **more})
 
     def cable(self, name: str, *,
             nodes: Sequence[Any], radii: Sequence[Any], EA: float | str, axis: Sequence[Any] | None = None,
             at: Sequence[Any] | None = None, pretension: float | str | None = None,
             damping: float | str | None = None, grips: Sequence[Any] | None = None,
-            turns: Sequence[Any] | None = None, active: bool | None = None, **more: Any) -> None:
-        """A rope from the first node to the last, over pulleys on which it slides without friction.
+            friction: Sequence[Any] | float | str | None = None, turns: Sequence[Any] | None = None,
+            active: bool | None = None, **more: Any) -> None:
+        """A rope from the first node to the last, over pulleys on which it slides, with friction or without.
 
         nodes: Nodes in the order in which the rope passes them. (list of at least 2: name of a node)
         radii: Radii of the pulleys, one for each node: negative if the rope turns them backwards about `axis`, 0 for
@@ -1872,13 +1876,16 @@ class Entries:
         pretension: Tension as drawn. (number [N] of at least 0; default: 0)
         damping: Time constant of Kelvin-Voigt damping. (number [s] of at least 0; default: 0)
         grips: Nodes of pulleys that the rope grips. (list: name of a node)
+        friction: Coefficient of friction on all pulleys between the ends, or on each; the rope slides on the others
+        (`~`) without friction. (number of at least 0; or list: number of at least 0; or `~`)
         turns: Whole turns round each pulley in addition to the rope as drawn; `~` is none. (list: whole number of at
         least 0; or `~`)
         active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
         true)
         """
         self.add("joints", name, {"type": "cable", "nodes": nodes, "radii": radii, "EA": EA, "axis": axis, "at": at,
-            "pretension": pretension, "damping": damping, "grips": grips, "turns": turns, "active": active, **more})
+            "pretension": pretension, "damping": damping, "grips": grips, "friction": friction, "turns": turns,
+            "active": active, **more})
 
     def contact(self, name: str, *,
             stiffness: float | str, shapes: Sequence[Any] | None = None, between: Sequence[Any] | None = None,

@@ -1,0 +1,87 @@
+// Friction of a rope on a pulley between two of its sections, by Euler and Eytelwein (the capstan equation).
+//
+// The rope slips towards the section with the larger tension T_b as soon as
+//     T_b > exp(mu theta) T_a,
+// with the smaller tension T_a, the coefficient mu and the present wrap theta (rope_wrap.hpp); while it slips both
+// sides are equal. Otherwise it sticks: the slip s of rope_slip.hpp keeps its value exactly. With a = exp(-mu theta),
+// the increment d = s - s_0 of a step of size h, and the stiffness k of both sections, which only scales the equation,
+// this is
+//     0 = k d - max(0, k d + F) + max(0, R - k d),
+//     F = a T_2 - T_1 - (1e-9 k + c/h) d,   R = a T_1 - T_2 + (1e-9 k + c/h) d,
+// for the tensions T_1 before and T_2 after the pulley. The terms with d are no model of friction: they keep a rope
+// whose other side is slack under a negligible tension greater than zero while it slides, c = 1e-10 s/m EA, and make
+// the slip unique where several pulleys of a belt slip at once. A negative wrap counts as zero: both tensions are then
+// equal. The friction T_2 - T_1 acts on the rim of the pulley by the tensions themselves. The power (T_2 - T_1) ds/dt
+// is dissipated.
+//
+// The rope has no mass, and so no centrifugal tension. Its elastic creep on the pulley is neglected.
+// L. Euler, Remarques sur l'effet du frottement dans l'equilibre (1762); J. A. Eytelwein, Handbuch der Statik fester
+// Koerper (1808).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mechanism/joints/cables/rope_wrap.hpp"
+
+namespace bielle::mechanism {
+
+class RopeFriction final : public Component {
+ public:
+  /// @param before,after  sections that end and begin at the pulley; both refer to its slip
+  /// @param number,count  number of the pulley among those of the rope with friction
+  RopeFriction(const RopeSection& before, const RopeSection& after, RopeWrap wrap, double coefficient,
+               std::size_t number, std::size_t count);
+  void declare(Declaration& declaration) const override;
+  void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
+  void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
+  void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
+  void add_energy(const LocalState& state, Energy& energy) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
+  /// Outputs, one for each pulley with friction: `slip` [m], `slip_velocity` [m/s], `slips` [-], `friction` [N],
+  /// `friction_limit` [N], `wrap` [rad].
+  std::vector<OutputField> output_fields() const override;
+  void write_output(const LocalState& state, double* values) const override;
+  void describe(const LocalState& state, Description& description) const override;
+  /// Measures: `p.slip`, `p.slip.rate`, `p.friction`, `p.wrap` of the pulley p.
+  std::vector<std::string> measure_names() const override;
+  std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
+
+  /// A quantity with its derivatives over the local layout.
+  /// @param gradient  zero on entry
+  double calc_slip(const LocalState& state, MeasureGradient& gradient) const;
+  double calc_slip_rate(const LocalState& state, MeasureGradient& gradient) const;
+  double calc_friction(const LocalState& state, MeasureGradient& gradient) const;
+  double calc_wrap(const LocalState& state, MeasureGradient& gradient) const;
+
+ private:
+  /// Both sections at a state, before (0) and after (1) the pulley.
+  struct Sides {
+    RopeSection::Stretch stretch[2];
+    double wrap = 0;       ///< not negative [rad]
+    double reduction = 1;  ///< a
+  };
+  LocalState slip_of(const LocalState& state) const { return before_.slip_at(state.of(0), RopeSection::last_end); }
+  int slip_row(const Slots& slots) const {
+    return slots.reference_row(0) + before_.slip_row(*slots.references[0], RopeSection::last_end);
+  }
+  const RopeSection& section(int side) const { return side == 0 ? before_ : after_; }
+  const Sides& calc_sides(const LocalState& state) const;
+  /// The tension that draws the rope towards a side, less that which friction can hold there [N].
+  static double excess(const Sides& sides, int towards);
+  /// The side to which the rope slips in this step: 0 or 1; -1: it sticks.
+  int slips_towards(const LocalState& state, const Sides& sides) const;
+  double resistance(const LocalState& state) const;
+  void add_pull(const LocalState& state, const Sides& sides, int side, double factor, MeasureGradient& gradient) const;
+  void add_wrap(const LocalState& state, const Sides& sides, double factor, MeasureGradient& gradient) const;
+
+  const RopeSection &before_, &after_;
+  RopeWrap wrap_;
+  double coefficient_;
+  std::size_t number_, count_;
+  double stiffness_;  ///< k [N/m]
+  double viscosity_;  ///< c [N s/m]
+};
+
+}  // namespace bielle::mechanism
