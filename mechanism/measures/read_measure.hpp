@@ -26,7 +26,8 @@ void check_measure_name(const std::string& name, const YamlValue& entry, const M
 
 /// The keys of a measure that is no plain formula.
 const KeyTable& measure_keys();
-/// Reads an entry of `measures`: a formula of the time or the state; `{formula, units}`; or `{node, relative_to, quantity, direction, at}`.
+/// Reads an entry of `measures`: a formula of the time or the state; `{formula, units}`; or `{node, relative_to,
+/// quantity, direction, at}`.
 /// @throws InputError also if measures refer to each other in a circle
 void read_measure(const std::string& name, const YamlValue& given, Model& model);
 
