@@ -135,9 +135,10 @@ analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
 
     def test_no_example_is_warned(self):
         folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "mechanism", "examples")
+        # These need superelements, and have tests of their own.
+        flexible = {"crane.yaml", "four_bar.yaml", "robot_from_step.yaml", "slider_crank.yaml"}
         for name in sorted(os.listdir(folder)):
-            if name.endswith(".yaml") and name not in ("crane.yaml", "slider_crank.yaml"):  # these have tests of their
-                                                                                            # own
+            if name.endswith(".yaml") and name not in flexible:
                 done = self.run_program(os.path.join(folder, name), "--check")
                 self.assertEqual((done.returncode, done.stderr), (0, ""), name)
 

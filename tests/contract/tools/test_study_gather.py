@@ -272,10 +272,9 @@ class AgainstSingleRuns(InFolder):
         self.assertAlmostEqual(number["down"], -np.sin(number["first"]), places=9)
         self.assertEqual(number["deep"], -number["z"])
 
-    def test_the_study_of_the_readme(self):
-        with open(os.path.join(REPOSITORY, "tools", "README.md"), encoding="utf-8") as file:
-            section = file.read().partition("## Studies")[2]
-        text = re.search(r"```yaml\n(.*?)```", section, re.DOTALL)[1]
+    def test_the_study_of_the_guide(self):
+        with open(os.path.join(REPOSITORY, "tools", "guide", "studies.md"), encoding="utf-8") as file:
+            text = re.search(r"```yaml\n(.*?)```", file.read(), re.DOTALL)[1]
         self.assertIn("model: servo.yaml", text)
         with open(os.path.join(REPOSITORY, "mechanism", "examples", "servo.yaml"), encoding="utf-8") as file:
             self.write("servo.yaml", file.read())
