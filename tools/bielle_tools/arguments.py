@@ -26,6 +26,13 @@ class Parser(argparse.ArgumentParser):
         raise InputError(f"{message} (--help shows the options)")
 
 
+def count(word):
+    """A number of jobs. @raises ArgumentTypeError"""
+    if not word.isdecimal() or not 1 <= int(word) <= 1000:
+        raise argparse.ArgumentTypeError(f"'{word}': expected a whole number between 1 and 1000")
+    return int(word)
+
+
 def results_parser(name, description, several=False):
     """A parser of options for a file of results, `results`, or for several, `files`."""
     parser = Parser(prog=name, description=description, formatter_class=Parser.raw)

@@ -1,8 +1,9 @@
 """The report as one HTML page."""
 
-import html
 import math
 import re
+
+from bielle_tools.html_parts import mark, table, text
 
 SUBJECTS = ["Rigid mechanisms", "Beams at rest", "Beams in motion", "Solids and superelements",
             "Hydraulics and friction", "Integration in time"]
@@ -123,18 +124,6 @@ def precision(study):
             f"with {number(level['processor_time'], 2)} s of processor time.</p>")
 
 
-def table(heads, lines, numbers=()):
-    """A table of HTML cells. @param numbers  columns that are aligned to the right"""
-    head = "<tr>" + "".join(f"<th>{each}</th>" for each in heads) + "</tr>" if any(heads) else ""
-    kinds = [" class='number'" if k in numbers else "" for k in range(len(heads))]
-    rows = ["<tr>" + "".join(f"<td{kind}>{cell}</td>" for kind, cell in zip(kinds, line)) + "</tr>" for line in lines]
-    return f"<table>{head}{''.join(rows)}</table>"
-
-
-def mark(passed):
-    return "<span class='passed'>passed</span>" if passed else "<span class='failed'>FAILED</span>"
-
-
 def number(value, digits):
     """A number for people; infinite and undefined ones as texts."""
     value = float(value)
@@ -148,7 +137,3 @@ def values(reference):
     if any(isinstance(line, list) for line in reference):
         return "<br>".join(map(values, reference))
     return ", ".join(f"{float(value):.9g}" for value in reference) or "no numbers"
-
-
-def text(words):
-    return html.escape(str(words))

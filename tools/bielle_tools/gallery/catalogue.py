@@ -1,10 +1,9 @@
 """The machines of a folder of Python files, each of which defines MACHINE."""
 
-import difflib
 import importlib.util
 import os
 
-from ..messages import InputError
+from ..messages import InputError, did_you_mean
 from .machine import Machine
 
 FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "machines")
@@ -25,9 +24,7 @@ def chosen(folder, wanted):
     known = names_in(folder)
     for name in wanted:
         if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
-            advice = f"; did you mean '{near[0]}'?" if near else f" (there are: {', '.join(known)})"
-            raise InputError(f"there is no machine '{name}'{advice}")
+            raise InputError(f"there is no machine '{name}'{did_you_mean(name, known)}")
     return {name: _read(folder, name) for name in known if name in wanted or not wanted}
 
 

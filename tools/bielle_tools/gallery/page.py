@@ -1,8 +1,8 @@
 """The page of the gallery: plain HTML without a network."""
 
-import html
 import os
 
+from ..html_parts import mark, table, text
 from .making import MODELS
 
 STYLE = """
@@ -41,27 +41,15 @@ def section(made):
                         for picture in made.pictures),
                       f"<p>{text(made.machine.teaches)}</p>", f"<p>{', '.join(links)}; {made.seconds:.0f} s</p>",
                       f"<p class='failed'>{text(made.failure)}</p>" if made.failure else "",
-                      table(made.checks), "</section>"])
+                      table_of_checks(made.checks), "</section>"])
 
 
-def table(checks):
+def table_of_checks(checks):
     """The checks of a machine; empty without any."""
     if not checks:
         return ""
-    heads = ("quantity", "run", "independent", "difference", "accepted", "")
-    lines = [f"<tr><td>{text(check.quantity)} [{text(check.unit)}]</td><td class='number'>{check.value:.7g}</td>"
-             f"<td class='number'>{check.reference:.7g}</td><td class='number'>{100 * check.difference:.3g} %</td>"
-             f"<td>{100 * check.within:.3g} %: {text(check.reason)}"
-             f"<br>independent: {text(check.formula)}</td><td>{mark(check.passed)}</td></tr>"
-             for check in checks]
-    return "<table><tr>" + "".join(f"<th>{head}</th>" for head in heads) + "</tr>" + "".join(lines) + "</table>"
-
-
-def mark(passed):
-    """The word of a verdict."""
-    return "<span class='passed'>passed</span>" if passed else "<span class='failed'>FAILED</span>"
-
-
-def text(words):
-    """Words in HTML."""
-    return html.escape(str(words), quote=True)
+    lines = [[f"{text(check.quantity)} [{text(check.unit)}]", f"{check.value:.7g}", f"{check.reference:.7g}",
+              f"{100 * check.difference:.3g} %",
+              f"{100 * check.within:.3g} %: {text(check.reason)}<br>independent: {text(check.formula)}",
+              mark(check.passed)] for check in checks]
+    return table(["quantity", "run", "independent", "difference", "accepted", ""], lines, numbers=(1, 2, 3))
