@@ -31,14 +31,7 @@ class DirectResponse {
   Eigen::MatrixXcd operator()(Complex s) const {
     const ShiftedOperator D(response_.equations(), s);
     if (!D.regular()) throw_no_response(s.imag() / (2 * std::numbers::pi));
-    Eigen::MatrixXcd H(options_.outputs.size(), options_.inputs.size());
-    for (std::size_t j = 0; j < rights_.size(); ++j) {
-      const LinearMotion motion = response_.answer(D, rights_[j]);
-      for (std::size_t i = 0; i < options_.outputs.size(); ++i)
-        H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            response_.value(options_.outputs[i], motion) + response_.direct(options_.outputs[i], options_.inputs[j]);
-    }
-    return H;
+    return response_.at(D, options_.inputs, options_.outputs, rights_);
   }
 
  private:
@@ -107,13 +100,13 @@ class SuperposedResponse {
     Eigen::VectorXcd solution = Eigen::VectorXcd::Zero(n + equations_.constraints());
     solution.head(n) = mode.u;
     const LinearMotion motion = response_.motion(0, solution);
-    for (const ResponseOutput& output : options_.outputs) {
-      double usual = 0;
-      for (const ModalPole& pole : poles)
-        usual = std::max(
-            usual, std::abs(response_.value(output, response_.motion(pole.s, pole.right))) / pole.right.head(n).norm());
-      if (std::abs(response_.value(output, motion)) > something * usual * size) seen = true;
-    }
+    const Eigen::VectorXcd values = response_.values(options_.outputs, motion);
+    VectorX usual = VectorX::Zero(values.size());
+    for (const ModalPole& pole : poles)
+      usual = usual.cwiseMax(response_.values(options_.outputs, response_.motion(pole.s, pole.right)).cwiseAbs() /
+                             pole.right.head(n).norm());
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      if (std::abs(values[i]) > something * usual[i] * size) seen = true;
     return moved && seen;
   }
   static void check_not_a_mode(const std::vector<ModalPole>& poles, Complex s) {

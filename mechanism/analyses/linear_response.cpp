@@ -48,6 +48,19 @@ LinearMotion LinearResponse::motion(Complex s, const Eigen::VectorXcd& solution)
   return motion;
 }
 
+Eigen::MatrixXcd LinearResponse::at(const ShiftedOperator& D, const std::vector<ResponseInput>& inputs,
+                                    const std::vector<ResponseOutput>& outputs,
+                                    const std::vector<VectorX>& rights) const {
+  Eigen::MatrixXcd H(outputs.size(), inputs.size());
+  for (std::size_t j = 0; j < inputs.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    H.col(column) = values(outputs, answer(D, rights[j]));
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      H(static_cast<Eigen::Index>(i), column) += direct(outputs[i], inputs[j]);
+  }
+  return H;
+}
+
 void check_response_names(const Model& model, const std::vector<ResponseInput>& inputs,
                           const std::vector<ResponseOutput>& outputs) {
   for (const ResponseInput& input : inputs)

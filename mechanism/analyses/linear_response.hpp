@@ -31,11 +31,15 @@ class LinearResponse {
   LinearMotion answer(const ShiftedOperator& D, const VectorX& right) const;
   /// Returns the motion exp(s t) with given unknowns and multipliers (n + constraints).
   LinearMotion motion(Complex s, const Eigen::VectorXcd& solution) const;
-  /// Returns the variation of an output due to a motion.
-  virtual Complex value(const ResponseOutput& output, const LinearMotion& motion) const = 0;
+  /// Returns the variations of outputs due to a motion.
+  virtual Eigen::VectorXcd values(const std::vector<ResponseOutput>& outputs, const LinearMotion& motion) const = 0;
   /// Returns the derivative of an output by an input of the model that it contains directly.
   virtual double direct(const ResponseOutput& output, const ResponseInput& input) const = 0;
   virtual std::string units(const ResponseOutput& output) const = 0;
+  /// Returns the response (outputs, inputs) at the shift, with the outputs' direct dependence on inputs.
+  /// @param rights  right_sides of the inputs
+  Eigen::MatrixXcd at(const ShiftedOperator& D, const std::vector<ResponseInput>& inputs,
+                      const std::vector<ResponseOutput>& outputs, const std::vector<VectorX>& rights) const;
 
  private:
   virtual VectorX right_side(const ResponseInput& input) const = 0;

@@ -12,16 +12,6 @@ using MatrixXc = ModalResponse::MatrixXc;
 
 constexpr int reference_points = 4;
 
-/// Outputs of a motion exp(s t), given by its unknowns and multipliers.
-Eigen::VectorXcd outputs_of(const LinearResponse& response, const FrequencyResponseOptions& options,
-                            const ModalPole& pole) {
-  const LinearMotion motion = response.motion(pole.s, pole.right);
-  Eigen::VectorXcd outputs(options.outputs.size());
-  for (std::size_t i = 0; i < options.outputs.size(); ++i)
-    outputs[static_cast<Eigen::Index>(i)] = response.value(options.outputs[i], motion);
-  return outputs;
-}
-
 }  // namespace
 
 ModalResponse::ModalResponse(const LinearResponse& response, const std::vector<ModalPole>& poles,
@@ -32,7 +22,7 @@ ModalResponse::ModalResponse(const LinearResponse& response, const std::vector<M
       direct_(std::move(direct)) {
   const std::vector<VectorX> rights = response.right_sides(options.inputs, options.outputs);
   for (const ModalPole& pole : poles) {
-    const Eigen::VectorXcd outputs = outputs_of(response, options, pole);
+    const Eigen::VectorXcd outputs = response.values(options.outputs, response.motion(pole.s, pole.right));
     MatrixXc residue(outputs.size(), static_cast<Eigen::Index>(rights.size()));
     VectorX shares(residue.cols());
     for (std::size_t k = 0; k < rights.size(); ++k) {

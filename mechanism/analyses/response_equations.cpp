@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "mechanism/analyses/steady_response.hpp"
 #include "mechanism/analyses/turning_response.hpp"
@@ -33,14 +34,14 @@ ResponseEquations::ResponseEquations(Session& session, const std::vector<Respons
 void ResponseEquations::make_turning(const System& system, const std::vector<ResponseInput>& inputs) {
   ModeOptions slow;
   slow.count = 10;
-  const HarmonicModes modes = turning_->search().find(slow);
+  HarmonicModes modes = turning_->search().find(slow);
   const bool standing = std::all_of(inputs.begin(), inputs.end(), [&](const ResponseInput& input) {
     return input.node >= 0 && !turning_->part.turns(input.node);
   });
   harmonics_ = modes.harmonics + (standing ? 0 : 2);
   setting_ = turning_->setting(modes);
   setting_.turning->harmonics = harmonics_;
-  equations_ = turning_->periodic.of_harmonics(harmonics_);
+  equations_ = standing ? std::move(modes.equations) : turning_->periodic.of_harmonics(harmonics_);
   for (int i = 0; i < turning_->periodic.first().unknowns(); ++i)
     rows_.push_back(turning_->periodic.index(0, i, harmonics_));
   response_ = std::make_unique<TurningResponse>(system, about_, *turning_, equations_, harmonics_);

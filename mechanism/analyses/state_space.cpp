@@ -74,23 +74,13 @@ class StateSpaceBuilder {
     for (Eigen::Index k = 0; k < states; ++k) {
       LinearMotion motion{x.col(k).head(n).cast<Complex>(), Eigen::VectorXcd(n), multipliers.col(k).cast<Complex>()};
       motion.rate << x.col(k).tail(e_.dofs).cast<Complex>(), y_rates.col(k).cast<Complex>();
-      for (Eigen::Index i = 0; i < outputs; ++i)
-        C(i, k) = response_.value(options_.outputs[static_cast<std::size_t>(i)], motion).real();
+      C.col(k) = response_.values(options_.outputs, motion).real();
     }
     return C;
   }
 
   /// Computes the response from the original equations.
-  MatrixXc exact(const ShiftedOperator& D) const {
-    MatrixXc H(options_.outputs.size(), options_.inputs.size());
-    for (std::size_t j = 0; j < options_.inputs.size(); ++j) {
-      const LinearMotion motion = response_.answer(D, rights_[j]);
-      for (std::size_t i = 0; i < options_.outputs.size(); ++i)
-        H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            response_.value(options_.outputs[i], motion) + response_.direct(options_.outputs[i], options_.inputs[j]);
-    }
-    return H;
-  }
+  MatrixXc exact(const ShiftedOperator& D) const { return response_.at(D, options_.inputs, options_.outputs, rights_); }
 
   /// Compares the response at a second point: it differs if an output depends on derivatives of an input.
   void check(const StateSpace& found) const {

@@ -46,10 +46,16 @@ VectorX SteadyResponse::right_side(const ResponseInput& input) const {
   return right;
 }
 
-Complex SteadyResponse::value(const ResponseOutput& output, const LinearMotion& motion) const {
+Eigen::VectorXcd SteadyResponse::values(const std::vector<ResponseOutput>& outputs, const LinearMotion& motion) const {
   Variation variation{motion.u, motion.rate, Eigen::VectorXcd::Zero(system_.multipliers())};
   for (int k = 0; k < equations_.constraints(); ++k)
     variation.multiplier[equations_.multiplier[static_cast<std::size_t>(k)]] = motion.multiplier[k];
+  Eigen::VectorXcd values(outputs.size());
+  for (std::size_t i = 0; i < outputs.size(); ++i) values[static_cast<Eigen::Index>(i)] = value(outputs[i], variation);
+  return values;
+}
+
+Complex SteadyResponse::value(const ResponseOutput& output, const Variation& variation) const {
   if (output.node >= 0) {
     const NodeVariation node = node_variation(system_, state_, variation, output.node);
     const Matrix3& R = state_.nodes[static_cast<std::size_t>(output.node)].R;

@@ -14,12 +14,13 @@ class SteadyResponse final : public LinearResponse {
       : system_(system), state_(state), environment_(environment), equations_(equations) {}
 
   const LinearisedEquations& equations() const override { return equations_; }
-  Complex value(const ResponseOutput& output, const LinearMotion& motion) const override;
+  Eigen::VectorXcd values(const std::vector<ResponseOutput>& outputs, const LinearMotion& motion) const override;
   double direct(const ResponseOutput& output, const ResponseInput& input) const override;
   std::string units(const ResponseOutput& output) const override;
   VectorX right_side(const ResponseInput& input) const override;
 
  private:
+  Complex value(const ResponseOutput& output, const Variation& variation) const;
   /// Inputs of the model act through the forces that depend on them by formulas: the derivatives are central
   /// differences, exact if the formulas are linear.
   struct InputStep {

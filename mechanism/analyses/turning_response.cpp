@@ -5,8 +5,6 @@
 namespace bielle::mechanism {
 namespace {
 
-using Complex = LinearResponse::Complex;
-
 /// Inputs and outputs have up to three harmonics, as coefficients have: the means of their products with the functions
 /// e_p and the unknowns are exact.
 int azimuths_for(int harmonics) { return 2 * (harmonics + 4); }
@@ -62,9 +60,9 @@ LinearMotion TurningResponse::at_azimuth(std::size_t k, const LinearMotion& moti
   return here;
 }
 
-Complex TurningResponse::value(const ResponseOutput& output, const LinearMotion& motion) const {
-  Complex sum = 0;
-  for (std::size_t k = 0; k < azimuths_.size(); ++k) sum += responses_[k].value(output, at_azimuth(k, motion));
+Eigen::VectorXcd TurningResponse::values(const std::vector<ResponseOutput>& outputs, const LinearMotion& motion) const {
+  Eigen::VectorXcd sum = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(outputs.size()));
+  for (std::size_t k = 0; k < azimuths_.size(); ++k) sum += responses_[k].values(outputs, at_azimuth(k, motion));
   return sum / static_cast<double>(azimuths_.size());
 }
 

@@ -22,7 +22,7 @@ class TurningResponse final : public LinearResponse {
                   const LinearisedEquations& equations, int harmonics);
 
   const LinearisedEquations& equations() const override { return equations_; }
-  Complex value(const ResponseOutput& output, const LinearMotion& motion) const override;
+  Eigen::VectorXcd values(const std::vector<ResponseOutput>& outputs, const LinearMotion& motion) const override;
   double direct(const ResponseOutput& output, const ResponseInput& input) const override;
   std::string units(const ResponseOutput& output) const override { return responses_.front().units(output); }
 
