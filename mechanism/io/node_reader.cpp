@@ -15,13 +15,13 @@
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_frame.hpp"
+#include "reduce/common/direction_words.hpp"
 #include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-constexpr const char* direction_names[] = {"x", "y", "z", "rx", "ry", "rz"};
-const std::vector<std::string> directions(std::begin(direction_names), std::end(direction_names));
+const std::vector<std::string> directions(direction_words.begin(), direction_words.end());
 
 std::size_t direction_index(const std::string& name) {
   return static_cast<std::size_t>(std::find(directions.begin(), directions.end(), name) - directions.begin());

@@ -8,6 +8,7 @@
 
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/joints/joint_measures.hpp"
+#include "reduce/common/direction_words.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -117,17 +118,13 @@ void Joint::calc_reaction_by_rates(const LocalState& state, MatrixX& derivatives
   for (Eigen::Index k = 0; k < C.cols(); ++k) derivatives.col(k) = wrench.of(C.block<6, 1>(second_node, k));
 }
 
-namespace {
-constexpr const char* directions[] = {"x", "y", "z", "rx", "ry", "rz"};
-}  // namespace
-
 std::vector<std::string> Joint::measure_names() const {
   std::vector<std::string> names;
   for (const JointCoordinate& each : coordinates_) {
     names.push_back(each.name);
     names.push_back(each.name + ".rate");
   }
-  for (const char* direction : directions) names.push_back(std::string("reaction.") + direction);
+  for (const char* direction : direction_words) names.push_back(std::string("reaction.") + direction);
   return names;
 }
 
@@ -137,7 +134,8 @@ std::unique_ptr<Measure> Joint::make_measure(const std::string& name, const std:
     if (measure == coordinates_[k].name + ".rate") return std::make_unique<CoordinateRateMeasure>(name, *this, k);
   }
   for (int k = 0; k < 6; ++k)
-    if (measure == std::string("reaction.") + directions[k]) return std::make_unique<ReactionMeasure>(name, *this, k);
+    if (measure == std::string("reaction.") + direction_words[static_cast<std::size_t>(k)])
+      return std::make_unique<ReactionMeasure>(name, *this, k);
   return Component::make_measure(name, measure);
 }
 

@@ -6,6 +6,7 @@
 
 #include "mechanism/drawing/drawing_text.hpp"
 #include "mechanism/model/model.hpp"
+#include "reduce/common/direction_words.hpp"
 #include "reduce/common/files/hdf5_file.hpp"
 
 namespace bielle::mechanism {
@@ -28,10 +29,9 @@ bool is_point_mass(const Node& node, int index, const std::set<int>& point_masse
 }
 
 std::vector<std::string> directions_that_are(Freedom wanted, const Node& node) {
-  constexpr std::array names = {"x", "y", "z", "rx", "ry", "rz"};
   std::vector<std::string> directions;
   for (std::size_t k = 0; k < 6; ++k)
-    if (node.freedom[k] == wanted) directions.emplace_back(names[k]);
+    if (node.freedom[k] == wanted) directions.emplace_back(direction_words[k]);
   return directions;
 }
 

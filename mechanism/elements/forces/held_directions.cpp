@@ -9,11 +9,10 @@
 #include "mechanism/drawing/drawing.hpp"
 #include "mechanism/math/so3.hpp"
 #include "mechanism/model/description.hpp"
+#include "reduce/common/direction_words.hpp"
 
 namespace bielle::mechanism {
 namespace {
-
-constexpr const char* direction_names[] = {"x", "y", "z", "rx", "ry", "rz"};
 
 /// The row of one held rotation: its sign, and the axes that stay normal to each other.
 struct OneRotation {
@@ -25,7 +24,7 @@ constexpr OneRotation one_rotation[] = {{-1, 1, 2}, {1, 0, 2}, {-1, 0, 1}};
 std::vector<std::string> names_of(const std::array<bool, 6>& held) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < 6; ++k)
-    if (held[k]) names.emplace_back(direction_names[k]);
+    if (held[k]) names.emplace_back(direction_words[k]);
   return names;
 }
 
@@ -53,15 +52,16 @@ HeldDirections::HeldDirections(const Node& node, int index, const Matrix3& axes,
 }
 
 void HeldDirections::add_alignment(int held, int in_space, int on_node, double sign, const Node& node) {
-  alignments_.push_back({fmt::format("held rotation {}", direction_names[3 + held]), sign * axes_.col(in_space),
-                         node.frame.R.transpose() * axes_.col(on_node)});
+  alignments_.push_back({fmt::format("held rotation {}", direction_words[static_cast<std::size_t>(3 + held)]),
+                         sign * axes_.col(in_space), node.frame.R.transpose() * axes_.col(on_node)});
 }
 
 void HeldDirections::declare(Declaration& declaration) const {
   declaration.nodes = {node_};
   declaration.stiffness = declaration.in_blocks = true;
   for (const int k : displacements_)
-    declaration.multipliers.push_back({fmt::format("held displacement {}", direction_names[k]), "N"});
+    declaration.multipliers.push_back(
+        {fmt::format("held displacement {}", direction_words[static_cast<std::size_t>(k)]), "N"});
   for (const Alignment& each : alignments_) declaration.multipliers.push_back({each.name, "N m"});
 }
 

@@ -16,6 +16,7 @@
 #include "mechanism/model/description.hpp"
 #include "mechanism/model/step_recorder_list.hpp"
 #include "reduce/common/counted.hpp"
+#include "reduce/common/direction_words.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -392,10 +393,9 @@ std::vector<std::pair<std::string, std::string>> SuperelementBody::attributes() 
 namespace {
 
 std::string compliance_at(const std::array<bool, 6>& residual) {
-  constexpr std::array<const char*, 6> names = {"x", "y", "z", "rx", "ry", "rz"};
   std::vector<std::string> exact;
   for (std::size_t k = 0; k < 6; ++k)
-    if (residual[k]) exact.emplace_back(names[k]);
+    if (residual[k]) exact.emplace_back(direction_words[k]);
   if (exact.empty()) return "its compliance is that of interfaces and modes";
   if (exact.size() == 6) return "its static compliance is exact, by residual vectors";
   return fmt::format("its static compliance is exact in {}, by residual vectors", fmt::join(exact, ", "));

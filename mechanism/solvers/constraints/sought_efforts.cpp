@@ -10,6 +10,7 @@
 #include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "reduce/common/counted.hpp"
+#include "reduce/common/direction_words.hpp"
 #include "reduce/dense/dense_solves.hpp"
 
 namespace bielle::mechanism {
@@ -74,8 +75,8 @@ void SoughtEfforts::find_directions() {
 }
 
 std::string SoughtEfforts::name_of(const Direction& direction) const {
-  constexpr const char* axes[] = {"x", "y", "z", "rx", "ry", "rz"};
-  return fmt::format("{} of node '{}'", axes[direction.axis], system_.model().node(nodes_[direction.node]).name);
+  return fmt::format("{} of node '{}'", direction_words[direction.axis],
+                     system_.model().node(nodes_[direction.node]).name);
 }
 
 VectorX SoughtEfforts::values(const State& state) const {

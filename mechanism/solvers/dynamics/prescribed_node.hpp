@@ -1,10 +1,9 @@
 // The prescribed motions of a node, as formulas of time.
 #pragma once
 
-#include <array>
-
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/time_dependent.hpp"
+#include "reduce/common/direction_words.hpp"
 
 namespace bielle::mechanism {
 
@@ -15,7 +14,7 @@ class PrescribedNode final : public TimeDependent {
     std::vector<Formula> formulas;
     for (std::size_t k = 0; k < 6; ++k)
       if (node_.freedom[k] == Freedom::prescribed)
-        formulas.push_back({std::string("motion ") + names[k], k < 3 ? "m" : "rad", Part::position, k >= 3});
+        formulas.push_back({std::string("motion ") + direction_words[k], k < 3 ? "m" : "rad", Part::position, k >= 3});
     return formulas;
   }
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
@@ -25,7 +24,6 @@ class PrescribedNode final : public TimeDependent {
   }
 
  private:
-  static constexpr std::array<const char*, 6> names{"x", "y", "z", "rx", "ry", "rz"};
   const Node& node_;
 };
 
