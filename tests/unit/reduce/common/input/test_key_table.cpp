@@ -359,6 +359,7 @@ TEST_CASE("Keys of a thing are found by its name, with blanks or underscores, or
   CHECK(headings("point_mass") == "point_mass");
   CHECK(headings("sampled") == "sampled state");
   CHECK(headings("state") == "sampled state, delayed state");
-  CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "sample"); }), Contains("one of") && Contains("'sampled state'"));
+  CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "sample"); }),
+             Contains("one of") && Contains("'sampled state'"));
   CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "tate"); }), Contains("nothing has this name"));
 }
