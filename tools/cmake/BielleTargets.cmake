@@ -61,10 +61,9 @@ function(bielle_library name)
   set_property(GLOBAL APPEND PROPERTY BIELLE_LIBRARIES bielle_${name})
 endfunction()
 
-# bielle_tests(NAME SOURCES a.cpp ... DEPENDS Bielle::x ... [LABELS long] [SERIAL]): one Catch2 program; each test case
-# is a ctest. Tests with SERIAL compare times: no other test runs at the same time.
+# bielle_tests(NAME SOURCES a.cpp ... DEPENDS Bielle::x ... [LABELS long]): one Catch2 program; each test case is a ctest.
 function(bielle_tests name)
-  cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPENDS;LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS;ENVIRONMENT" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} Bielle::test_main Bielle::test_eigenvalues bielle_warnings bielle_test_options)
   target_compile_definitions(test_${name} PRIVATE BIELLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
@@ -74,9 +73,6 @@ function(bielle_tests name)
   set(properties PROPERTIES)
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}" TIMEOUT 3600)  # long ones take their time on a busy machine
-  endif()
-  if(ARG_SERIAL)
-    list(APPEND properties RUN_SERIAL TRUE)
   endif()
   if(ARG_ENVIRONMENT)
     list(APPEND properties ENVIRONMENT "${ARG_ENVIRONMENT}")
