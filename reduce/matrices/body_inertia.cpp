@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/percent.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/matrices/shown_moments.hpp"
@@ -102,8 +103,8 @@ std::string BodyInertia::told() const {
     case InertiaSource::shapes:
       return fmt::format(
           "the inertia of large rotations is that of the file's shapes and point masses, which leave "
-          "{:.2g} % of the kinetic energy of free modes open",
-          100 * unknown_share);
+          "{} of the kinetic energy of free modes open",
+          percent(unknown_share));
     case InertiaSource::nodes:
       return "the inertia of large rotations is that of the nodes";
     case InertiaSource::nearly_nodes:
@@ -123,7 +124,7 @@ std::string BodyInertia::told() const {
                                              "no known direction",
                                              100 * unknown_share));
     case InertiaSource::estimate: {
-      const auto percent = [&](std::size_t k) {
+      const auto told = [&](std::size_t k) {
         return shown[k] < 0 ? std::string("(none needed)") : fmt::format("{:.0f} %", 100 * shown[k]);
       };
       return fmt::format(
@@ -134,7 +135,7 @@ std::string BodyInertia::told() const {
           "{}, {} and {}; of the kinetic energy of a free mode up to {:.0f} % has no known direction, and its "
           "gyroscopic "
           "terms are left out. Full matrices, or shapes with point masses, make it exact",
-          percent(0), percent(1), percent(2), 100 * unknown_share);
+          told(0), told(1), told(2), 100 * unknown_share);
     }
   }
   return "";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/percent.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/matrices/set_mass.hpp"
@@ -66,7 +67,7 @@ void verify_inertia_components(const MatrixStudy& study, VerifiedSubject& subjec
       subject,
       {"inertia_components_rigid", largest, text_rounding,
        "translated, the inertia components have the mass in their direction alone"},
-      fmt::format("translated, the body has inertia components that differ from its mass by {:.2g} %", 100 * largest));
+      fmt::format("translated, the body has inertia components that differ from its mass by {}", percent(largest)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "reduce/common/counted.hpp"
+#include "reduce/common/percent.hpp"
 #include "reduce/matrices/implied_positions.hpp"
 #include "reduce/matrices/verified_subjects.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
@@ -118,12 +119,12 @@ void verify_points(const MatrixStudy& study, VerifiedSubject& subject) {
   error.rightCols(3) /= study.length;
   Eigen::Index row = 0, column = 0;
   const double worst = error.cwiseAbs().maxCoeff(&row, &column);
-  add_finding(
-      subject, {"shape_rigid_motions", worst, place_limit, "moved as a whole, all points of the shapes move rigidly"},
-      fmt::format("rigid motions of the body move point {} of the shapes otherwise, by {:.2g} % of the motion: its "
-                  "place or its shape is wrong",
-                  shapes.numbers.empty() ? row / 3 + 1 : shapes.numbers[static_cast<std::size_t>(row / 3)],
-                  100 * worst));
+  add_finding(subject,
+              {"shape_rigid_motions", worst, place_limit, "moved as a whole, all points of the shapes move rigidly"},
+              fmt::format("rigid motions of the body move point {} of the shapes otherwise, by {} of the motion: its "
+                          "place or its shape is wrong",
+                          shapes.numbers.empty() ? row / 3 + 1 : shapes.numbers[static_cast<std::size_t>(row / 3)],
+                          percent(worst)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/percent.hpp"
 #include "reduce/matrices/verified_subjects.hpp"
 
 namespace bielle::reduce {
@@ -63,17 +64,17 @@ void verify_distances(const MatrixStudy& study, VerifiedSubject& subject) {
   if (!study.geometric || is_grounded(study)) return;
   if (study.statical) {
     const double value = distance_of(study, *study.statical, *study.geometric);
-    add_finding(
-        subject, {"static_rigid_motions", value, limit, "rigid motions by the stiffness are those by the positions"},
-        fmt::format("rigid motions by the stiffness differ from those by the positions by {:.2g} % of the motion",
-                    100 * value));
+    add_finding(subject,
+                {"static_rigid_motions", value, limit, "rigid motions by the stiffness are those by the positions"},
+                fmt::format("rigid motions by the stiffness differ from those by the positions by {} of the motion",
+                            percent(value)));
   }
   if (!study.modes || study.modes->eigenvalues.size() < 6) return;
   const double value = distance_of(study, study.modes->vectors.leftCols(6), *study.geometric);
   add_finding(subject,
               {"modal_rigid_motions", value, limit, "the six lowest modes are the rigid motions by the positions"},
-              fmt::format("the six lowest modes differ from rigid motions by the positions by {:.2g} % of the motion",
-                          100 * value));
+              fmt::format("the six lowest modes differ from rigid motions by the positions by {} of the motion",
+                          percent(value)));
 }
 
 /// Rigid motions vibrate below a hundredth of the first elastic frequency: they have less than 1e-4 of its energy.

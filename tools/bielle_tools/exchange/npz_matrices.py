@@ -85,17 +85,33 @@ def matrices_of(path, arrays, name, source):
     size = matrices["stiffness"].shape[0]
     positions = _numbers(path, arrays, "positions", (-1, 3))
     count = len(positions)
-    numbers = _numbers(path, arrays, "nodes", (count,), np.arange(1, count + 1)).astype(np.int64)
+    numbers = _whole_numbers(path, arrays, "nodes", (count,), np.arange(1, count + 1))
     if len(set(numbers.tolist())) < count or count and numbers.min() < 1:
         raise InputError(f"'{path}': 'nodes' must be numbers from 1, each once")
     nodes, components = _unknowns(path, arrays, numbers, size)
-    names = arrays.get("interface_names", np.array([], str)).reshape(-1)
-    interfaces = _rows(path, "interface_nodes", _numbers(path, arrays, "interface_nodes", (len(names),), np.zeros(len(names))), numbers)
+    interfaces = _interfaces(path, arrays, numbers)
     axes = _numbers(path, arrays, "axes", (count, 3, 3)) if "axes" in arrays else None
     return MatrixSet(name=name or _text(arrays, "name") or stem(path), source=source, numbers=numbers, positions=positions,
                      axes=axes, unknown_nodes=nodes, unknown_components=components, **matrices,
-                     interfaces={str(each): int(row) for each, row in zip(names, interfaces)}, **_inside(path, arrays, size),
+                     interfaces=interfaces, **_inside(path, arrays, size),
                      length_unit=_text(arrays, "length_unit"), mass_unit=_text(arrays, "mass_unit"))
+
+
+def _interfaces(path, arrays, numbers):
+    """Rows of the interface nodes by name."""
+    names = [str(name) for name in arrays.get("interface_names", np.array([], str)).reshape(-1)]
+    labels = _whole_numbers(path, arrays, "interface_nodes", (len(names),), np.zeros(len(names), int))
+    name_of = {}
+    for name, label in zip(names, labels.tolist()):
+        if names.count(name) > 1:
+            raise InputError(f"'{path}': 'interface_names' holds '{name}' more than once")
+        if label == 0:
+            raise InputError(f"'{path}': 'interface_nodes' gives '{name}' the node 0; nodes are numbered from 1")
+        if label in name_of:
+            raise InputError(f"'{path}': the interfaces '{name_of[label]}' and '{name}' are both node {label}; each interface "
+                             "needs a node of its own")
+        name_of[label] = name
+    return dict(zip(names, _rows(path, "interface_nodes", labels, numbers).tolist()))
 
 
 def _inside(path, arrays, size):
@@ -109,7 +125,7 @@ def _inside(path, arrays, size):
     if "points" in arrays or "displacement" in arrays:
         points = _numbers(path, arrays, "points", (-1, 3))
         count = len(points)
-        numbers = _numbers(path, arrays, "point_numbers", (count,), np.arange(1, count + 1)).astype(np.int64)
+        numbers = _whole_numbers(path, arrays, "point_numbers", (count,), np.arange(1, count + 1))
         found["shapes"] = Shapes(numbers, points, _numbers(path, arrays, "displacement", (3 * count, size)),
                                  masses=_numbers(path, arrays, "point_masses", (count,)) if "point_masses" in arrays else None)
     return found
@@ -132,13 +148,23 @@ def _numbers(path, arrays, name, shape, default=None):
     return np.asarray(array, float)
 
 
+def _whole_numbers(path, arrays, name, shape, default=None):
+    """An array of integers, which may be stored as floating-point numbers."""
+    array = _numbers(path, arrays, name, shape, default)
+    wrong = array[(array != np.rint(array)) | (np.abs(array) > 2**53)]
+    if len(wrong):
+        raise InputError(f"'{path}': '{name}' holds {wrong[0]:g}; whole numbers are expected")
+    return array.astype(np.int64)
+
+
 def _matrix(path, arrays, name):
     """scipy.sparse, None if there is none."""
     if f"{name}.data" in arrays:
-        data, indices, indptr = (_numbers(path, arrays, f"{name}.{part}", (-1,)) for part in PARTS)
+        data = _numbers(path, arrays, f"{name}.data", (-1,))
+        indices, indptr = (_whole_numbers(path, arrays, f"{name}.{part}", (-1,)) for part in PARTS[1:])
         size = len(indptr) - 1
         try:
-            matrix = scipy.sparse.csr_matrix((data, indices.astype(np.int64), indptr.astype(np.int64)), shape=(size, size))
+            matrix = scipy.sparse.csr_matrix((data, indices, indptr), shape=(size, size))
             matrix.check_format(full_check=True)
         except (ValueError, IndexError) as error:
             raise InputError(f"'{path}': '{name}.indices' and '{name}.indptr' make no sparse matrix: {error}") from None
@@ -155,7 +181,7 @@ def _matrix(path, arrays, name):
 def _unknowns(path, arrays, numbers, size):
     """Row of the node (-1: scalar) and component of each unknown."""
     if "unknown_nodes" in arrays or "unknown_components" in arrays:
-        labels, components = (_numbers(path, arrays, name, (size,)).astype(np.int64) for name in ("unknown_nodes", "unknown_components"))
+        labels, components = (_whole_numbers(path, arrays, name, (size,)) for name in ("unknown_nodes", "unknown_components"))
         nodes = _rows(path, "unknown_nodes", labels, numbers)
         wrong = (nodes >= 0) & ((components < 0) | (components > 5))
         if wrong.any():
