@@ -5,7 +5,6 @@ import dataclasses
 import numpy as np
 
 from ..messages import InputError, note
-from .spectra import amplitude_spectrum, order_analysis, power_density
 from .table_file import header
 
 MOST_BINS = 400
@@ -53,6 +52,7 @@ def with_gaps(curve):
 def spectra(found, kind):
     """Curves over the frequency. kind: `amplitude` or `psd`. Notes tell the resolution, and what was done to a
     signal."""
+    from .spectra import amplitude_spectrum, power_density  # SciPy takes a while
     results = []
     for curve in found:
         if curve.axis != "time [s]":
@@ -75,6 +75,7 @@ def density(unit):
 
 def orders(runs, names, select, speed):
     """[(Curve, Orders)] over the quantity `speed` [rad/s]. @raises InputError"""
+    from .spectra import order_analysis  # SciPy takes a while
     results = []
     for run in runs:
         turning = run.quantities.read(speed, select)
