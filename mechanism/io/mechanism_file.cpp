@@ -13,6 +13,7 @@
 #include "mechanism/io/implausible_lengths.hpp"
 #include "mechanism/io/mechanism_keys.hpp"
 #include "mechanism/io/node_reader.hpp"
+#include "mechanism/io/settle_idle_rotations.hpp"
 #include "mechanism/joints/actions/event_reader.hpp"
 #include "mechanism/language/cases.hpp"
 #include "mechanism/language/expand_model.hpp"
@@ -99,6 +100,7 @@ MechanismFile read_mechanism(const std::string& text, const std::string& name, c
   if (const auto events = root.find("events"))
     for (const auto& [entry_name, entry] : named_entries(*events)) read_event(entry_name, entry, file.model);
   file.model.connect();
+  settle_idle_rotations(file.model);
   add_supports(file.model);
   warn_of_lengths(file.model, root);
   warn_of_idle_joints(file.model, root);

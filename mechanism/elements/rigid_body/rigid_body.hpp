@@ -45,6 +45,9 @@ class RigidBody final : public Component {
 
   int node() const { return node_; }
   const MassProperties& properties() const { return properties_; }  ///< in the node's axes
+  /// Adds inertia about the node's origin for rotations on which nothing acts, so that they have an equation; it is no
+  /// property of the body. @param inertia  node axes [kg m^2]
+  void add_idle_inertia(const Matrix3& inertia) { J_ += inertia; }
 
  private:
   MassProperties properties_;

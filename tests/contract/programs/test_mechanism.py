@@ -143,7 +143,8 @@ class Mechanism(CommandTest):
         self.assertIn("must be held (`fixed`)", done.stdout)
         self.assertNotRegex(done.stdout, "massless .*'bob'")
         self.write("rod.yaml", "nodes: {a: {position: [0, 0, 0]}}\nelements: {rod: {type: rigid_body, node: a, mass: 1, "
-                   "inertia: [0, 1, 1], inertia_axes: {rotation_vector: [0, 0, pi/2]}, centre: [0.5, 0, 0]}}\n"
+                   "inertia: [0, 1, 1], inertia_axes: {rotation_vector: [0, 0, pi/2]}, centre: [0.5, 0, 0]}, "
+                   "push: {type: node_force, nodes: [ground, a], force: [0, 0, 1]}}\n"
                    "analysis: [{type: dynamic, duration: 1, step: 0.1}]\n")
         done = self.run_program("rod.yaml", "--check")
         self.assertEqual(done.returncode, 0, done.stderr)

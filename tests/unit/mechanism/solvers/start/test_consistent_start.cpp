@@ -96,7 +96,7 @@ TEST_CASE("the turn of a body on a line about this line is named, in whatever ax
         "nodes: {arm: {position: [1, 0, 0], rotation_vector: [0.2, 0.1, 0], angular_velocity: [0.1, 1, 0]}}\nelements: "
         "{arm: {type: rigid_body, node: arm, mass: 1, centre: [0.3, 0.4, 0], inertia: [0, 1, 1], inertia_axes: "
         "{axes: " +
-            axes + "}}}\n" + joints,
+            axes + "}}, other: {type: node_force, nodes: [ground, arm], force: [0, 0, 0]}}\n" + joints,
         "line.yaml");
     System system(file.model);
     State state = system.start(0);

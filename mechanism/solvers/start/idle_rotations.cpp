@@ -1,0 +1,141 @@
+#include "mechanism/solvers/start/idle_rotations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/start/assemble_positions.hpp"
+#include "reduce/common/error.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+constexpr double rounding = 1e-12;
+
+/// A node with a basis of the motions that move no mass (its unknowns x directions).
+struct Candidate {
+  int node, begin, count;
+  Eigen::MatrixXd motions;
+};
+
+/// Rows of a node in a matrix, and the columns that they have entries in: (unknowns of the node, columns).
+Eigen::MatrixXd rows_of(const SparsePattern& pattern, const std::vector<double>& values, int begin, int count) {
+  std::vector<Eigen::VectorXd> columns;
+  int last = -1;
+  pattern.for_each([&](int place, int row, int column) {
+    if (row < begin || row >= begin + count) return;
+    if (column != last) columns.emplace_back(Eigen::VectorXd::Zero(count));
+    last = column;
+    columns.back()[row - begin] = values[static_cast<std::size_t>(place)];
+  });
+  Eigen::MatrixXd rows(count, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) rows.col(static_cast<Eigen::Index>(k)) = columns[k];
+  return rows;
+}
+
+/// Motions of a node without mass, from its block of the mass matrix.
+Eigen::MatrixXd massless(const SparsePattern& pattern, const std::vector<double>& mass, int begin, int count) {
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(count, count);
+  for (int row = 0; row < count; ++row)
+    for (int column = 0; column < count; ++column)
+      if (const int place = pattern.find(begin + row, begin + column); place >= 0)
+        M(row, column) = mass[static_cast<std::size_t>(place)];
+  const Eigen::VectorXd scale =
+      M.diagonal().unaryExpr([](double m) { return m > 0 ? 1 / std::sqrt(m) : 1.0; });  // NOLINT: dimensions
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * M * scale.asDiagonal());
+  Eigen::Index without = 0;
+  while (without < count && eigen.eigenvalues()[without] <= rounding) ++without;
+  return scale.asDiagonal() * eigen.eigenvectors().leftCols(without);
+}
+
+/// Leaves the motions on which the rows of a node do not act.
+void reduce(Candidate& candidate, const Eigen::MatrixXd& rows) {
+  const Eigen::MatrixXd acting = candidate.motions.transpose() * rows;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(acting * acting.transpose());
+  const Eigen::MatrixXd turned = candidate.motions * eigen.eigenvectors();
+  // Squares of small actions are rounding: each direction is tested by its own products.
+  std::vector<Eigen::Index> left;
+  for (Eigen::Index k = 0; k < turned.cols(); ++k) {
+    const double size = (turned.col(k).asDiagonal() * rows).cwiseAbs().maxCoeff();
+    if ((turned.col(k).transpose() * rows).cwiseAbs().maxCoeff() <= rounding * size) left.push_back(k);
+  }
+  candidate.motions = Eigen::MatrixXd(turned(Eigen::all, left));
+}
+
+/// The state with its loops closed, if they can be.
+State closed(const System& system, const Environment& environment, State state) {
+  StartReport report;
+  try {
+    assemble_positions(system, environment, state, report);
+  } catch (const ComputationError&) {  // the start of the analysis names the loop
+  }
+  return state;
+}
+
+/// A position in the neighbourhood with other rates, the same in each run.
+State moved(const System& system, const Environment& environment, const State& start) {
+  constexpr double angle = 0.1;
+  VectorX dq(system.dofs()), v(system.dofs());
+  for (int k = 0; k < system.dofs(); ++k) {
+    dq[k] = angle * std::sin(1.0 + 1.7 * k) * (system.kind(k) == Kind::translation ? 0.1 * model_length(start) : 1);
+    v[k] = std::cos(2.0 + 2.3 * k);
+  }
+  State state = start;
+  system.displace(state, start, dq);
+  state = closed(system, environment, std::move(state));
+  system.set_rates(state, v, v);
+  return state;
+}
+
+/// Whether a force of the residual acts along a motion. Other forces on the node give the size of rounding.
+bool is_pushed(const Candidate& candidate, const VectorX& residual) {
+  const auto own = residual.segment(candidate.begin, candidate.count);
+  const double size = candidate.motions.cwiseAbs().maxCoeff() * own.cwiseAbs().maxCoeff();
+  return (candidate.motions.transpose() * own).cwiseAbs().maxCoeff() > rounding * size;
+}
+
+}  // namespace
+
+std::vector<IdleRotations> idle_rotations(const System& system, const Environment& environment,
+                                          const std::vector<int>& nodes) {
+  const State start = closed(system, environment, system.start(0));
+  std::vector<double> values;
+  system.tangent(start, environment, {0, 0, 1, 0, 0}, nullptr, values);
+  std::vector<Candidate> candidates;
+  for (const int node : nodes) {
+    const NodeFreedom& freedom = system.kinematics().freedom(node);
+    if (freedom.rotations < 3) continue;
+    Candidate candidate{node, freedom.begin, freedom.count,
+                        massless(system.pattern(), values, freedom.begin, freedom.count)};
+    if (candidate.motions.cols() > 0) candidates.push_back(std::move(candidate));
+  }
+  for (State state : {start, moved(system, environment, start)}) {
+    system.tangent(state, environment, {1, 1, 1, 1, 1}, nullptr, values);
+    for (Candidate& candidate : candidates)
+      if (candidate.motions.cols() > 0)
+        reduce(candidate, rows_of(system.pattern(), values, candidate.begin, candidate.count));
+    for (const double time : {0.0, 0.37, 1.91, 17.3}) {
+      state.time = time;
+      VectorX residual = VectorX::Zero(system.size());
+      system.residual(state, environment, residual);
+      std::erase_if(candidates, [&](const Candidate& c) { return c.motions.cols() == 0 || is_pushed(c, residual); });
+    }
+  }
+  std::vector<IdleRotations> found;
+  for (const Candidate& candidate : candidates) {
+    IdleRotations idle{candidate.node, {}, candidate.motions.cols() == 3};
+    for (Eigen::Index k = 0; k < candidate.motions.cols(); ++k) {
+      const auto motion = candidate.motions.col(k);
+      if (candidate.count > 3 && motion.head(candidate.count - 3).cwiseAbs().maxCoeff() > rounding * motion.norm())
+        idle.all = false;
+      idle.axes.emplace_back(motion.tail<3>().normalized());
+    }
+    found.push_back(std::move(idle));
+  }
+  return found;
+}
+
+}  // namespace bielle::mechanism
