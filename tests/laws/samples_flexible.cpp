@@ -1,4 +1,5 @@
 // Samples of elastic connections and play between two nodes: bushings, bearings, stiffness fields, clearances.
+#include <cmath>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -141,8 +142,23 @@ std::vector<Sample> coupled_bearings() {
     std::ofstream(folder + "/oil.csv") << "-40 1 0.3 -0.4 2 0.3 0.1 0.05 0.4\n40 3 1 -1.5 2.5 0.5 0.2 0.1 0.6\n";
     std::ofstream(folder + "/falling.csv") << "3 1 1 1 1 1 1 1 1\n2 1 1 1 1 1 1 1 1\n";
   };
+  Sample seal{Section::joints,
+              "bearing",
+              "film of all directions",
+              flexible_joint("type: bearing, axis: [1, 2, 3], radial: 1, film: {matrices: seal.csv}"),
+              {{"film", "{}", "either `table` or `matrices`"}, {"film.matrices", "narrow.csv", "expected 51 numbers"}}};
+  seal.files = [](const std::string& folder) {
+    std::ofstream file(folder + "/seal.csv");
+    for (const double speed : {-40.0, 40.0}) {
+      file << speed;
+      for (int k = 0; k < 50; ++k) file << ' ' << std::cos(k + 0.01 * speed) + (k % 6 == 0 ? 3 : 0);
+      file << '\n';
+    }
+    std::ofstream(folder + "/narrow.csv") << "0 1 1 1 1 1 1 1 1\n";
+  };
   return {
       film,
+      seal,
       {Section::joints,
        "bearing",
        "matrices of all directions",

@@ -61,10 +61,13 @@ const KeyTable& film_keys() {
   using namespace keys;
   static const KeyTable table{
       "a film of a bearing",
-      "Radial coefficients of an oil film over the speed of the shaft.",
-      {{"table", file("table of nine columns"), required,
+      "Coefficients of an oil film over the speed of the shaft.",
+      {{"table", file("table of nine columns"), optional,
         "Ascending speeds of the shaft relative to the housing [rad/s], positive about the axis; stiffness xx, xy, yx, "
-        "yy [N/m]; damping xx, xy, yx, yy [N s/m]. Straight lines between the speeds, constant beyond them."}}};
+        "yy [N/m]; damping xx, xy, yx, yy [N s/m]. Straight lines between the speeds, constant beyond them."},
+       {"matrices", file("table of 51 columns"), optional,
+        "The same for all five directions: speeds, 25 numbers of the stiffness along x, y, z and about x, y by rows, "
+        "25 of the damping."}}};
   return table;
 }
 
@@ -114,8 +117,13 @@ void read_matrices(const YamlValue& value, LinearBearingLaw& law) {
 }
 
 FilmCoefficients read_film(const YamlValue& value) {
-  return read_named_file(value.keyed(film_keys()).at("table"),
-                         [](const std::string& path) { return FilmCoefficients(read_table(path, 9), path); });
+  const YamlValue given = value.keyed(film_keys());
+  const auto radial = given.find("table"), all = given.find("matrices");
+  if (radial.has_value() == all.has_value()) given.fail("expected either `table` or `matrices`");
+  const Eigen::Index measures = radial ? 2 : 5;
+  return read_named_file(radial ? *radial : *all, [&](const std::string& path) {
+    return FilmCoefficients(measures, read_table(path, FilmCoefficients::columns(measures)), path);
+  });
 }
 
 }  // namespace
@@ -142,7 +150,7 @@ const KeyTable& bearing_keys() {
               {"matrix", nested(bearing_matrix_keys), optional,
                "Stiffness and damping in all directions, in place of `radial`, `axial` and `tilting`."},
               {"film", nested(film_keys), optional,
-               "Radial coefficients over the speed of the shaft, in addition to the others."}},
+               "Coefficients over the speed of the shaft, in addition to the others."}},
              joint_action_keys(Moves::both)})};
   }();
   return table;

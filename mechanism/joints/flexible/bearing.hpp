@@ -1,7 +1,7 @@
 // An elastic hinge: radial, axial and tilting stiffness and damping about an axis about which it rotates freely, over
 // any number of turns. The measures are those of shaft_bearing.hpp; the force is linear in the first five,
 //     N = K e + D v,
-// Stiffness and damping may be unsymmetric matrices, and the radial ones functions of the speed of the shaft: oil films
+// Stiffness and damping may be unsymmetric matrices, and functions of the speed of the shaft: oil films and seals
 // linearised about a state of steady rotation. Cross-coupled stiffness, K_xy = -K_yx > 0, drives a forward whirl.
 #pragma once
 

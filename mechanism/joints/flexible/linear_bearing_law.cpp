@@ -6,8 +6,8 @@
 
 namespace bielle::mechanism {
 
-FilmCoefficients::FilmCoefficients(const Eigen::MatrixXd& table, const std::string& name)
-    : first_(table(0, 0)), last_(table(table.rows() - 1, 0)) {
+FilmCoefficients::FilmCoefficients(Eigen::Index measures, const Eigen::MatrixXd& table, const std::string& name)
+    : measures_(measures), first_(table(0, 0)), last_(table(table.rows() - 1, 0)) {
   for (Eigen::Index k = 1; k < table.cols(); ++k)
     coefficients_.emplace_back(table.col(0), table.col(k), Interpolation::Kind::linear, name);
 }
@@ -16,11 +16,16 @@ FilmCoefficients::At FilmCoefficients::operator()(double speed) const {
   At at;
   const bool inside = speed > first_ && speed < last_;
   const double held = std::clamp(speed, first_, last_);
-  for (std::size_t k = 0; k < coefficients_.size(); ++k) {
+  const auto set = [&](std::size_t k, double& value, double& slope) {
     const Interpolation::Values found = coefficients_[k](held);
-    const auto row = static_cast<Eigen::Index>(k % 4 / 2), column = static_cast<Eigen::Index>(k % 2);
-    (k < 4 ? at.K : at.D)(row, column) = found.value;
-    (k < 4 ? at.K_slope : at.D_slope)(row, column) = inside ? found.slope : 0;
+    value = found.value;
+    slope = inside ? found.slope : 0;
+  };
+  std::size_t k = 0;
+  for (Matrix6* const matrix : {&at.K, &at.D}) {
+    Matrix6& slopes = matrix == &at.K ? at.K_slope : at.D_slope;
+    for (Eigen::Index row = 0; row < measures_; ++row)
+      for (Eigen::Index column = 0; column < measures_; ++column) set(k++, (*matrix)(row, column), slopes(row, column));
   }
   return at;
 }
@@ -29,10 +34,10 @@ BearingLaw::Force LinearBearingLaw::calc(const Vector6& e, const Vector6& v) con
   Force force{K * e + D * v, K, D};
   if (film) {
     const FilmCoefficients::At at = (*film)(v[5]);
-    force.N.head<2>() += at.K * e.head<2>() + at.D * v.head<2>();
-    force.by_e.topLeftCorner<2, 2>() += at.K;
-    force.by_v.topLeftCorner<2, 2>() += at.D;
-    force.by_v.col(5).head<2>() += at.K_slope * e.head<2>() + at.D_slope * v.head<2>();
+    force.N += at.K * e + at.D * v;
+    force.by_e += at.K;
+    force.by_v += at.D;
+    force.by_v.col(5) += at.K_slope * e + at.D_slope * v;
   }
   return force;
 }

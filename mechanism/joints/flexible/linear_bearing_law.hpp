@@ -1,5 +1,5 @@
-// Linear force of a bearing, N = K e + D v in the first five measures, with radial coefficients that may depend on the
-// speed of the shaft.
+// Linear force of a bearing, N = K e + D v in the first five measures, with coefficients that may depend on the speed
+// of the shaft: radial ones or all.
 #pragma once
 
 #include <array>
@@ -10,19 +10,24 @@
 
 namespace bielle::mechanism {
 
-/// Radial coefficients over the speed of the shaft: straight lines between its points, constant beyond them.
+/// Coefficients of the first n measures over the speed of the shaft: straight lines between its points, constant beyond
+/// them.
 class FilmCoefficients {
  public:
-  /// @param table  rows [speed [rad/s], kxx, kxy, kyx, kyy [N/m], cxx, cxy, cyx, cyy [N s/m]], speeds ascending
-  explicit FilmCoefficients(const Eigen::MatrixXd& table, const std::string& name);
+  /// Columns of a table of n measures.
+  static constexpr Eigen::Index columns(Eigen::Index measures) { return 1 + 2 * measures * measures; }
+  /// @param measures  2 (radial) or 5   @param table  rows [speed [rad/s], stiffness by rows (n^2), damping (n^2)],
+  /// SI units, speeds ascending
+  FilmCoefficients(Eigen::Index measures, const Eigen::MatrixXd& table, const std::string& name);
   struct At {
-    Eigen::Matrix2d K, D, K_slope, D_slope;
+    Matrix6 K = Matrix6::Zero(), D = Matrix6::Zero(), K_slope = Matrix6::Zero(), D_slope = Matrix6::Zero();
   };
   At operator()(double speed) const;
   double first() const { return first_; }
   double last() const { return last_; }
 
  private:
+  Eigen::Index measures_;
   double first_, last_;
   std::vector<Interpolation> coefficients_;
 };

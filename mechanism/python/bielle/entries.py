@@ -1291,8 +1291,7 @@ class Entries:
         list of 2: number [N m/rad]; or keys of a direction of a bearing; default: 0)
         matrix: Stiffness and damping in all directions, in place of `radial`, `axial` and `tilting`. (keys of
         matrices of a bearing)
-        film: Radial coefficients over the speed of the shaft, in addition to the others. (keys of a film of a
-        bearing)
+        film: Coefficients over the speed of the shaft, in addition to the others. (keys of a film of a bearing)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N/m or N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q,

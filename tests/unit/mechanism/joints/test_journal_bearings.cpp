@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/joints/flexible/journal_bearing.hpp"
+#include "mechanism/joints/flexible/linear_bearing_law.hpp"
 #include "tests/support/dense_model.hpp"
 #include "tests/support/eigenvalues.hpp"
 #include "tests/support/model_text.hpp"
@@ -198,5 +199,30 @@ TEST_CASE("cross-coupled stiffness drives a rotor from c omega_n on") {
     CHECK_THAT(growth(type, limit), WithinAbs(0, 1e-6));
     CHECK(growth(type, 0.999 * limit) < -1e-3);
     CHECK(growth(type, 1.001 * limit) > 1e-3);
+  }
+}
+
+TEST_CASE("coefficients over the speed of the shaft are those of matrices between the speeds of their table") {
+  for (const Eigen::Index n : {2, 5}) {
+    Eigen::MatrixXd table(2, FilmCoefficients::columns(n));
+    for (Eigen::Index k = 0; k < table.cols(); ++k) table.col(k) << 3 + std::sin(k), 1 - 2 * std::cos(3 * k);
+    table.col(0) << 100, 300;
+    LinearBearingLaw film, at_150;
+    film.film.emplace(n, table, "film.csv");
+    for (Eigen::Index row = 0; row < n; ++row)
+      for (Eigen::Index column = 0; column < n; ++column) {
+        const auto between = [&](Eigen::Index k) { return 0.75 * table(0, k) + 0.25 * table(1, k); };
+        at_150.K(row, column) = between(1 + n * row + column);
+        at_150.D(row, column) = between(1 + n * n + n * row + column);
+      }
+    const Vector6 e = (Vector6() << 1, -2, 0.5, 0.3, -0.7, 9).finished(),
+                  v = (Vector6() << 0.2, 3, -1, 0.4, 0.1, 150).finished();
+    CHECK((film.calc(e, v).N - at_150.calc(e, v).N).norm() < 1e-13);
+    CHECK((film.calc(e, v).by_e - at_150.calc(e, v).by_e).norm() < 1e-13);
+    // Beyond the table its last row holds.
+    Vector6 faster = v;
+    faster[5] = 1000;
+    CHECK(film.calc(e, faster).by_v.col(5).isZero(0));
+    CHECK(std::abs(film.calc(e, faster).by_e(1, 0) - table(1, 1 + n)) < 1e-13);
   }
 }
