@@ -36,8 +36,9 @@ MACHINE = Machine(
     teaches="Four tyres are all that holds a kart on its road: their slip makes it turn, the outer ones bear more, "
             "the brakes slow it until the wheels stand, and the treads hold it on the slope without creeping.",
     runs={"run": ["kart.yaml"]},
-    pictures=[Picture("run", ["--view", "iso", "--from", "1", "--to", "3.4", "--frames", "3", "--hide", "joints/*_kingpin"]),
-              Picture("run", ["--quantity", "load.front_left, load.front_right, load.rear_left, load.rear_right"], tool="bielle-plot",
-                      figure="load.front_left+load.front_right+load.rear_left+load.rear_right.png")],
+    pictures=[Picture("run", ["--view", "iso", "--from", "1", "--to", "3.4", "--frames", "3",
+                              "--follow", "chassis", "--size", "640x480", "--hide", "joints/*_kingpin"]),
+              Picture("run", ["--quantity", "load.front_left, load.front_right, load.rear_left, load.rear_right"],
+                      tool="bielle-plot", figure="load.front_left+load.front_right+load.rear_left+load.rear_right.png")],
     page="run",
     check=check)
