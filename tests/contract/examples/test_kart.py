@@ -29,7 +29,8 @@ class Kart(ExampleTest):
     def test_the_tyres_carry_the_weight(self):
         # The mean while it rolls straight: the kart heaves on its tyres by some thousandths.
         straight = (self.time > 0.2) & (self.time < 1)
-        self.assertAlmostEqual(sum(self.loads().values())[straight].mean() / (MASS * G * math.cos(SLOPE)), 1, delta=1e-3)
+        mean = sum(self.loads().values())[straight].mean()
+        self.assertAlmostEqual(mean / (MASS * G * math.cos(SLOPE)), 1, delta=1e-3)
 
     def test_no_tyre_has_more_than_its_friction(self):
         for tyre, load in self.loads().items():
@@ -51,7 +52,7 @@ class Kart(ExampleTest):
         self.assertAlmostEqual(moved / expected, 1, delta=0.02)
 
     def test_the_brakes_slow_it_by_their_torque(self):
-        # The rear wheels brake with brake/radius, less the share that stops their own spin; rolling resistance acts on all.
+        # The rear wheels brake with brake/radius; rolling resistance acts on all, and their spin has to stop as well.
         speed = self.rows("measures/velocity")
         early, late = (np.argmin(abs(self.time - t)) for t in (5, 7))
         slowed = (speed[early] - speed[late]) / 2

@@ -6,13 +6,14 @@ import numpy as np
 from bielle_tools.gallery.machine import Check, Machine, Picture, Rows
 
 G, SLOPE, MASS, TRACK, RADIUS = 9.81, 0.08, 150 + 2 * 1 + 4 * 4, 1.1, 0.13
+TYRES = ("front_left", "front_right", "rear_left", "rear_right")
 HEIGHT = (150 * 0.2 + 18 * (RADIUS - 3.6e-3)) / MASS  # height of the centre of mass [m]
-SPIN, BRAKE, RESISTANCE = 0.02, 30, 0.015             # inertia of a wheel about its axle; torque of a brake; over the load
+SPIN, BRAKE, RESISTANCE = 0.02, 30, 0.015             # inertia of a wheel about its axle; torque; force over load
 
 
 def check(paths):
     run = Rows(paths["run"], 1)
-    load = {tyre: run(f"joints/{tyre}.tyre/normal_force") for tyre in ("front_left", "front_right", "rear_left", "rear_right")}
+    load = {tyre: run(f"joints/{tyre}.tyre/normal_force") for tyre in TYRES}
     velocity, at = run("nodes/chassis/velocity"), lambda t: int(np.argmin(abs(run.time - t)))
     turning, early, late = at(2.8), at(5), at(7)
     v = velocity[turning]
@@ -23,10 +24,13 @@ def check(paths):
     heading = math.atan2(velocity[late, 1], velocity[late, 0])
     brakes = 2 * BRAKE / RADIUS + RESISTANCE * MASS * G - MASS * G * math.sin(SLOPE) * math.cos(heading)
     held = sum(run(f"joints/{tyre}.tyre/reaction_inertial")[-1, 0] for tyre in load)
-    return [Check("moment of the tyres' loads in the turn", "N m", moved, MASS * sideways * HEIGHT + 4 * SPIN * speed / RADIUS * v[5],
-                  0.02, "the kart slides outwards and leans a little", "centrifugal force at the centre of mass, gyroscopic moments"),
+    moment = MASS * sideways * HEIGHT + 4 * SPIN * speed / RADIUS * v[5]
+    return [Check("moment of the tyres' loads in the turn", "N m", moved, moment, 0.02,
+                  "the kart slides outwards and leans a little",
+                  "centrifugal force at the centre of mass, gyroscopic moments"),
             Check("deceleration by the brakes", "m/s^2", slowed, brakes / (MASS + 4 * SPIN / RADIUS**2), 0.02,
-                  "the rolling radius is less than that of the unloaded tyre", "torque over radius, slope, rolling resistance"),
+                  "the rolling radius is less than that of the unloaded tyre",
+                  "torque over radius, slope, rolling resistance"),
             Check("force of the standing tyres along the slope", "N", held, -MASS * G * math.sin(SLOPE), 0.02,
                   "the last swing on the treads", "component of the weight")]
 
@@ -38,7 +42,7 @@ MACHINE = Machine(
     runs={"run": ["kart.yaml"]},
     pictures=[Picture("run", ["--view", "iso", "--from", "1", "--to", "3.4", "--frames", "3",
                               "--follow", "chassis", "--size", "640x480", "--hide", "joints/*_kingpin"]),
-              Picture("run", ["--quantity", "load.front_left, load.front_right, load.rear_left, load.rear_right"],
-                      tool="bielle-plot", figure="load.front_left+load.front_right+load.rear_left+load.rear_right.png")],
+              Picture("run", ["--quantity", ", ".join(f"load.{tyre}" for tyre in TYRES)], tool="bielle-plot",
+                      figure="+".join(f"load.{tyre}" for tyre in TYRES) + ".png")],
     page="run",
     check=check)
