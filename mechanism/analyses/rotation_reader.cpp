@@ -1,6 +1,7 @@
 #include "mechanism/analyses/rotation_reader.hpp"
 
 #include "mechanism/reading/names.hpp"
+#include "mechanism/solvers/linearised/turning_part.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -39,6 +40,8 @@ Key turning_joint_key() {
 
 std::string read_turning_joint(const YamlValue& name, const Model& model) {
   component_named_by(Section::joints, name, model);  // refuses other names
+  const std::size_t joint = model.members_of({Section::joints, name.text()}).front();
+  if (const std::string reason = no_turning_joint(model.members()[joint]); !reason.empty()) name.fail(reason);
   return name.text();
 }
 

@@ -5,6 +5,7 @@
 
 #include "mechanism/solvers/linearised/azimuth_equations.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -34,7 +35,7 @@ TurningEquations::TurningEquations(const System& system, const StandingState& ab
     : part(system, about.environment, about.state, *rotation.joint),
       negligible(is_negligible(system, about, part, rotation.rate)),
       periodic(equations_over_turn(system, about.environment, about.state, part, negligible ? 1 : azimuths),
-               rotation.rate),
+               rotation.rate, model_length(about.state)),
       turning(part.turning_unknowns(system)),
       joint(describe(system.model().members()[*rotation.joint])) {}
 

@@ -41,6 +41,11 @@ std::vector<Sample> tyre_samples() {
                    {"curve", "none.csv", "give one of them"}}),
       variant(higher_pair("tyre", all + ", stiffest_load: 1.1}", {{"slip.curvature", "0.5", "`shape` is missing"}}),
               "brush model"),
+      variant(higher_pair("tyre",
+                          place + ", stiffness: 3, speed: 9, slip: {longitudinal: 2, lateral: 1.5, friction: 1.3, "
+                                  "relaxation: [0.4, 0.7], damping: 0.8}",
+                          {}),
+              "damped tread"),
       variant(higher_pair("tyre", all + ", shape: 1.6, curvature: -0.5}", {}), "magic formula"),
       variant(higher_pair("tyre",
                           place + ", curve: force.csv, damping: 0.4, speed: 0.6, " + slip +
@@ -53,7 +58,7 @@ std::vector<Sample> tyre_samples() {
                            {"road.along", "[0.1, 0.2, 1]", "along its plane"}}),
               "on a road")};
   for (Sample& sample : list) {
-    sample.scales.smooth_within = 0.05;  // slip of a tyre that is hardly pressed in
+    sample.scales.smooth_within = 0.02;  // slip of a tyre that is hardly pressed in, which grows with 1/N
     sample.scales.first_order = 0.2;     // deflections of the tread below and above those that friction holds
     sample.scales.kinks_unloaded = !sample.variant.empty();  // slip at standstill
   }

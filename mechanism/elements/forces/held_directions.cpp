@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -138,7 +139,13 @@ void HeldDirections::describe(const LocalState& /*state*/, Description& descript
 }
 
 void HeldDirections::draw(Drawing& drawing) const {
-  drawing.add({.shape = "support", .places = {{node_, {}}}, .values = {{"fixed", names_of(held_)}}, .role = "support"});
+  DrawnItem support{
+      .shape = "support", .places = {{node_, {}}}, .values = {{"fixed", names_of(held_)}}, .role = "support"};
+  if (!axes_.isIdentity(0)) {
+    const Eigen::Quaterniond q(axes_);
+    support.values.emplace_back("axes", std::vector<double>{q.w(), q.x(), q.y(), q.z()});
+  }
+  drawing.add(std::move(support));
 }
 
 }  // namespace bielle::mechanism

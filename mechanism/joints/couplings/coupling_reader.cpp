@@ -9,6 +9,7 @@
 #include "mechanism/joints/couplings/linear_coupling.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_numbers.hpp"
+#include "reduce/common/input/plausible.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -28,9 +29,12 @@ std::vector<Key> elastic_keys(const std::string& deformation, const std::string&
                "; the model is drawn in its middle."}};
 }
 
+constexpr PlausibleRange plausible_play{0, 0.5, "Gears have a play of 1e-4 to 1e-2 rad, or 1e-5 to 1e-3 m"};
+
 CoordinateCoupling& add_coupling(const char* type, const std::string& name, const YamlValue& entry, Model& model) {
   std::unique_ptr<CoordinateCoupling> made;
   if (const auto stiffness = entry.find("stiffness")) {
+    if (const auto backlash = entry.find("backlash")) warn_outside(*backlash, backlash->number(), plausible_play);
     made = std::make_unique<ElasticCoupling>(
         type, name,
         ElasticCoupling::Law{stiffness->number(), entry.at("damping").number(), entry.at("backlash").number()});

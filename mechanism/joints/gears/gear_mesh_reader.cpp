@@ -10,11 +10,13 @@
 #include "mechanism/model/model.hpp"
 #include "mechanism/reading/names.hpp"
 #include "mechanism/reading/read_numbers.hpp"
+#include "reduce/common/input/plausible.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
+constexpr PlausibleRange plausible_tooth_play{0, 0.05, "Teeth have a play of 1e-5 to 1e-3 m"};
 constexpr double fit = 1e-6;  ///< relative tolerance between radii and the distance of centres
 
 /// The given data in initial inertial components.
@@ -134,6 +136,7 @@ void read_gear_mesh(const std::string& name, const YamlValue& entry, Model& mode
   MeshFunction errors;
   if (const auto given = entry.find("errors")) errors = read_tooth_errors(*given);
   if (const auto stiffness = entry.find("stiffness")) {
+    if (const auto backlash = entry.find("backlash")) warn_outside(*backlash, backlash->number(), plausible_tooth_play);
     ToothSpring spring{
         read_tooth_stiffness(*stiffness, geometry, entry.at("helix_angle").number(), entry.at("internal").boolean()),
         entry.at("damping").number(), entry.at("backlash").number()};

@@ -10,9 +10,10 @@ namespace {
 
 using Numbers = std::array<TyreNumber, tyre_variables>;
 
-constexpr double release_time = 1e-3;  ///< T [s]
+constexpr double release_time = 1e-3;  // T [s]
 
-TyreNumber abs_of(const TyreNumber& x) { return x.value < 0 ? -x : x; }
+/// Returns |x|, whose derivative is taken as zero at zero.
+TyreNumber abs_of(const TyreNumber& x) { return x.value < 0 ? -x : x.value > 0 ? x : TyreNumber(); }
 
 /// Returns the length of (x, y), whose derivative is taken as zero at the origin.
 TyreNumber length_of(const TyreNumber& x, const TyreNumber& y) {
@@ -21,36 +22,51 @@ TyreNumber length_of(const TyreNumber& x, const TyreNumber& y) {
   return compose(x, y, length, x.value / length, y.value / length);
 }
 
-/// rho/g(rho), which is 1 without slip, with its slope.
-struct SlipRatio {
+/// A function of rho with its slope.
+struct SlipFunction {
   double value, slope;
 };
 
-SlipRatio ratio_of_brush(double rho) {
-  constexpr double sliding = 3;
-  if (rho >= sliding) return {rho, 1};
-  const double y = 1 / (1 - rho / 3 + rho * rho / 27);
-  return {y, (1.0 / 3 - 2 * rho / 27) * y * y};
+/// Returns g(rho).
+SlipFunction friction_share(double rho, const TyreSlip& slip) {
+  if (!slip.shape) {
+    if (rho >= slip.peak) return {1, 0};
+    return {rho * (1 - rho / 3 + rho * rho / 27), (1 - rho / 3) * (1 - rho / 3)};
+  }
+  const double C = *slip.shape, E = slip.curvature, B = 1 / C, x = B * rho, X = x - E * (x - std::atan(x));
+  const double phi = std::atan(X);
+  return {std::sin(C * phi), std::cos(C * phi) * C / (1 + X * X) * B * (1 - E * x * x / (1 + x * x))};
 }
 
-/// @param C,E  shape and curvature of the magic formula
-SlipRatio ratio_of_formula(double rho, double C, double E) {
+/// Returns rho/g(rho), which is 1 without slip.
+SlipFunction slip_ratio(double rho, const TyreSlip& slip) {
+  if (!slip.shape) {
+    const double y = 1 / (1 - rho / 3 + rho * rho / 27);
+    return {y, (1.0 / 3 - 2 * rho / 27) * y * y};
+  }
   constexpr double tiny = 1e-6;
-  const double B = 1 / C, x = B * rho, X = x - E * (x - std::atan(x)), phi = std::atan(X);
-  const double g = std::sin(C * phi);
-  const double slope = std::cos(C * phi) * C / (1 + X * X) * B * (1 - E * x * x / (1 + x * x));
   if (rho < tiny) return {1, 0};
-  return {rho / g, (g - rho * slope) / (g * g)};
+  const SlipFunction g = friction_share(rho, slip);
+  return {rho / g.value, (g.value - rho * g.slope) / (g.value * g.value)};
 }
 
-/// Lambda = V rho/g(rho), rho = s/V. @param s  |C l v'|/(mu N) [m/s] @param V  |V_r| [m/s]
-TyreNumber calc_decay(const TyreNumber& V, const TyreNumber& s, const TyreSlip& slip) {
+/// Friction at a slip.
+struct Grip {
+  TyreNumber rolling;  ///< |V_r| rho/g(rho) [m/s], rho no larger than rho_c
+  TyreNumber share;    ///< g(rho), rho no smaller than rho_c
+};
+
+/// @param V  |V_r| [m/s] @param s  |C l v'|/(mu N) [m/s]
+Grip calc_grip(const TyreNumber& V, const TyreNumber& s, const TyreSlip& slip) {
   constexpr double all_slides = 1e9;
-  const bool at_rest = !(s.value < all_slides * V.value);
-  const double rho = at_rest ? all_slides : s.value / V.value;
-  const SlipRatio y = slip.shape ? ratio_of_formula(rho, *slip.shape, slip.curvature) : ratio_of_brush(rho);
-  if (at_rest) return compose(s, s.value * y.value / rho, y.value / rho);
-  return compose(V, s, V.value * y.value, y.value - rho * y.slope, y.slope);
+  const bool locked = !(s.value < all_slides * V.value);
+  const double rho = locked ? all_slides : s.value / V.value;
+  const SlipFunction y = slip_ratio(std::min(rho, slip.peak), slip);
+  if (rho < slip.peak)
+    return {compose(V, s, V.value * y.value, y.value - rho * y.slope, y.slope), friction_share(slip.peak, slip).value};
+  const SlipFunction g = friction_share(rho, slip);
+  if (locked) return {y.value * V, g.value};
+  return {y.value * V, compose(V, s, g.value, -g.slope * rho / V.value, g.slope / V.value)};
 }
 
 /// t/t_0 of the brush model. @param q  force over mu N
@@ -61,14 +77,19 @@ TyreNumber trail_factor(const TyreNumber& q) {
   return compose(q, 3 * p * p * p / sum, -3 / sum + p * (1 + 2 * p) / (sum * sum));
 }
 
-/// b T = (1 - 1/q)^2 of a tread that the load does not hold.
-TyreNumber sliding_back(const TyreNumber& q) {
-  if (q.value <= 1) return {};
-  const double excess = 1 - 1 / q.value;
-  return compose(q, excess * excess, 2 * excess / (q.value * q.value));
-}
-
 }  // namespace
+
+double peak_of_formula(double C, double E) {
+  constexpr double farthest = 10;
+  TyreSlip slip;
+  slip.shape = C;
+  slip.curvature = E;
+  if (friction_share(farthest, slip).slope >= 0) return farthest;
+  double rising = 0, falling = farthest;
+  for (double rho = farthest / 2; rho > rising && rho < falling; rho = 0.5 * (rising + falling))
+    (friction_share(rho, slip).slope > 0 ? rising : falling) = rho;
+  return rising;
+}
 
 TyreForces SpringTyreLaw::calc(const TyreValues& values, bool touches) const {
   Numbers z;
@@ -103,10 +124,9 @@ void SpringTyreLaw::add_slip(const Numbers& z, const TyreNumber& direction, Tyre
     forces.dissipation += Ku2.sum() / release_time;
     return;
   }
-  forces.F_x = -K.x() * u_x;
-  forces.F_y = -K.y() * u_y;
-  const TyreNumber most = slip->friction * forces.N, q = length_of(forces.F_x, forces.F_y) / most;
-  const TyreNumber trail = slip->trail * (trail_factor(q) * direction),
+  const TyreNumber f_x = K.x() * u_x, f_y = K.y() * u_y;
+  const TyreNumber most = slip->friction * forces.N;
+  const TyreNumber trail = slip->trail * (trail_factor(length_of(f_x, f_y) / most) * direction),
                    lean = slip->camber / slip->stiffness.y() * (z[tyre_c] * direction);
   const TyreNumber &V_r = z[tyre_V_r], &v_x = z[tyre_v_x];
   const TyreNumber v_y = z[tyre_v_y] + lean * V_r - trail * z[tyre_spin];
@@ -115,15 +135,30 @@ void SpringTyreLaw::add_slip(const Numbers& z, const TyreNumber& direction, Tyre
     const TyreNumber w = 1 / *slip->stiffest_load * forces.N;
     level = 2 * w / (square(w) + 1.0);
   }
-  const TyreNumber s = level * length_of(slip->stiffness.x() * v_x, slip->stiffness.y() * v_y) / most;
-  const TyreNumber decay = calc_decay(abs_of(V_r), s, *slip) / level, back = 1 / release_time * sliding_back(q);
-  const TyreNumber decay_x = 1 / slip->relaxation.x() * decay + back, decay_y = 1 / slip->relaxation.y() * decay + back;
-  forces.u_x_rate = v_x - decay_x * u_x;
-  forces.u_y_rate = v_y - decay_y * u_y;
+  const TyreNumber c_x = slip->stiffness.x() * v_x, c_y = slip->stiffness.y() * v_y;
+  const Grip grip = calc_grip(abs_of(V_r), level * length_of(c_x, c_y) / most, *slip);
+  const TyreNumber eta = standing_damping(V_r), returned = eta + release_time / slip->relaxation.x();
+  const TyreNumber rolling = grip.rolling / level,
+                   sliding =
+                       (length_of(f_x + returned * c_x, f_y + returned * c_y) / (most * grip.share) - 1.0) / returned;
+  const TyreNumber decay = sliding.value > rolling.value ? sliding : rolling, damped = eta * decay + 1.0;
+  forces.u_x_rate = v_x - 1 / slip->relaxation.x() * (decay * u_x);
+  forces.u_y_rate = v_y - 1 / slip->relaxation.y() * (decay * u_y);
+  forces.F_x = -(f_x + eta * c_x) / damped;
+  forces.F_y = -(f_y + eta * c_y) / damped;
   forces.along_roll += lean * forces.F_y;
   forces.moment = -(trail * forces.F_y);
   forces.slip = Eigen::Vector2d(v_x.value, v_y.value) / std::hypot(V_r.value, speed);
-  forces.dissipation += decay_x.value * Ku2.x() + decay_y.value * Ku2.y();
+  forces.dissipation +=
+      decay.value * (Ku2.x() / slip->relaxation.x() + Ku2.y() / slip->relaxation.y()) +
+      eta.value / damped.value * (c_x.value * forces.u_x_rate.value + c_y.value * forces.u_y_rate.value);
+}
+
+/// eta, which fades until the tyre rolls at v_0.
+TyreNumber SpringTyreLaw::standing_damping(const TyreNumber& V_r) const {
+  const double w = V_r.value / speed, left = 1 - w * w;
+  if (!(left > 0)) return {};
+  return compose(V_r, slip->damping * left * left, -4 * slip->damping * w * left / speed);
 }
 
 std::vector<std::string> SpringTyreLaw::describe() const {
@@ -140,6 +175,8 @@ std::vector<std::string> SpringTyreLaw::describe() const {
   if (slip->stiffest_load) along += fmt::format(" (at a load of {:.6g} N)", *slip->stiffest_load);
   along += fmt::format(", relaxation length {:.6g} m and {:.6g} m, friction {:.6g}", slip->relaxation.x(),
                        slip->relaxation.y(), slip->friction);
+  if (slip->damping > 0)
+    along += fmt::format(", damping of the standing tread {:.6g} N s/m", slip->damping * slip->stiffness.x());
   if (slip->shape)
     along += fmt::format(", magic formula of shape {:.6g} and curvature {:.6g}", *slip->shape, slip->curvature);
   if (slip->trail > 0) along += fmt::format(", trail {:.6g} m", slip->trail);

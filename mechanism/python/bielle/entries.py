@@ -1179,8 +1179,8 @@ class Entries:
         damping: Radial damping; the tyre never pulls at the road. (number [N s/m] of at least 0; default: 0)
         rolling_resistance: Force against rolling over the load. (number of at least 0; default: 0)
         slip: Forces along the road; without it the tyre has none. (keys of slip of a tyre)
-        speed: Rolling speed at which rolling resistance, trail and camber force begin to act. (number [m/s] greater
-        than 0; default: 0.1)
+        speed: Rolling speed at which rolling resistance, trail and camber force begin to act and the damping of the
+        tread ends. (number [m/s] greater than 0; default: 0.1)
         road: Profile of the road; without it the road is a plane. (keys of a road)
         active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
         true)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "reduce/common/error.hpp"
@@ -50,13 +51,28 @@ struct EntrySizes {
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t j = 0; j < 2; ++j) most[i][j] = std::max(most[i][j], factor * other.most[i][j]);
   }
-  double of(Eigen::Index i, Eigen::Index j) const { return most[kind(row_kind_, i)][kind(column_kind_, j)]; }
+  /// Calculates the rounding of the largest entries as it appears in the others over lever arms.
+  /// @param row,column  scales of both kinds: 1 and the mechanism's length, or 1 and 1
+  void calc_rounding(const std::array<double, 2>& row, const std::array<double, 2>& column) {
+    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+    double largest = 0;
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = 0; j < 2; ++j) largest = std::max(largest, most[i][j] / (row[i] * column[j]));
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = 0; j < 2; ++j) rounding_[i][j] = rounding * largest * row[i] * column[j];
+  }
+  /// Returns this share of the size of entries of the same kinds, but no less than their rounding.
+  double share(double part, Eigen::Index i, Eigen::Index j) const {
+    const std::size_t a = kind(row_kind_, i), b = kind(column_kind_, j);
+    return std::max(part * most[a][b], rounding_[a][b]);
+  }
 
  private:
   static std::size_t kind(const std::vector<char>& kinds, Eigen::Index k) {
     return kinds[static_cast<std::size_t>(k)] != 0 ? 1 : 0;
   }
   const std::vector<char>&row_kind_, &column_kind_;
+  std::array<std::array<double, 2>, 2> rounding_{};
 };
 
 std::vector<const Sparse*> list_of(const std::vector<LinearisedEquations>& azimuths,
@@ -79,7 +95,7 @@ HarmonicMatrix decompose(const std::vector<const Sparse*>& A, const EntrySizes& 
     for (int k = 0; k < count; ++k)
       sum += (weight * harmonic_function(p, 2 * std::numbers::pi * k / count)) * *A[static_cast<std::size_t>(k)];
     sum.prune([&](Eigen::Index i, Eigen::Index j, double value) {
-      return p == 0 ? value != 0 : std::abs(value) > (last ? rapid : rounding) * sizes.of(i, j);
+      return p == 0 ? value != 0 : std::abs(value) > sizes.share(last ? rapid : rounding, i, j);
     });
     if (last && sum.nonZeros() > 0)
       throw ComputationError("the equations change too rapidly with the azimuth of the turning part");
@@ -94,18 +110,22 @@ bool varies(const HarmonicMatrix& A) {
 
 }  // namespace
 
-PeriodicEquations::PeriodicEquations(const std::vector<LinearisedEquations>& azimuths, double rate)
+PeriodicEquations::PeriodicEquations(const std::vector<LinearisedEquations>& azimuths, double rate, double length)
     : rate_(rate), first_(azimuths.front()) {
   const std::vector<char>& kinds = first_.turns;
   const std::vector<char> rows(static_cast<std::size_t>(first_.constraints()), 0);
   const auto M = list_of(azimuths, &LinearisedEquations::M), C = list_of(azimuths, &LinearisedEquations::C),
              K = list_of(azimuths, &LinearisedEquations::K), B = list_of(azimuths, &LinearisedEquations::B),
              S = list_of(azimuths, &LinearisedEquations::S), F = list_of(azimuths, &LinearisedEquations::F);
-  const EntrySizes of_M(M, kinds, kinds), of_B(B, rows, kinds);
-  EntrySizes of_C(C, kinds, kinds), of_K(K, kinds, kinds), of_S(S, rows, kinds), of_F(F, kinds, rows);
+  EntrySizes of_M(M, kinds, kinds), of_B(B, rows, kinds), of_C(C, kinds, kinds), of_K(K, kinds, kinds),
+      of_S(S, rows, kinds), of_F(F, kinds, rows);
   of_C.at_least(std::abs(rate), of_M);
   of_K.at_least(std::abs(rate), of_C);
   of_S.at_least(std::abs(rate), of_B);
+  const std::array<double, 2> of_motion{1, length}, of_rows{1, 1};
+  for (EntrySizes* each : {&of_M, &of_C, &of_K}) each->calc_rounding(of_motion, of_motion);
+  for (EntrySizes* each : {&of_B, &of_S}) each->calc_rounding(of_rows, of_motion);
+  of_F.calc_rounding(of_motion, of_rows);
   M_ = decompose(M, of_M);
   C_ = decompose(C, of_C);
   K_ = decompose(K, of_K);

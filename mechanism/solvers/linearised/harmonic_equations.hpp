@@ -25,8 +25,9 @@ using HarmonicMatrix = std::vector<LinearisedEquations::Sparse>;
 class PeriodicEquations {
  public:
   /// @param azimuths  equations at equidistant azimuths (azimuth_equations.hpp), an even number
-  /// @param rate  rate of the azimuth [rad/s] @throws ComputationError if more azimuths are necessary
-  PeriodicEquations(const std::vector<LinearisedEquations>& azimuths, double rate);
+  /// @param rate  rate of the azimuth [rad/s] @param length  the mechanism's size [m], over which forces are rounded
+  /// @throws ComputationError if more azimuths are necessary
+  PeriodicEquations(const std::vector<LinearisedEquations>& azimuths, double rate, double length);
 
   double rate() const { return rate_; }
   /// Whether the coefficients do not depend on the azimuth.

@@ -286,6 +286,22 @@ double farthest_between(const State& a, const State& b) {
   return most;
 }
 
+/// Returns the sentence about a rate at which no equilibrium was found. @param last  the last equilibrium, at its rate
+std::string no_equilibrium(double rate, double followed, const State& first, const State& last) {
+  std::string text = fmt::format(
+      "no equilibrium in steady rotation at {:.6g} rad/s was found; the mechanism was followed up to {:.6g} rad/s",
+      rate, followed);
+  double farthest = 0;
+  for (std::size_t k = 0; k < first.nodes.size(); ++k)
+    farthest = std::max(farthest, (last.nodes[k].x - first.nodes[k].x).norm());
+  if (farthest > model_length(first))
+    text += fmt::format(
+        ", where a node is {:.3g} m from its place at the start: centrifugal forces outweigh the stiffness at a rate "
+        "near this one (static divergence)",
+        farthest);
+  return text;
+}
+
 }  // namespace
 
 void settle_in_rotation(const System& system, const Environment& environment, const SteadyRotation& rotation,
@@ -296,6 +312,7 @@ void settle_in_rotation(const System& system, const Environment& environment, co
       rotation.joint ? std::make_unique<const TurningPart>(system, environment, state, *rotation.joint) : nullptr;
   const RotationMotion motion(rotation, turning.get());
   RotationEquilibrium equilibrium(system, environment, turning.get());
+  const State first = state;
   double made = 0, part = 1;
   while (made < 1) {
     const double end = std::min(1.0, made + part);
@@ -304,10 +321,7 @@ void settle_in_rotation(const System& system, const Environment& environment, co
     if (!good || (part > 16 * least && farthest_between(state, trial) > far)) {
       part /= 2;
       if (part < least)
-        throw ComputationError(
-            fmt::format("no equilibrium in steady rotation at {:.6g} rad/s was found; the "
-                        "mechanism was followed up to {:.6g} rad/s",
-                        motion.rate(), std::sqrt(made) * motion.rate()));
+        throw ComputationError(no_equilibrium(motion.rate(), std::sqrt(made) * motion.rate(), first, state));
       continue;
     }
     state = trial;

@@ -1,7 +1,6 @@
 #include "mechanism/solvers/linearised/turning_part.hpp"
 
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -16,23 +15,23 @@ namespace {
 
 constexpr double no_screw = 1e-9;  // relative to the mechanism's size
 
-std::size_t angle_of(const Member& joint) {
+/// Returns the coordinates of a joint that are angles.
+std::vector<std::size_t> angles_of(const Member& joint) {
+  std::vector<std::size_t> angles;
   const std::vector<StartCoordinate> coordinates = joint.component->start_coordinates();
-  std::optional<std::size_t> angle;
-  for (std::size_t k = 0; k < coordinates.size(); ++k) {
-    if (coordinates[k].units != "rad") continue;
-    if (angle)
-      throw ComputationError(fmt::format(
-          "{} turns about several axes: a steady rotation needs a joint with one angle (a hinge)", describe(joint)));
-    angle = k;
-  }
-  if (!angle)
-    throw ComputationError(
-        fmt::format("{} has no angle: a steady rotation needs a joint with one angle (a hinge)", describe(joint)));
-  return *angle;
+  for (std::size_t k = 0; k < coordinates.size(); ++k)
+    if (coordinates[k].units == "rad") angles.push_back(k);
+  return angles;
 }
 
 }  // namespace
+
+std::string no_turning_joint(const Member& joint) {
+  const std::size_t angles = angles_of(joint).size();
+  if (angles == 1) return {};
+  return fmt::format("{} {}: a steady rotation needs a joint with one angle (a hinge)", describe(joint),
+                     angles == 0 ? "has no angle" : "turns about several axes");
+}
 
 TurningPart::TurningPart(const System& system, const Environment& environment, const State& state, std::size_t joint)
     : joint_(joint), turns_(state.nodes.size(), 0), drives_(static_cast<std::size_t>(system.multipliers()), 0) {
@@ -40,7 +39,8 @@ TurningPart::TurningPart(const System& system, const Environment& environment, c
     if (slots.nodes.empty() && slots.references.size() == 1 && slots.references[0] == &system.slots()[joint])
       for (int k = 0; k < slots.multipliers; ++k) drives_[static_cast<std::size_t>(slots.multiplier_begin + k)] = 1;
   const Member& member = system.model().members()[joint];
-  const std::size_t angle = angle_of(member);
+  if (const std::string reason = no_turning_joint(member); !reason.empty()) throw ComputationError(reason);
+  const std::size_t angle = angles_of(member).front();
   const std::vector<int>& nodes = system.slots()[joint].nodes;
   if (nodes.size() != 2) throw ComputationError(fmt::format("{} does not join two nodes", describe(member)));
   JointTwist twist(system, environment, state);

@@ -5,11 +5,15 @@
 //     v = w x (x - c),   a = w x v,   Omega = R^T w,   w = rate R_0 a,   c = x_0 + R_0 p.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mechanism/system/system.hpp"
 
 namespace bielle::mechanism {
+
+/// Returns the reason why no part turns steadily behind a joint of this kind; empty if it has one angle.
+std::string no_turning_joint(const Member& joint);
 
 class TurningPart {
  public:

@@ -202,6 +202,37 @@ TEST_CASE("two blades on supports that differ have the exponents of Hill's equat
   check_multipliers(turning.oscillating(), rotor.multipliers(400), rotor.rate, 1e-6);
 }
 
+TEST_CASE("a damped radial slide behind a joint has the same modes by a drive of its angle and of its rate",
+          "[linearised]") {
+  // m u'' + c u' + (k - m Om^2) u = 0 of a slide on a driven hub: beyond sqrt(k/m) it diverges.
+  const auto text = [](const std::string& drive, double inertia) {
+    return fmt::format(
+        "nodes: {{hub: {{position: [0, 0, 0]}}, m: {{position: [1, 0, 0]}}}}\n"
+        "elements:\n  hub: {{type: rigid_body, node: hub, mass: 5, inertia: [{0}, {0}, {0}]}}\n"
+        "  m: {{type: point_mass, node: m, mass: 2}}\n"
+        "joints:\n  shaft: {{type: hinge, nodes: [ground, hub], axis: [0, 0, 1]}}\n"
+        "  slide: {{type: prismatic, nodes: [hub, m], axis: [1, 0, 0], stiffness: 800, damping: 3}}\n"
+        "drives: {{s: {{joint: shaft, {1}}}}}\n",
+        inertia, drive);
+  };
+  for (const double rate : {8.0, 19.0, 30.0})
+    for (const double inertia : {3.0, 1e-3, 1e4})
+      for (const std::string law : {"rate: {}", "angle: '{}*t'"}) {
+        CAPTURE(rate, inertia, law);
+        const Turning turning(text(fmt::format(fmt::runtime(law), rate), inertia), "shaft", rate);
+        CHECK(turning.report.turning->periodicity == Periodicity::constant);
+        const double c = 3, half = c / 4, stiff = 800.0 / 2 - rate * rate;
+        std::vector<Complex> found, expected;
+        for (const Mode& mode : turning.report.found.modes)
+          if (mode.kind != ModeKind::rigid) found.push_back(mode.s);
+        const Complex root = std::sqrt(Complex(half * half - stiff, 0));
+        expected.push_back(-half + root);
+        if (stiff < 0) expected.push_back(-half - root);
+        check_exponents(found, expected, 1e-8);
+      }
+  CHECK_THROWS_WITH(Turning(text("rate: 20", 3), "shaft", 20), Catch::Contains("static divergence"));
+}
+
 TEST_CASE("a rotation behind a joint that is none is refused", "[linearised]") {
   const auto text = [](const char* joints) {
     return fmt::format(

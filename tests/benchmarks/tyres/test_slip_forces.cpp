@@ -115,6 +115,22 @@ TEST_CASE("the magic formula has its peak mu N and falls beyond it") {
   CHECK(formula(C_x / (mu * 2000)) < 0.9);
 }
 
+TEST_CASE("the magic formula holds before and beyond its peak, near or far, and without a peak") {
+  struct Shape {
+    double C, E;
+  };
+  for (const auto [C, E] : {Shape{1, 0}, {1, 1}, {1.05, 0.5}, {1.3, -3}, {1.9, 0.9}})
+    for (const double slip : {0.03, 0.3, 2.0}) {
+      CAPTURE(C, E, slip);
+      TyreRig rig;
+      rig.spin = rig.speed / (1 + slip) / rig.rolling_radius;
+      rig.tyre = fmt::format("slip: {{{}, shape: {}, curvature: {}}}", slip_keys, C, E);
+      const double N = rig.load(), x = C_x * slip / (mu * N) / C;
+      CHECK(steady(rig).force.x() ==
+            Approx(-mu * N * std::sin(C * std::atan(x - E * (x - std::atan(x))))).epsilon(1e-7));
+    }
+}
+
 TEST_CASE("a tyre that rolls freely has no force along the road") {
   TyreRig rig;
   rig.tyre = "slip: {" + slip_keys + ", trail: 0.03, camber: 2e3}";

@@ -58,6 +58,28 @@ class Slips(CommandTest):
         self.assertIn("section.density: is 7.85e-09 meant?", self.warnings(BEAM, "7850", "7.85e-9"))
         self.assertIn("model.yaml:1: gravity: is 9810 meant? Lengths are in metres", self.warnings(BEAM, "9.81", "9810"))
 
+    def test_play_of_gears_in_other_units(self):
+        wheels = """\
+nodes: {a: {}, b: {position: [0.1, 0, 0]}}
+elements:
+  a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  b: {type: rigid_body, node: b, mass: 1, inertia: [0.1, 0.1, 0.1]}
+joints:
+  p: {type: hinge, nodes: [ground, a], axis: [0, 0, 1]}
+  q: {type: hinge, nodes: [ground, b], axis: [0, 0, 1]}
+  g: COUPLING
+analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
+"""
+        for coupling, plausible, wrong, says in (
+                ("{type: gear, joints: [p, q], ratio: -1, stiffness: 1e4, backlash: 0.01}", "0.01", "1", "1e-4 to 1e-2 rad"),
+                ("{type: gear_mesh, nodes: [a, b], axes: [0, 0, 1], radii: [0.05, 0.05], stiffness: 1e6, backlash: 1e-4}", "1e-4", "0.1",
+                 "Teeth have a play of 1e-5 to 1e-3 m")):
+            model = wheels.replace("COUPLING", coupling)
+            self.assertNotIn("meant?", self.warnings(model))
+            text = self.warnings(model, "backlash: " + plausible, "backlash: " + wrong)
+            self.assertIn(f"model.yaml:8: joints.g.backlash: is {wrong} meant?", text)
+            self.assertIn(says, text)
+
     def test_a_radius_in_millimetres(self):
         self.assertIn("model.yaml:3: elements.m.section: is it meant? It is as stiff as one of some 20 m in size, and the beam "
                       "is 1 m long", self.warnings(BEAM, "0.02", "20"))

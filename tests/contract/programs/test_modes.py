@@ -97,6 +97,13 @@ analysis: [{type: eigen}]
             self.write("model.yaml", PENDULUM.format(x=0, z=-1, analysis=f"[{analysis}]"))
             self.expect_refusal(1, "model.yaml", says=("model.yaml:5", *says))
 
+    def test_a_rotation_behind_a_joint_without_one_angle_is_refused_with_its_line(self):
+        for joint, says in (("prismatic, axis: [0, 1, 0]", "has no angle"), ("spherical", "turns about several axes")):
+            for analysis in ("{type: eigen, rotation: {joint: pivot, rate: 3}}", "{type: campbell, rotation: {joint: pivot}, speeds: {to: 3}}"):
+                text = PENDULUM.replace("hinge", joint).replace("position: [0, 0, 0], axis: [0, 1, 0]", "position: [0, 0, 0]")
+                self.write("model.yaml", text.format(x=0, z=-1, analysis=f"[{analysis}]"))
+                self.expect_refusal(1, "model.yaml", says=("model.yaml:5: analysis[1].rotation.joint: joint 'pivot'", says))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -117,6 +117,22 @@ class Scenes(unittest.TestCase):
         self.assertIn("'radius' is missing", told["a/bare"])
         self.assertIn("gone", told["a/mesh"])
 
+    def test_a_node_with_one_or_two_held_rotations_has_a_ring_about_each(self):
+        lying = [np.sqrt(0.5), 0, np.sqrt(0.5), 0]  # takes z to x
+        for fixed, axes, thin in ((["rz"], None, 2), (["rx"], None, 0), (["ry"], None, 1), (["rz"], lying, 0)):
+            item = {"entry": "nodes/n", "type": "node", "shape": "support", "role": "support", "node": "n", "fixed": fixed, **({"axes": axes} if axes else {})}
+            scene = self.scene({"n": (np.zeros((20, 3)), turning(20, (0, 0, 1)))}, [item])
+            self.assertEqual([part.group for part in scene.parts], ["ground"])
+            for row in (0, 13):  # the held axis stays in space
+                size = np.ptp(placed(scene.poses(scene.parts[0], [row])[0, scene.parts[0].mesh.bones], scene.parts[0].mesh.points), axis=0)
+                self.assertEqual(np.argmin(size), thin)
+                self.assertLess(size[thin], 0.1 * size.max())
+        self.assertGreater(volume(scene.parts[0].mesh), 0)
+        both = {"entry": "nodes/n", "type": "node", "shape": "support", "role": "support", "node": "n", "fixed": ["rx", "ry"]}
+        self.assertEqual(len(self.scene({"n": resting(2)}, [both]).parts), 1)
+        self.assertEqual(self.scene({"n": resting(2)}, [{**both, "fixed": ["rx", "ry", "rz"]}]).parts, [])
+        self.assertIn("axes", dict(self.scene({"n": resting(2)}, [{**both, "axes": [0, 0, 0, 0]}]).notes)["nodes/n"])
+
     def test_the_ends_of_a_beam_have_the_axes_of_its_sections(self):
         # The node at the start has other axes than the sections: it is turned by 90 degrees about y.
         q = np.tile([1.0, 0, 0, 0], (4, 5, 1))

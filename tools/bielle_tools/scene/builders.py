@@ -170,13 +170,19 @@ def _joint(b, item):
 
 
 def _support(b, item):
-    fixed = item.get("fixed", [])
-    if not any(direction in fixed for direction in "xyz"):
-        return []  # a node that may move everywhere and only keeps its direction has no support
-    down = b.drawing.gravity
-    part = b.rigid(item, symbols.support_symbol(b.symbol, len(fixed) == 6), "ground", COLOURS["support"])
-    place = place_of(item)
-    turn = from_z(-down) if down is not None else np.array([1.0, 0, 0, 0])
+    fixed, place = item.get("fixed", []), place_of(item)
+    if any(direction in fixed for direction in "xyz"):
+        down = b.drawing.gravity
+        mesh, turn = symbols.support_symbol(b.symbol, len(fixed) == 6), from_z(-down) if down is not None else np.array([1.0, 0, 0, 0])
+    else:
+        rotations = tuple(direction for direction in ("rx", "ry", "rz") if direction in fixed)
+        if len(rotations) not in (1, 2):
+            return []  # a node that may move everywhere and only keeps its direction has no support
+        mesh, turn = symbols.held_rotations_symbol(b.symbol, rotations), np.asarray(item.get("axes", [1, 0, 0, 0]), float)
+        if turn.shape != (4,) or not np.isfinite(turn).all() or not np.linalg.norm(turn) > 0:
+            raise ValueError("its axes are damaged")
+        turn = turn / np.linalg.norm(turn)
+    part = b.rigid(item, mesh, "ground", COLOURS["support"])
 
     def poses(rows):
         found = b.motion.poses(place, rows)[:, None]

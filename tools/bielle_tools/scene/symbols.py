@@ -86,5 +86,12 @@ def support_symbol(size, complete):
     return scaled(t.merged([t.moved(t.cone((1.0, 0.08), 1.6, around=4), (0, 0, -0.8)), *([foot] if complete else [])]), size)
 
 
+def held_rotations_symbol(size, rotations):
+    """A ring about each axis whose rotation is held, with a bar across it. rotations: of "rx", "ry", "rz" """
+    ring = t.merged([t.tube(1.9, 1.65, 0.3), t.box([3.5, 0.25, 0.25])])
+    axes = {"rx": t.ALONG_X, "ry": t.ALONG_Y, "rz": None}
+    return scaled(t.merged([t.moved(ring, axes=axes[each]) for each in rotations]), size)
+
+
 def scaled(shape, size):
     return Mesh(size * shape.points, shape.triangles, shape.lines, shape.bones)

@@ -1,4 +1,5 @@
 // Shapes of bodies, nodes and beams: each is where the body's geometry is.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -98,6 +99,25 @@ TEST_CASE("nodes are drawn with their shapes and their supports") {
   CHECK(drawn.one("nodes/base", "support").role == "support");
   CHECK(drawn.has("nodes/mass", "node"));
   CHECK_FALSE(drawn.has("nodes/mass", "support"));  // a point mass has no rotation to support
+}
+
+TEST_CASE("held rotations are drawn with the axes in which they are held") {
+  const DrawnModel drawn(
+      "nodes:\n"
+      "  column: {position: [0, 0, 3], fixed: [rz]}\n"
+      "  leaning: {position: [1, 0, 3], rotation_vector: [0, 0.6, 0], fixed: [rz], fixed_axes: own}\n"
+      "elements:\n"
+      "  a: {type: rigid_body, node: column, mass: 1, inertia: [1, 1, 1]}\n"
+      "  b: {type: rigid_body, node: leaning, mass: 1, inertia: [1, 1, 1]}\n");
+  for (const std::string node : {"column", "leaning"})
+    CHECK(value_of<std::vector<std::string>>(drawn.one("supports/" + node, "support"), "fixed") ==
+          std::vector<std::string>{"rz"});
+  const std::vector<double> axes = value_of<std::vector<double>>(drawn.one("supports/leaning", "support"), "axes");
+  REQUIRE(axes.size() == 4);
+  CHECK(axes[0] == Approx(std::cos(0.3)));
+  CHECK(axes[2] == Approx(std::sin(0.3)));
+  const auto& values = drawn.one("supports/column", "support").values;
+  CHECK(std::none_of(values.begin(), values.end(), [](const auto& value) { return value.first == "axes"; }));
 }
 
 /// Area and centroid of a polygon by the theorem of Green.
