@@ -42,19 +42,24 @@ void check_name_of_number(const std::string& name, const Scope& scope, const Yam
 /// The repetitions of one entry.
 struct Repetition {
   std::vector<Tree> directions;
-  std::string path;  ///< path of the entry, for messages
-  const UseScope& use;
-  int entries = 0;  ///< number of those so far
+  std::string path;     ///< path of the entry, for messages
+  const UseScope* use;  ///< nullptr: the entries are counted
+  int entries = 0;      ///< number of those so far
 };
 
-/// Calls `use` for every combination of the numbers and words of a direction and those behind it.
+/// Counts entries of the last direction. @returns whether there is nothing else to do with them
+bool only_counts(Repetition& repetition, std::size_t direction, std::size_t entries, const Scope& scope) {
+  if (repetition.use || direction + 1 < repetition.directions.size()) return false;
+  repetition.entries += static_cast<int>(entries);
+  if (repetition.entries > most)
+    fail_at(*repetition.directions.front(), *scope.main_file, repetition.path + ".repeat",
+            fmt::format("these are more than {} entries", most));
+  return true;
+}
+
+/// Calls `use` for every combination of the numbers and words of a direction and those behind it, or counts them.
 void for_each_number(Repetition& repetition, std::size_t direction, const Scope& scope) {
-  if (direction == repetition.directions.size()) {
-    if (++repetition.entries > most)
-      fail_at(*repetition.directions.front(), *scope.main_file, repetition.path + ".repeat",
-              fmt::format("these are more than {} entries", most));
-    return repetition.use(scope);
-  }
+  if (direction == repetition.directions.size()) return (*repetition.use)(scope);
   const Tree& tree = repetition.directions[direction];
   const YamlNode& repeat = *tree;
   const std::string place = repetition.path + ".repeat";
@@ -65,6 +70,7 @@ void for_each_number(Repetition& repetition, std::size_t direction, const Scope&
     if (find_pair(repeat, "count") || find_pair(repeat, "from"))
       fail_at(repeat, *scope.main_file, place, "`over` lists the words: `count` and `from` do not go with it");
     for (const YamlValue& item : keys.at("over").items()) item.text();  // refuses what is no list of words
+    if (only_counts(repetition, direction, over->items.size(), scope)) return;
     for (const Tree& item : over->items) {
       Scope local = scope.inner();
       local.words[as] = scope.text(*item, place + ".over");
@@ -79,6 +85,7 @@ void for_each_number(Repetition& repetition, std::size_t direction, const Scope&
   if (count < 0 || count > most)
     fail_at(repeat, *scope.main_file, place + ".count", fmt::format("expected 0 to {} entries, found {}", most, count));
   const Tree from = find_value(repeat, "from");
+  if (only_counts(repetition, direction, static_cast<std::size_t>(count), scope)) return;
   const int first = from ? whole_number(*from, scope, place + ".from") : 1;
   for (int k = first; k < first + count; ++k) {
     Scope local = scope.inner();
@@ -113,10 +120,12 @@ void for_each_entry(const YamlNode& section, const Scope& scope, const std::stri
       use_one(scope);
       continue;
     }
-    Repetition repetition{{repeat}, place, use_one};
+    Repetition repetition{{repeat}, place, nullptr};
     if (repeat->kind == YamlNode::Kind::sequence) repetition.directions = repeat->items;
     if (repetition.directions.empty())
       fail_at(*repeat, *scope.main_file, place + ".repeat", "expected a repetition, or a list of one or more");
+    for_each_number(repetition, 0, scope);  // conditions of a million entries would take half a minute
+    repetition.use = &use_one;
     for_each_number(repetition, 0, scope);
   }
 }
