@@ -85,6 +85,22 @@ class Manual(unittest.TestCase):
                 pages.run_page(place, self.folder, os.environ)
         pages.run_page(self.page("```sh\nprintf 'a 1\\nb\\nc 3\\n'\n```\n```text\na 1.001\n...\nc   3\n```\n"), self.folder, os.environ)
 
+    def test_wrong_closed_forms_are_found(self):
+        shown = "```sh\nprintf 'a 1.02\\n'\n```\n```text\na 1.02\n```\n<!-- closed form{}: sqrt(1) -->\n"
+        for within, message in (("", "page.md:5: the closed form sqrt.1. is 1, the command prints 'a 1.02'"), (" within 0.01", "the closed form")):
+            with self.subTest(within), self.assertRaisesRegex(InputError, message):
+                pages.run_page(self.page(shown.format(within)), self.folder, os.environ)
+        pages.run_page(self.page(shown.format(" within 0.03")), self.folder, os.environ)
+        self.assertEqual([block.closed_form for block in pages.blocks(os.path.join(self.folder, "page.md"))], [None, "sqrt(1)"])
+
+    def test_commands_that_are_not_run(self):
+        page = self.page("<!-- not run: it fails -->\n```sh\nfalse\n```\n```sh\ntouch made\n```\n")
+        pages.run_page(page, self.folder, os.environ)
+        self.assertTrue(os.path.exists(os.path.join(self.folder, "made")))
+        self.assertEqual([block.not_run for block in pages.blocks(page)], ["it fails", None])
+        with self.assertRaisesRegex(InputError, "no command before it"):
+            pages.run_page(self.page("<!-- not run: it fails -->\n```sh\nfalse\n```\n```text\na\n```\n"), self.folder, os.environ)
+
     def test_failing_commands_are_found(self):
         with self.assertRaisesRegex(InputError, r"page.md:3: 'false' ended with status 1"):
             pages.run_page(self.page("```sh\ntrue\nfalse\n```\n"), self.folder, os.environ)
