@@ -55,8 +55,9 @@ class Guide(unittest.TestCase):
         self.assertGreater(len(others), 100)
         for path in guide() + others:
             for block in pages.blocks(path):
-                if block.language not in {"sh", "text"}:
-                    self.assertNotRegex(block.text, re.compile(r"^(\$ |bielle-\w+ |tools/\w+ |convert_mesh)", re.MULTILINE), f"{path}:{block.line}")
+                with self.subTest(f"{os.path.relpath(path, ROOT)}:{block.line}"):
+                    if block.language not in {"sh", "text"}:
+                        self.assertNotRegex(block.text, re.compile(r"^(\$ |bielle-\w+ |tools/\w+ |convert_mesh)", re.MULTILINE))
 
 
 if __name__ == "__main__":
