@@ -95,6 +95,11 @@ class Manual(unittest.TestCase):
         for within, message in (("", "page.md:5: the closed form sqrt.1. is 1, the command prints 'a 1.02'"), (" within 0.01", "the closed form")):
             with self.subTest(within), self.assertRaisesRegex(InputError, message):
                 pages.run_page(self.page(shown.format(within)), self.folder, os.environ)
+        for wrong in ("sqrt(-1)", "sqroot(1)", "1 +", "1/0", "'a'"):
+            with self.subTest(wrong), self.assertRaisesRegex(InputError, "has no value"):
+                pages.run_page(self.page(shown.format("").replace("sqrt(1)", wrong)), self.folder, os.environ)
+        with self.assertRaisesRegex(InputError, "page.md:8: '<!-- closed form ..' belongs to no block"):
+            pages.blocks(self.page(shown.format("").replace("<!--", "\n<!--")))
         pages.run_page(self.page(shown.format(" within 0.03")), self.folder, os.environ)
         self.assertEqual([block.closed_form for block in pages.blocks(os.path.join(self.folder, "page.md"))], [None, "sqrt(1)"])
 

@@ -42,11 +42,18 @@ class Block:
 
 
 def blocks(path):
-    """The blocks of a page, in order."""
+    """The blocks of a page, in order. @raises InputError if a comment about a block stands apart from it"""
     with open(path, encoding="utf-8") as file:
         page = file.read()
+    matches = list(BLOCK.finditer(page))
+    for mark, group in (("<!-- not run", 1), ("<!-- closed form", 5)):
+        places = [found.start() for found in re.finditer("^" + mark, page, re.MULTILINE)]
+        apart = [place for place in places if not any(match.group(group) and match.start() <= place < match.end() for match in matches)]
+        if apart:
+            line = page.count("\n", 0, apart[0]) + 1
+            raise InputError(f"{path}:{line}: '{mark} ..' belongs to no block: expected it next to one, with a colon")
     return [Block(match.group(2), match.group(3), page.count("\n", 0, match.start(3)) + 1, match.group(5),
-                  float(match.group(4) or CLOSED_FORM_TOLERANCE), match.group(1)) for match in BLOCK.finditer(page)]
+                  float(match.group(4) or CLOSED_FORM_TOLERANCE), match.group(1)) for match in matches]
 
 
 def environment_of(repository, programs, tools):
@@ -112,7 +119,10 @@ def _compare(path, block, output):
 
 def _compare_closed_form(path, block, line):
     """Compares the closed form with the number of a line that is nearest to it."""
-    wanted = eval(block.closed_form, {"__builtins__": {}}, vars(math))  # a page runs commands as well: it is trusted
+    try:
+        wanted = float(eval(block.closed_form, {"__builtins__": {}}, vars(math)))  # a page runs commands as well: it is trusted
+    except (SyntaxError, NameError, TypeError, ValueError, ArithmeticError) as error:
+        raise InputError(f"{path}:{block.line}: the closed form '{block.closed_form}' has no value: {error}") from error
     found = min(map(float, NUMBER.findall(line)), key=lambda number: abs(number - wanted), default=math.nan)
     if not abs(found - wanted) <= block.within * abs(wanted):
         raise InputError(f"{path}:{block.line}: the closed form {block.closed_form} is {wanted:.6g}, the command prints '{line.strip()}'")
