@@ -5,7 +5,7 @@
 
 namespace bielle::mechanism {
 
-/// Writes the datasets `campbell/...` of the open analysis (mechanism/io/README.md).
+/// Writes the datasets `campbell/...` of the open analysis (mechanism/io/modes.md).
 /// @param parameter  swept parameter; empty: the speed itself
 void write_campbell(Session& session, const Campbell& found, const std::string& parameter);
 

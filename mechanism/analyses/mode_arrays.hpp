@@ -15,7 +15,7 @@ struct ModeParts {
 };
 ModeParts mode_parts(const Model& model, const ModesReport& report);
 
-/// Writes the datasets `eigen/...` of the open analysis (mechanism/io/README.md).
+/// Writes the datasets `eigen/...` of the open analysis (mechanism/io/modes.md).
 void write_modes(Session& session, const ModesReport& report, const ModeParts& parts, bool shapes);
 
 }  // namespace bielle::mechanism

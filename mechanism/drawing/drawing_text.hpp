@@ -43,7 +43,7 @@ struct DrawnMechanism {
   std::map<int, std::pair<std::string, int>> inner;
 };
 
-/// Returns the drawing as JSON, see mechanism/io/README.md. @param meshes  its meshes
+/// Returns the drawing as JSON, see mechanism/io/drawing.md. @param meshes  its meshes
 std::string drawing_text(const Drawing& drawing, const DrawnMechanism& mechanism, const DrawnMeshes& meshes);
 
 }  // namespace bielle::mechanism

@@ -1,5 +1,5 @@
 // Shapes by which a mechanism is drawn: plain data without mechanics. The format in which the results file holds them,
-// with all kinds of shapes and their values, is described in mechanism/io/README.md.
+// with all kinds of shapes and their values, is described in mechanism/io/drawing.md.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-"""Every file of the page about parts is run; expanded models give the same results as the files that they come from."""
+"""Every file of the pages about the language is run; expanded models give the same results as the files that they come from."""
 
 import os
 import re
@@ -10,13 +10,15 @@ import h5py
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-PAGE = os.path.join(HERE, "..", "..", "..", "mechanism", "language", "README.md")
+PAGES = [os.path.join(HERE, "..", "..", "..", "mechanism", "language", name) for name in ("README.md", "parts.md")]
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
 
 
 def files_of_page():
-    with open(PAGE, encoding="utf-8") as file:
-        blocks = re.findall(r"```yaml\n(.*?)```", file.read(), re.DOTALL)
+    blocks = []
+    for page in PAGES:
+        with open(page, encoding="utf-8") as file:
+            blocks += re.findall(r"```yaml\n(.*?)```", file.read(), re.DOTALL)
     return {re.match(r"# (\S+\.yaml)\n", block).group(1): block for block in blocks}
 
 

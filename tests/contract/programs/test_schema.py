@@ -59,9 +59,12 @@ class Schemas(unittest.TestCase):
         self.assertEqual(self.errors("bielle-mechanism", test_fuzz_yaml.MECHANISM), [])
         self.assertEqual(self.errors("bielle-reduce", test_fuzz_yaml.BODY), [])
 
-    def test_files_of_the_page_about_parts_are_valid(self):
-        with open(os.path.join(ROOT, "mechanism", "language", "README.md"), encoding="utf-8") as file:
-            for block in re.findall(r"```yaml\n(.*?)```", file.read(), re.DOTALL):
+    def test_files_of_the_pages_about_the_language_are_valid(self):
+        for name in ("README.md", "parts.md"):
+            with open(os.path.join(ROOT, "mechanism", "language", name), encoding="utf-8") as file:
+                blocks = re.findall(r"```yaml\n(.*?)```", file.read(), re.DOTALL)
+            self.assertGreater(len(blocks), 2, name)
+            for block in blocks:
                 self.assertEqual(self.errors("bielle-mechanism", block), [], block)
 
     def test_every_misspelt_key_is_invalid_where_it_stands(self):

@@ -1,4 +1,4 @@
-"""The options of commands, files and headings that the READMEs and the glossary name must exist."""
+"""The options of commands, files and headings that the pages name must exist."""
 
 import glob
 import os
@@ -13,15 +13,13 @@ TOOLS = ["keys", "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rai
          "test", "verify", "package", "convert_mesh.py", "manual", "gallery"]
 OTHERS = {"--preset", "--build", "--install", "--prefix",  # options of CMake
           "--hostfile"}  # options of mpirun
-MANUALS = [os.path.join("mechanism", "manual"), os.path.join("reduce", "manual"), os.path.join("tools", "guide")]
 
 
 def readmes():
     for folder, folders, files in os.walk(REPOSITORY):
         folders[:] = [name for name in folders if name not in ("build", ".git") and not name.startswith(".")]
         for name in files:
-            manual = any(pages in folder for pages in MANUALS) and name.endswith(".md")
-            if manual or name in ("README.md", "CONTRIBUTING.md", "glossary.md", "keys.md"):
+            if name.endswith(".md") and name != "CHANGELOG.md":  # which names what there was
                 yield os.path.join(folder, name)
 
 

@@ -21,7 +21,7 @@ sys.path.insert(0, TOOLS)
 from bielle_tools.manual import pages  # noqa: E402
 
 WITHOUT_EXAMPLE = {"messages.md"}  # a page about what any run may print
-SECTIONS = {"elements": "element", "joints": "joint", "analysis": "analysis"}
+SECTIONS = {"element": "elements", "joint": "joints", "analysis": "analyses"}  # folders of the reference by things
 
 
 def pages_with_examples():
@@ -40,8 +40,14 @@ def model_of(path):
     return "\n".join(block.text for block in pages.blocks(path) if pages.FILE_NAME.match(block.text))
 
 
-def uses(text, type_name):
-    return re.search(rf"\btype: {type_name}\b", text) is not None
+def schema_of_mechanisms():
+    done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "--schema"], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def lines_of(schema):
+    """The keys that tell the type of a line of a circuit, with the references to their keys."""
+    return {key: value for key, value in schema["definitions"]["line"]["properties"].items() if "$ref" in value and key != "ports"}
 
 
 class Reference(unittest.TestCase):
@@ -53,7 +59,7 @@ class Reference(unittest.TestCase):
 
     def test_every_page_has_a_model_commands_and_output(self):
         found = pages_with_examples()
-        self.assertGreater(len(found), 45)
+        self.assertGreater(len(found), 100)
         for path in found:
             with self.subTest(os.path.relpath(path, ROOT)):
                 languages = [block.language for block in pages.blocks(path)]
@@ -62,27 +68,48 @@ class Reference(unittest.TestCase):
                 self.assertNotEqual(model_of(path), "")
 
     def test_every_type_has_a_page(self):
-        done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "--schema"], capture_output=True, text=True, check=True)
-        schema = json.loads(done.stdout)
         variants = runpy.run_path(os.path.join(TOOLS, "keys"))["variants"]
-        own = {path: read(path) for path in pages_with_examples() if path.startswith(REFERENCE)}
-        of_sections = "\n".join(map(read, glob.glob(os.path.join(REFERENCE, "*.md"))))
-        examples = "\n".join(map(read, glob.glob(os.path.join(ROOT, "mechanism", "examples", "*.yaml"))))
+        schema = schema_of_mechanisms()
         names = {id(table): name for name, table in schema["definitions"].items()}
-        with_page = set()
-        for thing in SECTIONS.values():
+        count = 0
+        for thing, folder in SECTIONS.items():
             for type_name, table in variants(schema, thing):
-                name = names[id(table)].removesuffix("_in_any_form")
-                marker = re.compile(rf"^<!-- keys: {name}\b", re.MULTILINE)
-                if any(marker.search(text) and uses(model_of(path), type_name) for path, text in own.items()):
-                    with_page.add(type_name)
-                    continue
-                with self.subTest(type_name):
-                    self.assertIn(f"`{type_name}`", of_sections)
-                    self.assertTrue(uses(examples, type_name), "neither a page of its own nor an example uses it")
-        analyses = {type_name for type_name, _ in variants(schema, "analysis")}
-        self.assertLessEqual(analyses | {"bushing", "bearing", "ball_bearing", "roller_bearing", "journal_bearing",
-                                         "clearance_hinge", "clearance_spherical", "contact"}, with_page)
+                with self.subTest(f"{thing} {type_name}"):
+                    path = os.path.join(REFERENCE, folder, f"{type_name}.md")
+                    self.assert_page_of_keys(path, names[id(table)].removesuffix("_in_any_form"))
+                    self.assertRegex(model_of(path), rf"\btype: {type_name}\b")
+                    count += 1
+        self.assertGreater(count, 45)
+
+    def test_every_part_of_hydraulics_has_a_page(self):
+        schema = schema_of_mechanisms()
+        parts = {part: reference["$ref"] for part, reference in lines_of(schema).items()}
+        self.assertGreater(len(parts), 8)
+        things = {part: target.rsplit("/", 1)[1] for part, target in parts.items()}
+        things.update(fluid="fluid", volume="volume", supply="supply", accumulator="accumulator_2", machine="machine")
+        for part, thing in things.items():
+            with self.subTest(part):
+                path = os.path.join(REFERENCE, "hydraulics", f"{part}.md")
+                self.assert_page_of_keys(path, thing)
+                self.assertRegex(model_of(path), rf"\b{part}s?:|\bsupplies:")
+
+    def assert_page_of_keys(self, path, thing):
+        self.assertTrue(os.path.exists(path), path)
+        self.assertRegex(read(path), re.compile(rf"^<!-- keys: {thing}( -->|:)", re.MULTILINE))
+
+    def test_pages_of_types_have_closed_forms(self):
+        found = [path for folder in ("nodes", "elements", "joints", "hydraulics") for path in glob.glob(os.path.join(REFERENCE, folder, "[a-z]*.md"))]
+        self.assertGreater(len(found), 65)
+        for path in found:
+            with self.subTest(os.path.relpath(path, ROOT)):
+                self.assertTrue(any(block.closed_form for block in pages.blocks(path)))
+
+    def test_indices_name_their_pages(self):
+        for index in glob.glob(os.path.join(REFERENCE, "*", "README.md")):
+            text, folder = read(index), os.path.dirname(index)
+            for name in sorted(set(os.listdir(folder)) - {"README.md"}):
+                with self.subTest(os.path.relpath(os.path.join(folder, name), ROOT)):
+                    self.assertIn(f"]({name}", text)
 
 
 if __name__ == "__main__":

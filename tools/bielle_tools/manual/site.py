@@ -10,11 +10,11 @@ from ..messages import InputError
 from .source_messages import explained, list_of_messages
 
 CONTENTS = {  # page that leads a part, and the pages of the part, in order
-    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md", "mechanism/manual/gallery.md",
+    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/features.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md", "mechanism/manual/gallery.md",
                     "mechanism/manual/messages/README.md", "mechanism/manual/messages/[a-z]*.md"],
-    "Mechanisms": ["mechanism/README.md", "mechanism/manual/reference/*.md", "mechanism/manual/reference/*/*.md", "mechanism/language/README.md",
-                   "reduce/common/README.md", "mechanism/io/README.md", "mechanism/python/README.md", "mechanism/glossary.md", "mechanism/keys.md"],
-    "Bodies": ["reduce/README.md", "reduce/manual/*.md", "reduce/matrices/README.md", "reduce/superelement/README.md", "reduce/distributed/README.md", "meshes/README.md",
+    "Mechanisms": ["mechanism/README.md", "mechanism/manual/reference/*/*.md", "mechanism/language/*.md",
+                   "reduce/common/README.md", "mechanism/io/*.md", "mechanism/python/*.md", "mechanism/glossary*.md", "mechanism/keys.md"],
+    "Bodies": ["reduce/README.md", "reduce/manual/*.md", "reduce/matrices/README.md", "reduce/superelement/*.md", "reduce/distributed/README.md", "meshes/README.md",
                "reduce/keys.md"],
     "Tools": ["tools/README.md", "tools/guide/*.md"],
     "Theory and proof": ["mechanism/manual/theory/*.md", "mechanism/solvers/README.md", "reduce/reduction/README.md", "tests/*/README.md"],
