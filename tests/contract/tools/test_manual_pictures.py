@@ -85,6 +85,12 @@ class Choice(Pages):
         self.assertEqual(one.chosen, {"plot": ["q,", "r"], "picture": ["--view=-y", "--hide", "a b"]})
         with self.assertRaisesRegex(InputError, r"page.md:1: no model that the page runs stands before '<!-- plot: q -->'"):
             examples_of(self.page("<!-- plot: q -->\n"))
+        shown, = self.chosen("```", "<!-- plot: shown -->", "```", "```sh", "bielle-mechanism a.yaml", "```", "<!-- plot: r -->")
+        self.assertEqual(shown.chosen, {"plot": ["r"]}, "a comment in a block is for the reader")
+
+    def test_pages_of_the_site_can_be_read(self):
+        every = {page: os.path.join(REPOSITORY, page) for part in site.pages_of(REPOSITORY).values() for page in part}
+        self.assertGreater(len(runnable(every)), 40)
 
     def test_pages_of_getting_started_are_run_together(self):
         started = "mechanism/manual/getting_started"
@@ -105,7 +111,7 @@ class Making(Pages):
         with Image.open(os.path.join(found.folders["page.md"], "page_pendulum.png")) as image:
             pixels = np.asarray(image.convert("RGB")).astype(int)
         blue = pixels[..., 2] - pixels[..., 0] > 40  # the bob and its arm
-        grey = (np.ptp(pixels, axis=2) < 12) & (pixels.max(axis=2) > 150) & (pixels.max(axis=2) < 245)  # where it was
+        grey = (np.ptp(pixels, axis=2) < 12) & (pixels.max(axis=2) > 150) & (pixels.max(axis=2) < 245)  # its first position
         grey[:40] = False
         self.assertGreater(blue.sum(), 1000)
         self.assertGreater(grey.sum(), 1000)

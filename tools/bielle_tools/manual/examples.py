@@ -11,7 +11,7 @@ import shlex
 from dataclasses import dataclass, field
 
 from ..messages import InputError
-from .pages import FILE_NAME, blocks
+from .pages import BLOCK, FILE_NAME, blocks
 
 PROGRAMS = {"bielle-mechanism": "model", "bielle-reduce": "body"}
 READERS = ("bielle-table", "bielle-plot")
@@ -52,8 +52,8 @@ def examples_of(path):
                 last.ended = number
         elif name:
             files[name.group(1)] = number
-    for comment in COMMENT.finditer(page):
-        line = page.count("\n", 0, comment.start()) + 1
+    for comment in COMMENT.finditer(BLOCK.sub(lambda block: "\n" * block[0].count("\n"), page)):  # blocks may show comments
+        line = comment.string.count("\n", 0, comment.start()) + 1
         example = next((each for each in reversed(found) if all_blocks[each.written].line < line), None)
         if example is None:
             raise InputError(f"{path}:{line}: no model that the page runs stands before '{comment.group(0)}'")

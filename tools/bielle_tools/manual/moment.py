@@ -31,7 +31,7 @@ def telling_moment(path):
         size = float(np.linalg.norm(high - low)) or 1.0
         moved = _displacements(scene, rows) / size
         near = np.array([_diagonal(scene, rows[[0, k]]) <= LARGEST * size for k in range(len(rows))])
-        width = np.array([np.sort(np.ptp(scene.bounds(rows[[k]]), axis=0))[1] for k in range(len(rows))])  # of the second longest side
+        width = np.array([np.sort(np.ptp(scene.bounds(rows[[k]]), axis=0))[1] for k in range(len(rows))])  # second longest side
         score = moved / max(moved[near].max(), LEAST) + WIDE * width / max(width.max(), 1e-12 * size)
         best = int(np.argmax(np.where(near, score, -1)))
         if moved[best] < LEAST and moved.max() >= LEAST:  # it leaves within a row

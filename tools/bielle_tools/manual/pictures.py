@@ -158,8 +158,9 @@ class Artist:
 
 
 class Facts:
-    """What results have to show. title; rows: number of times; moves: whether there are several; static; modes: their number;
-    first_elastic: number of the first mode that is no rigid one; figure: one of FIGURES, empty without; quantities: words of bielle-plot."""
+    """Facts about results that choose pictures. title; rows: number of times; axis: their meaning; moves: whether there are several;
+    modes: whether there are modes; first_elastic: number of the first mode that is no rigid one; figure: one of FIGURES, empty
+    without; quantities: words of bielle-plot."""
 
     def __init__(self, results):
         self.title, self.rows = results.title, len(results.time)

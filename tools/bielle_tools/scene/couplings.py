@@ -18,7 +18,7 @@ from .transforms import between
 TYPES = ("gear", "differential", "rack_and_pinion", "cam")
 SLIDING = ("prismatic",)  # types of joints whose only coordinate is a displacement
 TEETH = 12
-RADIUS, WIDTH, STEP = 2.0, 0.4, 0.6  # of wheels, and between those on one axis, in sizes of symbols
+RADIUS, WIDTH, STEP = 2.0, 0.4, 0.6  # radius and width of a wheel, distance of those on one axis, in sizes of symbols
 
 
 def coupling_items(results, items):

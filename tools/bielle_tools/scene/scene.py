@@ -57,7 +57,7 @@ class Scene:
         """Least and largest coordinates (3) of what is drawn in the rows."""
         low, high = np.full(3, np.inf), np.full(3, -np.inf)
         for part in self.parts:
-            if part.group == "ground" and part.mesh.lines.size:
+            if part.mesh.lines.size:
                 continue  # planes extend without end
             poses = self.poses(part, rows)
             if len(self.parts) > MANY:
