@@ -16,12 +16,12 @@ FEWEST = 2   # things attached to a node without a shape, from which on arms are
 
 def arms_of(builder, items):
     """Parts. builder.covered: {node: [(entry, type, low (3), high (3))]}, boxes of shapes in the axes of the node"""
-    drawn = {item.get("node") for item in items if item["shape"] == "body"}
+    bodies, nodes = ({item.get("node") for item in items if item["shape"] == shape} for shape in ("body", "node"))
     flexible = {item["element"].partition("/")[2] for item in items if item["shape"] in ("beam", "superelement")}
     found = []
     for node, points in builder.attached.items():
         boxes = builder.covered.get(node, [])
-        if node in drawn or node.rpartition(".")[0] in flexible or not boxes and len(points) < FEWEST:
+        if node in bodies or node.rpartition(".")[0] in flexible or not boxes and (node not in nodes or len(points) < FEWEST):
             continue
         pieces = [_arm(np.asarray(point), boxes, builder.symbol) for point in np.unique(np.round(points, 12), axis=0)]
         pieces = [piece for piece in pieces if piece is not None]
