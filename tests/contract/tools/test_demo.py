@@ -19,7 +19,7 @@ class Demo(unittest.TestCase):
         if os.path.exists(superelement):
             os.remove(superelement)  # result of an earlier run, which would be reused
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([os.path.join(REPOSITORY, "tools", "demo"), folder], text=True, capture_output=True,
+            done = subprocess.run([os.path.join(REPOSITORY, "tools", "demo"), "-o", folder], text=True, capture_output=True,
                                   stdin=subprocess.DEVNULL, timeout=1500, env={**os.environ, "DISPLAY": ""})
             self.assertEqual(done.returncode, 0, done.stderr)
             named = re.findall(r"^  (\S+\.\w+)(?:, (\S+\.\w+))?  ", done.stdout, re.MULTILINE)

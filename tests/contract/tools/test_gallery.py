@@ -47,7 +47,7 @@ class Making(InFolder):
         self.machine("without_figure", ('figure="pivot.reaction.norm.png"', 'figure="pivots.png"'))
         self.machine("crashing", ("growing, _ = errors", "growing, _ = 1 / 0, errors"))
         self.machine("empty", ("    growing, _", "    return []\n    growing, _"))
-        done = gallery(self.path("out"), "--machines", self.path("machines"))
+        done = gallery("-o", self.path("out"), "--machines", self.path("machines"))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("gallery: failed: crashing, empty, moved, refused, without_figure", done.stderr)
         self.assertRegex(done.stdout, r"(?m)^good +exponent of the growth per revolution \[-\] +6\.2\d+ +6\.28319 ")
@@ -66,14 +66,14 @@ class Making(InFolder):
         os.mkdir(self.path("machines"))
         self.write("machines/nothing.py", "MACHINE = 1\n")
         os.mkdir(self.path("none"))
-        for arguments, sentence in ((["--only", "engin"], "there is no machine 'engin'; did you mean 'engine'?"),
-                                    (["--only", ""], "there is no machine ''"),
+        for arguments, sentence in ((["engin"], "there is no machine 'engin'; did you mean 'engine'?"),
+                                    ([""], "there is no machine ''"),
                                     (["-j", "0"], "'0': expected a whole number between 1 and 1000"),
                                     (["--fast"], "'--fast' is not an option"),
                                     (["--machines", self.path("absent")], "is not a folder"),
                                     (["--machines", self.path("none")], "has no machines"),
                                     (["--machines", self.path("machines")], "nothing.py' defines no MACHINE")):
-            done = gallery(self.path("out"), *arguments)
+            done = gallery("-o", self.path("out"), *arguments)
             self.assertEqual(done.returncode, 1, (arguments, done.stderr))
             self.assertIn(sentence, done.stderr)
             self.assertFalse(os.path.exists(self.path("out")))

@@ -3,20 +3,10 @@
 import math
 import re
 
-from bielle_tools.html_parts import mark, table, text
+from bielle_tools.html_parts import document, mark, table, text
 
 SUBJECTS = ["Rigid mechanisms", "Beams at rest", "Beams in motion", "Solids and superelements",
             "Hydraulics and friction", "Integration in time"]
-STYLE = """
-body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 66em; padding: 0 1em; color: #222; }
-table { border-collapse: collapse; margin: 0.6em 0 1em; font-size: 13px; }
-th, td { border-bottom: 1px solid #ddd; padding: 0.2em 0.7em; text-align: left; vertical-align: top; }
-th { background: #f2f4f6; } td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-h2 { margin-top: 2em; border-bottom: 2px solid #345; } h3 { margin-bottom: 0.2em; } h4 { margin: 1em 0 0.2em; }
-.passed { color: #00693e; font-weight: bold; } .failed { color: #b00020; font-weight: bold; }
-.failures { background: #fdecee; padding: 0.4em 1em; } .quiet { color: #666; font-size: 13px; }
-svg { max-width: 100%; height: auto; } a { color: #0b5394; }
-"""
 
 
 def page(results, facts, quick):
@@ -28,9 +18,7 @@ def page(results, facts, quick):
         verdict = f"{len(failed)} of {len(results)} problems failed: {names}"
     results = dict(sorted(results.items(), key=lambda item: (place(item[1]["subject"]), item[1]["title"])))
     subjects = list(dict.fromkeys(result["subject"] for result in results.values()))
-    parts = ["<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Bielle: verification</title>",
-             f"<style>{STYLE}</style></head><body>",
-             "<h1>Verification of Bielle</h1>", f"<p class='{'failed' if failed else 'passed'}'>{text(verdict)}.</p>",
+    parts = ["<h1>Verification of Bielle</h1>", f"<p class='{'failed' if failed else 'passed'}'>{text(verdict)}.</p>",
              "<p>Each problem has an exact or published reference. Models were computed for this page, at several "
              "steps or meshes; errors, observed orders and processor times "
              "are those of this run. A problem passes if the error of the last level is within the stated tolerance "
@@ -42,7 +30,7 @@ def page(results, facts, quick):
     for subject in subjects:
         parts.append(f"<h2>{text(subject or 'Problems')}</h2>")
         parts += [section(result) for result in results.values() if result["subject"] == subject]
-    return "\n".join(filter(None, parts)) + "\n</body></html>\n"
+    return document("Bielle: verification", parts)
 
 
 def place(subject):

@@ -21,6 +21,7 @@ from ..messages import InputError
 BLOCK = re.compile(r"(?:^<!-- not run: ([^\n]+) -->\n)?^```(\w*)\n(.*?)^```$(?:\n<!-- closed form(?: within (\S+))?: ([^\n]+) -->$)?", re.DOTALL | re.MULTILINE)
 FILE_NAME = re.compile(r"(?:#|//|\*\*) ([\w-]+\.\w+)\n")
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+LONGEST = 900  # [s] for one command
 TOLERANCE = 0.01  # relative, of numbers in output: pages show the digits of one compiler and one BLAS
 CLOSED_FORM_TOLERANCE = 1e-3  # relative, of the closed forms of which the page tells no other
 
@@ -91,8 +92,11 @@ def _run_commands(path, block, folder, environment):
     for number, line in enumerate(block.text.splitlines()):
         if line.startswith("export ") or not line.strip():
             continue
-        done = subprocess.run(["bash", "-c", line], cwd=folder, env=environment, capture_output=True, text=True, timeout=300,
-                              stdin=subprocess.DEVNULL)
+        try:
+            done = subprocess.run(["bash", "-c", line], cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST,
+                                  stdin=subprocess.DEVNULL)
+        except subprocess.TimeoutExpired:
+            raise InputError(f"{path}:{block.line + number}: '{line}' did not end within {LONGEST} s") from None
         if done.returncode:
             raise InputError(f"{path}:{block.line + number}: '{line}' ended with status {done.returncode}: {done.stderr.strip()}")
         output = done.stdout

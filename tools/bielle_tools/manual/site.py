@@ -7,6 +7,7 @@ import shutil
 import subprocess
 
 from ..messages import InputError
+from .pages import BLOCK
 from .source_messages import explained, list_of_messages
 
 CONTENTS = {  # page that leads a part, and the pages of the part, in order
@@ -29,6 +30,9 @@ html_show_copyright = False
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header", "misc.highlighting_failure"]
 """
+ALT = re.compile(r"[\[\]\\`*_<>]")  # letters with a meaning in the text of an image
+EXAMPLES = "Examples"  # title of the part with pages of the site alone
+PLACE = "<!-- pictures -->"
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 
 
@@ -45,15 +49,22 @@ def pages_of(repository):
     return parts
 
 
-def write_sources(repository, folder):
-    """Copies the pages, and the files that they link to, into the folder of Sphinx's sources; adds configuration and contents."""
+def write_sources(repository, folder, gathered=None, own=None):
+    """Copies the pages, and the files that they link to, into the folder of Sphinx's sources; adds configuration and contents.
+    gathered: a Gathered, whose pictures are put into the pages; own: {page: path} of pages of the site alone"""
     parts = pages_of(repository)
+    if own:
+        parts[EXAMPLES] = list(own)
     pages = {page for part in parts.values() for page in part}
     for page in pages:
         target = os.path.join(folder, page)
         os.makedirs(os.path.dirname(target), exist_ok=True)
-        with open(os.path.join(repository, page), encoding="utf-8") as file:
+        with open((own or {}).get(page, os.path.join(repository, page)), encoding="utf-8") as file:
             text = file.read()
+        if gathered and page in gathered.pictures:
+            text = _with_pictures(text, gathered.pictures[page])
+            for picture in gathered.pictures[page]:
+                shutil.copy(os.path.join(gathered.folders[page], picture.name), os.path.dirname(target))
         with open(target, "w", encoding="utf-8") as file:
             file.write(LINK.sub(lambda match: _link(match, repository, page, pages, folder), text))
     _write_all_messages(repository, folder)
@@ -74,6 +85,22 @@ def _write_all_messages(repository, folder):
             explanations[os.path.basename(path)] = explained(file.read())
     with open(os.path.join(folder, ALL_MESSAGES), "w", encoding="utf-8") as file:
         file.write(list_of_messages(repository, explanations))
+
+
+def _with_pictures(text, pictures):
+    """A page with its pictures after the blocks to which they belong, or all at one place."""
+    ends = [match.end() for match in BLOCK.finditer(text)]
+    if PLACE in text:
+        images = "\n\n".join(_image(picture) for picture in pictures if picture.after is not None)
+        return text.replace(PLACE, images, 1)
+    for picture in sorted((each for each in pictures if each.after is not None), key=lambda each: each.after, reverse=True):
+        place = ends[picture.after]
+        text = f"{text[:place]}\n\n{_image(picture)}\n{text[place:]}"
+    return text
+
+
+def _image(picture):
+    return f"![{ALT.sub(' ', picture.alt)}]({picture.name})"
 
 
 def _link(match, repository, page, pages, folder):

@@ -23,7 +23,7 @@ MOST_NOTES = 5
 class Look:
     """How to draw. view: one of VIEWS, OBLIQUE or None; scale: factor of elastic displacements; span: first and last time;
     superelements {element: path}; follow: a node that stays in place; hide: patterns; size: (width, height) or None; labels: names of
-    entries on the picture."""
+    entries on the picture; ghost: the first position of the analysis in grey behind each picture."""
 
     view: str = None
     scale: float = 1.0
@@ -33,6 +33,7 @@ class Look:
     hide: list = field(default_factory=list)
     size: tuple = None
     labels: bool = False
+    ghost: bool = False
 
 
 class Shot:
@@ -56,6 +57,8 @@ class Shot:
             raise InputError("--hide leaves nothing to draw")
         if hasattr(results, "at_rest"):
             self.surfaces.insert(0, Surfaces(make_scene(results.at_rest(), look.superelements), [0], paint=UNDEFORMED, hidden=hidden))
+        elif look.ghost:
+            self.surfaces.insert(0, Surfaces(scene, [0], paint=UNDEFORMED, hidden=lambda part: part.group == "ground" or hidden(part)))
         self.highest = self.surfaces[-1].highest
         self.moved = self._moved(results, look.follow)
         extent = self._extent(view_axes(look.view, scene.planar), results)
@@ -117,9 +120,10 @@ class Shot:
         """Names of entries, and the places (rows,n,3) of their labels."""
         names, places = [], []
         for anchor in scene.anchors:
-            if hidden(anchor.part):
+            name = anchor.entry.partition("/")[2] or anchor.entry
+            if hidden(anchor.part) or name in names:  # a body often has the name of its node
                 continue
-            names.append(anchor.entry.partition("/")[2] or anchor.entry)
+            names.append(name)
             if hasattr(anchor.part, "frame"):
                 frame = np.asarray(anchor.part.frame(self.rows), float)
                 pose = np.column_stack([frame, np.ones(len(frame))])

@@ -80,7 +80,7 @@ class Surfaces:
         known = part.entry in self.marks and not self.paint
         colour = marked(colour) if known else muted(colour) if self.muted else colour
         rgba = np.array([*shares_of(colour), np.rint(255 * np.clip(opacity, 0, 1))], np.uint8)
-        self._endless.append(np.full(len(points), part.group == "ground" and len(lines) > 0))  # planes have no end
+        self._endless.append(np.full(len(points), len(lines) > 0))  # planes have no end
         self._points.append(points)
         self._normals.append(normals)
         self._colours.append(np.tile(rgba, (len(points), 1)))

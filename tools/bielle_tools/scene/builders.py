@@ -6,6 +6,7 @@ from ..results.quaternions import conjugate, from_z, rotated
 from . import symbols
 from . import templates as t
 from .beams import beam_mesh, beam_motion, beam_rest, beam_stress, turns_of
+from .couplings import coupling
 from .course import Course
 from .drawing import place_of, positive
 from .links import Ends, bar_mesh, rope_mesh
@@ -24,6 +25,7 @@ class Builder:
         self.planes = []  # DrawnPlanes
         self.around = 24  # corners of symbols around an axis
         self.attached = {}  # node -> positions in its axes of what is attached to it
+        self.covered = {}  # node -> (entry, type, low (3), high (3)): boxes of its shapes in its axes
 
     def parts(self, item):
         """@raises InputError, ValueError, KeyError, TypeError"""
@@ -37,6 +39,9 @@ class Builder:
             group, opacity = "contact", min(opacity, 0.5)
         elif item.get("role") == "support":
             group = "ground"
+        elif group == "body" and place.node != "ground":
+            points = np.array(place.position) + rotated(np.array(place.rotation), mesh.points)
+            self.covered.setdefault(place.node, []).append((item["entry"], item["type"], points.min(axis=0), points.max(axis=0)))
         colour = self.colour(item, colour or (COLOURS["ground"] if place.node == "ground" else self.palette.of(place.node)))
         return Part(item["entry"], item["type"], mesh, colour, float(item.get("opacity", opacity)), group,
                     lambda rows: self.motion.poses(place, rows)[:, None])
@@ -218,7 +223,7 @@ BUILDERS = {
     "cone": lambda b, item: [b.rigid(item, t.cone([float(r) for r in item["radii"]], *positive(item["length"]), 36))],
     "sphere": lambda b, item: [b.rigid(item, t.sphere(*positive(item["radius"]), 16, 32))],
     "mesh": _mesh, "ellipsoid": _ellipsoid, "gear": _gear, "pulley": _pulley, "tyre": _tyre, "cam": _cam, "plane": _plane, "curve": _curve,
-    "body": _body, "support": _support, "joint": _joint, "stiffness": _stiffness, "beam": _beam, "superelement": _superelement, "course": _course,
+    "body": _body, "support": _support, "joint": _joint, "stiffness": _stiffness, "coupling": coupling, "beam": _beam, "superelement": _superelement, "course": _course,
     "node": lambda b, item: [b.rigid(item, t.sphere(0.28 * b.symbol, b.around // 4, b.around // 2), "node", COLOURS["node"])],
     "bar": lambda b, item: [b.link(item, bar_mesh(float(item.get("radius", 0.3 * b.symbol))), COLOURS["bar"], "body")],
     "rope": lambda b, item: [b.link(item, rope_mesh(0.16 * b.symbol), COLOURS["rope"], "rope")],

@@ -5,13 +5,16 @@ import numpy as np
 from ..messages import InputError
 from ..results.quaternions import conjugate, product
 from ..results.results_file import LARGEST
+from .arms import arms_of
 from .attachments import attachments
 from .builders import BUILDERS, Builder
+from .couplings import coupling_items
 from .drawing import Drawing, places_of
 from .flexible import FlexibleBodies, surface_points
 from .motion import Motion, NotRecorded
 from .parts import Anchor, FlexiblePart
 from .planes import drawn_planes
+from .released import Released
 from .style import Palette, Style
 from .transforms import placed
 
@@ -32,13 +35,15 @@ class Scene:
         self.results, self.rows = results, np.arange(len(results.time))
         self.motion_of_nodes = Motion(results)
         drawing = Drawing(results)
-        self.gravity, self.notes, self.items, self.from_file = drawing.gravity, list(drawing.notes), drawing.items, drawing.from_file
+        self.gravity, self.notes, self.from_file = drawing.gravity, list(drawing.notes), drawing.from_file
+        self.items = drawing.items + coupling_items(results, drawing.items)
         self.parts, self.flexible, self.anchors = [], [], []
         builder = Builder(self.motion_of_nodes, drawing, Palette(style), FlexibleBodies(results, superelements))
         self._measure(builder, style)
-        self._unknown = {}
+        self._unknown, self._released = {}, Released(results)
         for item in self.items:
             self._add(builder, item)
+        self.parts += arms_of(builder, self.items)
         self.notes += [("/drawing", f"items of the shape '{shape}' are not known here: {count}") for shape, count in self._unknown.items()]
         self.low, self.high = low, high = self.bounds(self._samples())
         self.size = float(np.linalg.norm(high - low)) or 1.0
@@ -52,7 +57,7 @@ class Scene:
         """Least and largest coordinates (3) of what is drawn in the rows."""
         low, high = np.full(3, np.inf), np.full(3, -np.inf)
         for part in self.parts:
-            if part.group == "ground" and part.mesh.lines.size:
+            if part.mesh.lines.size:
                 continue  # planes extend without end
             poses = self.poses(part, rows)
             if len(self.parts) > MANY:
@@ -76,12 +81,15 @@ class Scene:
         first, joints, paths = [], [], []
         for item in self.items:
             try:
+                own = []
                 for place in places_of(item):
                     x = self.motion_of_nodes.first(place)
                     if item["shape"] != "plane" and np.isfinite(x).all():
-                        first.append(x)
+                        own.append(x)
                         paths.append(self.motion_of_nodes.position(place, self._samples()))
-                        joints += [x] if item["shape"] in ("joint", "node") else []
+                first += own
+                if own and item["shape"] in ("joint", "node"):
+                    joints.append(np.mean(own, axis=0))  # frames of an elastic joint are close to each other
                 if item["shape"] in ("beam", "superelement"):
                     first += self._element_points(item)
             except (InputError, KeyError, TypeError, ValueError, AttributeError, ArithmeticError):
@@ -146,6 +154,7 @@ class Scene:
             parts = builder.parts(item)
             for part in parts:  # a part whose motion cannot be read is told here, not while it plays
                 (part.frame if isinstance(part, FlexiblePart) else part.motion)(self.rows[:1])
+            self._released.apply(item, parts)
         except (InputError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
             if not (isinstance(error, NotRecorded) and item["shape"] == "node"):  # `output: only` left out the node itself
                 self.notes.append((item["entry"], _reason(error)))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 BODIES = ("#5b84b1", "#d98c4a", "#6aa56f", "#b3687f", "#8a7bb8", "#c9b04d", "#4f9ba3", "#a77b5a", "#7f93a8", "#9aaa4e")
 COLOURS = {"outer": "#5c6a7c", "inner": "#d5d9de", "spring": "#3f9b62", "damper": "#707884", "rod": "#d3d7dc", "rope": "#6e5638",
            "node": "#20242a", "support": "#8b8f96", "ground": "#9aa3ad", "contact": "#d9a441", "force": "#cf3d3d", "mark": "#2d3138",
-           "bar": "#8791a0", "stiffness": "#3f9b62", "marked": "#d3262f"}
+           "bar": "#8791a0", "coupling": "#b08d3c", "stiffness": "#3f9b62", "marked": "#d3262f"}
 MARKED = 0.65  # share of the colour of marks
 DARKEST = 33  # least share of red, green and blue, up to 255: shading does not show on darker colours
 

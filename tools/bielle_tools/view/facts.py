@@ -1,22 +1,13 @@
 """Facts about a run: keys of entries in the input file, events."""
 
-import yaml
+from ..results.model_text import entries_of
 
 LONGEST = 160  # characters of a value
 
 
 def keys_of(results):
-    """{entry: [[key, value as written]]} of the input file; entries that parts and repetitions make have none."""
-    try:
-        tree = yaml.load(results.text_of("input"), Loader=getattr(yaml, "CBaseLoader", yaml.BaseLoader))
-    except (yaml.YAMLError, RecursionError):
-        return {}
-    found = {}
-    for section, entries in (tree.items() if isinstance(tree, dict) else ()):
-        for name, entry in (entries.items() if isinstance(entries, dict) else ()):
-            if isinstance(entry, dict):
-                found[f"{section}/{name}"] = [[str(key), _written(value)] for key, value in entry.items()]
-    return found
+    """{entry: [[key, value as written]]} of the model, in which parts and repetitions are written out."""
+    return {place: [[str(key), _written(value)] for key, value in entry.items()] for place, entry in entries_of(results).items()}
 
 
 def _written(value):

@@ -1,0 +1,191 @@
+"""Entries of a scene that are drawn by what they do: released ones are absent, couplings have symbols, bodies have arms to what they carry."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(HERE))
+
+from in_folder import REPOSITORY, InFolder  # noqa: E402
+
+sys.path[:0] = [os.path.join(REPOSITORY, "tools"), HERE]
+
+from bielle_tools.results import Results  # noqa: E402
+from bielle_tools.results.activity import Activity  # noqa: E402
+from bielle_tools.scene import make_scene  # noqa: E402
+from bielle_tools.scene.transforms import placed  # noqa: E402
+from drawn_results import resting, turning, write_results  # noqa: E402
+
+PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+MODEL = """mechanism: shafts
+nodes: {a: {position: [0, 0, 0]}, b: {position: [0.3, 0, 0]}, c: {position: [0.6, 0, 0]}, s: {position: [0.6, 0.3, 0]}}
+elements:
+  a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  b: {type: rigid_body, node: b, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  c: {type: rigid_body, node: c, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  s: {type: rigid_body, node: s, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  spring: {type: spring_damper, nodes: [a, c], stiffness: 1, active: false}
+joints:
+  ja: {type: hinge, nodes: [ground, a], axis: [0, 0, 1], start_rate: 1}
+  jb: {type: hinge, nodes: [ground, b], axis: [0, 0, 1]}
+  jc: {type: hinge, nodes: [ground, c], axis: [0, 0, 1]}
+  slide: {type: prismatic, nodes: [ground, s], axis: [1, 0, 0]}
+  pair: {type: gear, joints: [ja, jb.angle], ratio: -2}
+  axle: {type: differential, joints: [jb, {joint: ja, coordinate: angle}, jc]}
+  rack: {type: rack_and_pinion, joints: [jc, slide], radius: 0.05}
+  rope: {type: distance, nodes: [a, c], active: true}
+  never: {type: distance, nodes: [a, b], active: false}
+events:
+  loose: {when: t, crosses: 0.105, do: [{release: rope}, {activate: spring}]}
+  calm: {when: t, crosses: 0.155, do: [{release: spring}, {release: pair}]}
+analysis:
+  - {type: dynamic, duration: 0.2, step: 0.01}
+  - {type: dynamic, duration: 0.05, step: 0.01}
+"""
+
+
+class Entries(InFolder):
+    def scene(self, path, analysis=None):
+        results = Results(path, analysis)
+        self.addCleanup(results.file.close)
+        return make_scene(results)
+
+    def written(self, nodes, items, **options):
+        """The path of a new results file."""
+        return write_results(self.path(f"run_{len(os.listdir(self.folder))}.h5"), nodes, items, **options)
+
+    def shown(self, scene, entry):
+        """(rows) whether parts of the entry have poses that are numbers; all parts agree."""
+        poses = [np.isfinite(scene.poses(part, scene.rows)).all(axis=(1, 2)) for part in scene.parts if part.entry == entry]
+        self.assertTrue(poses, f"'{entry}' is not drawn")
+        for each in poses[1:]:
+            np.testing.assert_array_equal(each, poses[0])
+        return poses[0]
+
+
+class Released(Entries):
+    def run_model(self, *options):
+        self.write("model.yaml", MODEL)
+        done = subprocess.run([PROGRAM, "model.yaml", *options, "--quiet"], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.path("model.h5")
+
+    def test_an_entry_is_drawn_while_it_acts(self):
+        path = self.run_model()
+        first, last = self.scene(path, 1), self.scene(path, 2)
+        time = first.results.time
+        self.assertGreater(np.count_nonzero(time < 0.1), 5)
+        for entry, expected in (("joints/rope", time < 0.105), ("elements/spring", (time >= 0.105) & (time < 0.155)), ("joints/never", time < 0),
+                                ("joints/pair", time < 0.155), ("joints/axle", time >= 0), ("elements/a", time >= 0)):
+            with self.subTest(entry):
+                np.testing.assert_array_equal(self.shown(first, entry), expected)
+        for entry, expected in (("joints/rope", False), ("elements/spring", False), ("joints/never", False), ("joints/pair", False), ("joints/axle", True)):
+            with self.subTest(entry + " in the next analysis"):
+                self.assertTrue((self.shown(last, entry) == expected).all())
+        self.assertEqual([first.notes, last.notes], [[], []])
+
+    def test_both_layouts_agree(self):
+        self.write("model.yaml", MODEL)
+        path = self.run_model()
+        plain = Activity(self.scene(path, 1).results).acts("joints/rope")
+        self.write("model.yaml", MODEL + "output: {layout: stacked}\n")
+        done = subprocess.run([PROGRAM, "model.yaml", "--quiet", "-o", "stacked.h5"], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        np.testing.assert_array_equal(Activity(self.scene(self.path("stacked.h5"), 1).results).acts("joints/rope"), plain)
+
+    def test_a_released_part_does_not_change_the_bounds(self):
+        """The rope spans 10 m and is released before the rows."""
+        items = [{"entry": "elements/box", "type": "rigid_body", "shape": "box", "node": "n", "size": [1, 1, 1]},
+                 {"entry": "joints/rope", "type": "distance", "shape": "bar", "ends": [{"node": "n"}, {"node": "ground", "position": [10, 0, 0]}]}]
+        for text, reach in (("", 10), ("joints: {rope: {active: false}}", 0.5), ("joints: {rope: {active: true}}", 10), ("joints: {other: {active: false}}", 10),
+                            ("{ damaged", 10), ("joints: [1, 2]", 10)):
+            def extra(file, text=text):
+                file["input"] = text
+            scene = self.scene(self.written({"n": resting(3)}, items, extra=extra))
+            self.assertAlmostEqual(scene.high[0], reach, delta=0.1, msg=text)
+
+    def test_damaged_events_leave_everything_drawn(self):
+        items = [{"entry": "joints/rope", "type": "distance", "shape": "bar", "ends": [{"node": "n"}, {"node": "ground", "position": [1, 0, 0]}]}]
+        for crossing, time in (([7], [0.0]), ([-1], [0.0]), ([0], []), ("text", "text")):
+            def extra(file, crossing=crossing, time=time):
+                file["crossings"] = "event 'e': releases 'rope'\n"
+                file["analysis_1/events/time"], file["analysis_1/events/crossing"] = time, crossing
+            scene = self.scene(self.written({"n": resting(3)}, items, extra=extra))
+            self.assertTrue(self.shown(scene, "joints/rope").all(), crossing)
+
+
+class Couplings(Entries):
+    def items(self):
+        return [{"entry": f"joints/{name}", "type": kind, "shape": "joint", "frames": [{"node": "ground", "position": [x, 0, 0]}, {"node": name}]}
+                for name, kind, x in (("a", "hinge", 0), ("b", "hinge", 2), ("c", "prismatic", 4))]
+
+    def coupled(self, text, items=None):
+        nodes = {name: (np.tile([float(x), 0, 0], (5, 1)), turning(5, [0, 0, 1])) for name, x in (("a", 0), ("b", 2), ("c", 4))}
+
+        def extra(file):
+            file["input"] = text
+        return self.scene(self.written(nodes, items or self.items(), extra=extra))
+
+    def test_each_coordinate_has_a_symbol_that_moves_with_the_second_node(self):
+        scene = self.coupled("joints: {pair: {type: gear, joints: [a, b.angle]}, rack: {type: rack_and_pinion, joints: [{joint: b}, c]}}")
+        for entry, places in (("joints/pair", (0, 2)), ("joints/rack", (2, 4))):
+            parts = [part for part in scene.parts if part.entry == entry]
+            self.assertEqual(len(parts), 3)  # two symbols and the line between them
+            for part, x in zip(parts, places):
+                poses = scene.poses(part, scene.rows)
+                np.testing.assert_allclose(poses[:, 0, :3], [[x, 0, 0]] * 5, atol=1e-12)
+                points = placed(poses[:, part.mesh.bones], part.mesh.points)
+                self.assertGreater(np.linalg.norm(points[4] - points[0], axis=1).max(), 0.3 * scene.symbol)  # it turns by 0.4 rad
+        levels = [part.mesh.points[:, 2].mean() for part in scene.parts if part.entry in ("joints/pair", "joints/rack") and abs(scene.poses(part, [0])[0, 0, 0] - 2) < 1e-9
+                  and part.mesh.bone_count == 1 and part.mesh.points[:, 2].max() < 5 * scene.symbol]
+        self.assertGreater(np.ptp(levels), 0.3 * scene.symbol, "two symbols on one joint do not coincide")
+
+    def test_all_couplings_of_a_run_are_drawn_once(self):
+        drawn = self.items() + [{"entry": "joints/pair", "type": "gear", "shape": "gear", "node": "a", "radius": 0.5}]
+        scene = self.coupled("joints: {pair: {type: gear, joints: [a, b]}, cam: {type: cam, joints: [a, c], lift: lift.csv}}", drawn)
+        self.assertEqual(len([part for part in scene.parts if part.entry == "joints/pair"]), 2, "the wheel and its mark alone")
+        self.assertEqual(len([part for part in scene.parts if part.entry == "joints/cam"]), 3)
+
+    def test_unknown_joints_are_left_out(self):
+        for text, parts in (("[a, zz]", 1), ("[zz, yy]", 0), ("[a*2, b]", 1), ("{a: 1}", 0), ("[[a], b]", 1), ("a", 0)):
+            scene = self.coupled(f"joints: {{pair: {{type: gear, joints: {text}}}}}")
+            self.assertEqual((len([part for part in scene.parts if part.entry == "joints/pair"]), scene.notes), (parts, []), text)
+
+
+class Arms(Entries):
+    def test_a_body_reaches_what_is_attached_apart_from_its_shape(self):
+        items = [{"entry": "elements/bob", "type": "rigid_body", "shape": "sphere", "node": "n", "radius": 0.1},
+                 {"entry": "joints/pivot", "type": "hinge", "shape": "joint", "frames": [{"node": "ground"}, {"node": "n", "position": [-1, 0, 0]}]}]
+        for shape, far in (({"position": [0, 0, 0]}, True), ({"position": [-0.95, 0, 0]}, False)):
+            items[0].update(shape)
+            scene = self.scene(self.written({"n": resting(2, (1, 0, 0))}, items))
+            parts = [part for part in scene.parts if part.entry == "elements/bob"]
+            self.assertEqual(len(parts), 2 if far else 1, shape)
+            if far:
+                low, high = parts[1].mesh.points.min(axis=0), parts[1].mesh.points.max(axis=0)
+                self.assertAlmostEqual(low[0], -1, delta=1e-9)
+                self.assertTrue(-0.1 < high[0] < 0)
+                self.assertLess(max(high[1:] - low[1:]), scene.symbol)
+
+    def test_a_node_without_a_body_joins_what_is_attached(self):
+        def joint(name, x):
+            return {"entry": f"joints/{name}", "type": "hinge", "shape": "joint", "frames": [{"node": "ground", "position": [x, 0, 0]}, {"node": "n", "position": [x, 0, 0]}]}
+        node = {"entry": "nodes/n", "type": "node", "shape": "node", "node": "n"}
+        for joints, arms in (([joint("one", -1), joint("two", 1)], 1), ([joint("one", -1)], 0), ([joint("one", 0), joint("two", 0)], 0)):
+            scene = self.scene(self.written({"n": resting(2)}, [node, *joints]))
+            self.assertEqual(len([part for part in scene.parts if part.entry == "nodes/n"]), 1 + arms)
+
+    def test_frames_of_an_elastic_joint_do_not_shrink_symbols(self):
+        """Both frames of the bearing are 1e-4 of the machine apart: symbols follow from the distance of the joints."""
+        items = [{"entry": f"joints/{name}", "type": "bearing", "shape": "joint", "frames": [{"node": "ground", "position": [x, 0, 1e-4]}, {"node": "n", "position": [x, 0, 0]}]}
+                 for name, x in (("left", 0), ("right", 1))]
+        scene = self.scene(self.written({"n": resting(2)}, items))
+        self.assertAlmostEqual(scene.symbol, 0.02, delta=1e-4)
+
+
+if __name__ == "__main__":
+    unittest.main()
