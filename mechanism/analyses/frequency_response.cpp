@@ -6,7 +6,9 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "mechanism/analyses/delay_loops.hpp"
 #include "mechanism/analyses/modal_response.hpp"
 #include "mechanism/analyses/response_equations.hpp"
 #include "reduce/common/error.hpp"
@@ -21,6 +23,9 @@ using Complex = std::complex<double>;
       fmt::format("there is no response at {:.6g} Hz: it is a frequency at which the mechanism moves without any force",
                   frequency));
 }
+
+/// Returns the exponent s of motions with a frequency [Hz].
+Complex exponent(double frequency) { return {0, 2 * std::numbers::pi * frequency}; }
 
 /// Computes the response by one factorisation for each frequency.
 class DirectResponse {
@@ -67,7 +72,7 @@ class SuperposedResponse {
     constexpr double enough = 1e-3;
     if (result.modal->deviation > enough) check_rigid(*result.modal, found.modes, poles);
     for (const double frequency : options_.frequencies) {
-      const Complex s(0, 2 * std::numbers::pi * frequency);
+      const Complex s = exponent(frequency);
       if (frequency == 0 && rigid) {
         result.response.push_back(direct(s));
         continue;
@@ -123,20 +128,30 @@ class SuperposedResponse {
 }  // namespace
 
 FrequencyResponse compute_frequency_response(Session& session, const FrequencyResponseOptions& options) {
-  const ResponseEquations equations(session, options.inputs, options.outputs, options.rotation);
+  const DelayLoops loops(session.model());
+  const FrequencyResponseOptions opened = loops.opened(options);
+  const ResponseEquations equations(session, opened.inputs, opened.outputs, options.rotation);
   const LinearResponse& response = equations.response();
+  if (equations.harmonics() > 0 && !loops.none())
+    throw InputError(fmt::format(
+        "`rotation`: responses with harmonics of a rotation are those of mechanisms without delays; this one has {}",
+        fmt::join(describe_delays(session.model()), ", ")));
   FrequencyResponse result;
   static_cast<LinearisedSetting&>(result) = equations.setting();
   for (const ResponseOutput& output : options.outputs) result.output_units.push_back(response.units(output));
   if (options.modes > 0) {
     if (equations.harmonics() > 0)
       throw InputError("`modes`: responses with harmonics of a rotation are found directly: leave the key out");
-    SuperposedResponse(response, options).run(result);
-    return result;
+    SuperposedResponse(response, opened).run(result);
+  } else {
+    const DirectResponse direct(response, opened);
+    for (const double frequency : options.frequencies) result.response.push_back(direct(exponent(frequency)));
   }
-  const DirectResponse direct(response, options);
-  for (const double frequency : options.frequencies)
-    result.response.push_back(direct(Complex(0, 2 * std::numbers::pi * frequency)));
+  if (loops.none()) return result;
+  for (std::size_t k = 0; k < options.frequencies.size(); ++k) {
+    result.response[k] = loops.closed(result.response[k], exponent(options.frequencies[k]));
+    if (result.response[k].size() == 0) throw_no_response(options.frequencies[k]);
+  }
   return result;
 }
 

@@ -13,12 +13,16 @@
 
 namespace bielle::mechanism {
 
-/// A force or moment on a node along an inertial direction, or the number of an input of the model.
+class DelayedMeasure;
+
+/// A force or moment on a node along an inertial direction, the number of an input of the model, or an addition to a
+/// delayed value.
 struct ResponseInput {
   std::string name;  ///< name of the model's input; otherwise as it is recorded: "force x at node 'tip'"
-  int node = -1;     ///< node index; -1: an input of the model
+  int node = -1;     ///< node index; -1: an input of the model, or `delay`
   bool moment = false;
-  Vector3 direction = Vector3::Zero();  ///< unit vector
+  Vector3 direction = Vector3::Zero();    ///< unit vector
+  const DelayedMeasure* delay = nullptr;  ///< the delay whose value is added to
 };
 
 /// A measure of the model, or the displacement (or rotation) of a node along an inertial direction.
@@ -27,6 +31,7 @@ struct ResponseOutput {
   int node = -1;  ///< node index; -1: a measure
   bool rotation = false;
   Vector3 direction = Vector3::Zero();
+  const Measure* measure = nullptr;  ///< the measure, if not the one with the name
 };
 
 struct FrequencyResponseOptions {

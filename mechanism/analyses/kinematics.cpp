@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/analyses/delay_loops.hpp"
 #include "mechanism/model/event_actions.hpp"
 #include "mechanism/session/computation.hpp"
 #include "mechanism/session/time_grid.hpp"
@@ -238,6 +239,11 @@ void begin_kinematics(const Session& session, const KinematicsOptions& options, 
     assemble_positions(system, environment, state, report.start, conditions);
   report.indifferent = check_driven(system, environment, state, session.mobility(), options.elastic);
   report.elastic = options.elastic && session.mobility().degrees > 0;
+  if (const std::vector<std::string> delays = describe_delays(session.model()); report.elastic && !delays.empty())
+    throw InputError(fmt::format(
+        "{}: elastic parts follow a prescribed motion through states of equilibrium, which know no past; take a "
+        "dynamic analysis",
+        counted(delays.size(), "delay", "delays") + " (" + fmt::format("{}", fmt::join(delays, ", ")) + ")"));
   report.start.add(make_consistent(system, environment, state));
   computation.set_started();
 }

@@ -26,7 +26,7 @@ std::vector<VectorX> LinearResponse::right_sides(const std::vector<ResponseInput
   std::vector<VectorX> rights;
   for (const ResponseInput& input : inputs) {
     rights.push_back(right_side(input));
-    if (!rights.back().isZero(0)) continue;
+    if (!rights.back().isZero(0) || input.delay) continue;
     if (input.node >= 0)
       throw InputError(fmt::format("the input '{}' acts on nothing: the node is held in that direction", input.name));
     if (std::all_of(outputs.begin(), outputs.end(),
@@ -64,9 +64,9 @@ Eigen::MatrixXcd LinearResponse::at(const ShiftedOperator& D, const std::vector<
 void check_response_names(const Model& model, const std::vector<ResponseInput>& inputs,
                           const std::vector<ResponseOutput>& outputs) {
   for (const ResponseInput& input : inputs)
-    if (input.node < 0) check_named<InputMeasure>(model, input.name, "input");
+    if (input.node < 0 && !input.delay) check_named<InputMeasure>(model, input.name, "input");
   for (const ResponseOutput& output : outputs)
-    if (output.node < 0) check_named<Measure>(model, output.name, "measure");
+    if (output.node < 0 && !output.measure) check_named<Measure>(model, output.name, "measure");
 }
 
 }  // namespace bielle::mechanism

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mechanism/solvers/linearised/equations.hpp"
 #include "mechanism/solvers/linearised/harmonic_modes.hpp"
@@ -24,6 +25,8 @@ struct LinearisedSetting {
     double change = 0;  ///< relative change of the exponents by one more harmonic
   };
   std::optional<Turning> turning;
+  /// Delays that are taken as none (describe_delays).
+  std::vector<std::string> delays;
 };
 
 LinearisedSetting linearised_setting(const System& system, const Environment& environment, const State& state);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/analyses/delay_loops.hpp"
 #include "mechanism/analyses/turning_equations.hpp"
 #include "mechanism/solvers/linearised/growing_motions.hpp"
 #include "mechanism/solvers/linearised/whirl.hpp"
@@ -112,9 +113,11 @@ ModesReport compute_modes(Session& session, const ModesOptions& options) {
     } catch (const SingularEquations&) {
       throw_singular();
     }
+    report.delays = describe_delays(session.model());
     return report;
   }
   static_cast<LinearisedSetting&>(report) = linearised_setting(system, environment, state);
+  report.delays = describe_delays(session.model());
   if (options.axes) report.axes = *options.axes;
   report.equations =
       std::make_shared<const LinearisedEquations>(linearised_equations(system, environment, state, report.axes));

@@ -4,6 +4,7 @@
 #include "mechanism/solvers/start/assemble_positions.hpp"
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/rigid_start.hpp"
+#include "mechanism/system/echoes.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -16,6 +17,7 @@ StandingState present_state(const Session& session) {
   const bool of_statics = environment.statics;
   environment.statics = false;
   state.held.clear();
+  Echoes(system).forget(state);
   if (of_statics) {
     // The state is at rest, even if prescribed motions have a velocity at that time.
     system.begin_motion(state, environment, false);

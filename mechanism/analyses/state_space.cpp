@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/analyses/delay_loops.hpp"
 #include "mechanism/analyses/response_equations.hpp"
 #include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
@@ -142,6 +143,7 @@ StateSpace compute_state_space(Session& session, const StateSpaceOptions& option
     if (!T.regular()) continue;
     StateSpace result = StateSpaceBuilder(response, options, T).build();
     static_cast<LinearisedSetting&>(result) = response.setting();
+    result.delays = describe_delays(session.model());
     return result;
   }
   throw ComputationError("the linearised equations are singular whatever the frequency (`eigen` says of what)");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanism/measures/delayed_measure.hpp"
 #include "mechanism/measures/input_measure.hpp"
 
 namespace bielle::mechanism {
@@ -15,6 +16,10 @@ const Kind* measure_named(const Model& model, const std::string& name) {
   for (const Component* component : model.components_of({Section::measures, name}))
     if (const auto* measure = dynamic_cast<const Kind*>(component)) return measure;
   return nullptr;
+}
+
+const Measure& measure_of(const Model& model, const ResponseOutput& output) {
+  return output.measure ? *output.measure : *measure_named<Measure>(model, output.name);
 }
 
 }  // namespace
@@ -32,7 +37,7 @@ VectorX SteadyResponse::right_side(const ResponseInput& input) const {
     system_.kinematics().carry_forces(state_.nodes, forces);
     system_.kinematics().reduce_forces(forces, all.head(system_.kinematics().unknowns()));
   } else {
-    const InputStep step = step_of(input.name);
+    const InputStep step = step_of(input);
     VectorX other(system_.size());
     system_.residual(with(step, 1), environment_, all);
     system_.residual(with(step, -1), environment_, other);
@@ -63,7 +68,7 @@ Complex SteadyResponse::value(const ResponseOutput& output, const Variation& var
         output.rotation ? Eigen::Vector3cd(R * node.position.tail<3>()) : Eigen::Vector3cd(node.position.head<3>());
     return output.direction.cast<Complex>().dot(moved);
   }
-  const Measure& measure = *measure_named<Measure>(system_.model(), output.name);
+  const Measure& measure = measure_of(system_.model(), output);
   const Slots& slots = system_.slots_of(measure);
   MeasureGradient gradient;
   measure.calc(LocalState(state_, slots, environment_), gradient);
@@ -74,9 +79,9 @@ Complex SteadyResponse::value(const ResponseOutput& output, const Variation& var
 
 double SteadyResponse::direct(const ResponseOutput& output, const ResponseInput& input) const {
   if (output.node >= 0 || input.node >= 0) return 0;
-  const Measure& measure = *measure_named<Measure>(system_.model(), output.name);
+  const Measure& measure = measure_of(system_.model(), output);
   const Slots& slots = system_.slots_of(measure);
-  const InputStep step = step_of(input.name);
+  const InputStep step = step_of(input);
   const State ahead = with(step, 1), behind = with(step, -1);
   return (measure.value(LocalState(ahead, slots, environment_)) -
           measure.value(LocalState(behind, slots, environment_))) /
@@ -85,11 +90,13 @@ double SteadyResponse::direct(const ResponseOutput& output, const ResponseInput&
 
 std::string SteadyResponse::units(const ResponseOutput& output) const {
   if (output.node >= 0) return output.rotation ? "rad" : "m";
-  return measure_named<Measure>(system_.model(), output.name)->units();
+  return measure_of(system_.model(), output).units();
 }
 
-SteadyResponse::InputStep SteadyResponse::step_of(const std::string& name) const {
-  const int place = system_.slots_of(*measure_named<InputMeasure>(system_.model(), name)).memory_begin;
+SteadyResponse::InputStep SteadyResponse::step_of(const ResponseInput& input) const {
+  const int place = input.delay
+                        ? system_.slots_of(*input.delay).memory_begin + DelayedMeasure::disturbance
+                        : system_.slots_of(*measure_named<InputMeasure>(system_.model(), input.name)).memory_begin;
   return {place, 1e-4 * std::max(1.0, std::abs(state_.memory[place]))};
 }
 

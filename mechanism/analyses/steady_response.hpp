@@ -21,13 +21,13 @@ class SteadyResponse final : public LinearResponse {
 
  private:
   Complex value(const ResponseOutput& output, const Variation& variation) const;
-  /// Inputs of the model act through the forces that depend on them by formulas: the derivatives are central
-  /// differences, exact if the formulas are linear.
+  /// Inputs of the model and delayed values act through the forces that depend on them by formulas: the derivatives are
+  /// central differences, exact if the formulas are linear.
   struct InputStep {
     int place;  ///< index in the state's memory
     double size;
   };
-  InputStep step_of(const std::string& name) const;
+  InputStep step_of(const ResponseInput& input) const;
   State with(const InputStep& step, double steps) const;
 
   const System& system_;

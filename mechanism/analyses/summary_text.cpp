@@ -57,6 +57,26 @@ std::string format_carried(const CarriedPart& part) {
   return text + "\n";
 }
 
+/// Describes the axes of small motions about a state, and its lack of balance.
+std::string format_axes(const LinearisedSetting& setting, const char* what) {
+  constexpr double balanced = 1e-6;  // fraction of the largest force: equilibria are found to 1e-9
+  if (!setting.steadiness)
+    return setting.unbalance <= balanced
+               ? ""
+               : fmt::format(
+                     "  the state is at rest but no equilibrium: {} lacks {:.2g} of the largest force; {} are those of "
+                     "the equations as they are there (a static analysis before this one finds the equilibrium)\n",
+                     setting.unbalanced, setting.unbalance, what);
+  std::string text = fmt::format("  in motion, seen in axes that {}\n",
+                                 setting.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
+  if (!setting.steadiness->steady())
+    text += fmt::format(
+        "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and {} are "
+        "those of the equations as they are at this moment\n",
+        what);
+  return text;
+}
+
 }  // namespace
 
 std::string format_energies(const Energy& energy) {
@@ -190,22 +210,10 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
 }  // namespace
 
 std::string format_setting(const LinearisedSetting& setting, const char* what) {
-  if (setting.turning) return format_turning(*setting.turning);
-  constexpr double balanced = 1e-6;  // fraction of the largest force: equilibria are found to 1e-9
-  if (!setting.steadiness)
-    return setting.unbalance <= balanced
-               ? ""
-               : fmt::format(
-                     "  the state is at rest but no equilibrium: {} lacks {:.2g} of the largest force; {} are those of "
-                     "the equations as they are there (a static analysis before this one finds the equilibrium)\n",
-                     setting.unbalanced, setting.unbalance, what);
-  std::string text = fmt::format("  in motion, seen in axes that {}\n",
-                                 setting.axes == ModeAxes::turning ? "turn with each node" : "do not turn");
-  if (!setting.steadiness->steady())
-    text += fmt::format(
-        "  the motion is not steady, or not in axes of these kinds: the equations change while it goes on, and {} are "
-        "those of the equations as they are at this moment\n",
-        what);
+  std::string text = setting.turning ? format_turning(*setting.turning) : format_axes(setting, what);
+  if (!setting.delays.empty())
+    text += fmt::format("  warning: {} are those of the equations without delays: {}\n", what,
+                        fmt::join(setting.delays, ", "));
   return text;
 }
 

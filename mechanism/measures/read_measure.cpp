@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "mechanism/measures/combined_measure.hpp"
+#include "mechanism/measures/delayed_measure.hpp"
 #include "mechanism/measures/event_record.hpp"
 #include "mechanism/measures/node_measures.hpp"
 #include "mechanism/measures/released_measure.hpp"
@@ -18,12 +19,42 @@
 namespace bielle::mechanism {
 namespace {
 
+const Measure& measure_of(const YamlValue& value, const FormulaText& formula, Model& model);
+
+/// Lists the names in a formula, in the order in which they appear, each once.
+std::vector<std::string> words_in(const std::string& text) {
+  std::vector<std::string> words;
+  const auto inside = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    for (end = begin; end < text.size() && inside(text[end]);) ++end;
+    if (end == begin || std::isdigit(static_cast<unsigned char>(text[begin]))) continue;
+    std::string word = text.substr(begin, end - begin);
+    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(std::move(word));
+  }
+  return words;
+}
+
+/// Returns a formula, or a part of one, with its references. @param value  the place where it stands
+FormulaText references_in(const std::string& formula, const std::vector<std::string>& variables,
+                          const YamlValue& value) {
+  std::vector<std::string> plain_names = variables;
+  for (const auto& [name, number] : value.parameters()) plain_names.push_back(name);
+  try {
+    return find_references(formula, plain_names, functions_of_names(), functions_of_formulas());
+  } catch (const InputError& error) {
+    value.fail(fmt::format("in '{}': {}", formula, error.what()));
+  }
+}
+
 /// Looks up a reference of a formula in the model.
 class Lookup {
  public:
-  Lookup(const YamlValue& value, Model& model) : value_(value), model_(model) {}
+  /// @param variables  the formula's own
+  Lookup(const YamlValue& value, const std::vector<std::string>& variables, Model& model)
+      : value_(value), variables_(variables), model_(model) {}
 
   const Measure& find(const FormulaReference& reference) {
+    if (contains(functions_of_formulas(), reference.function)) return delayed(reference);
     const std::string name = reference.function.empty() ? dotted(reference) : called(reference);
     if (const Measure* known = named(name)) return *known;
     return model_.add_measure(reference.function.empty() ? make_dotted(reference, name) : make_called(reference, name),
@@ -140,45 +171,73 @@ class Lookup {
         fmt::format("'{}': '{}' has no '{}'{}", reference.text, subject, wanted, did_you_mean(wanted, available)));
   }
 
+  /// Returns the measure of `delay(x, T)`, which all formulas with the same x and T share.
+  const Measure& delayed(const FormulaReference& reference) {
+    if (!reference.path.empty())
+      value_.fail(fmt::format("'{}': {} is a number, nothing can follow it", reference.text, reference.function));
+    if (reference.subjects.size() != 2)
+      value_.fail(fmt::format("'{}': expected a measure and a time, as in delay(main.angle, 0.02)", reference.text));
+    const std::string &operand = reference.subjects[0], &time = reference.subjects[1];
+    const FormulaText formula = references_in(operand, {"t"}, value_);
+    for (const std::string& word : words_in(formula.replaced))
+      if (word != "t" && contains(variables_, word) && !model_.announces_measure(word))
+        value_.fail(fmt::format("'{}': the past of '{}' is not known, the variable of this formula; delay a measure",
+                                reference.text, word));
+    const double T = delay_time(reference, time);
+    const Measure& of = measure_of(value_, formula, model_);
+    const std::string name = fmt::format("delay({}, {})", of.name(), T);
+    if (const Measure* known = model_.find_measure(name)) return *known;
+    return model_.add_measure(std::make_unique<DelayedMeasure>(name, of, T, DelayedMeasure::usual_points, of.units()),
+                              false);
+  }
+
+  /// Returns T > 0 [s], a number or a formula of parameters.
+  double delay_time(const FormulaReference& reference, const std::string& text) const {
+    double time = 0;
+    try {
+      time = Expression(text, {}, value_.parameters())(std::span<const double>());
+    } catch (const std::runtime_error& error) {
+      value_.fail(fmt::format("'{}': the delay is constant, a number or a formula of parameters [s]: {}",
+                              reference.text, error.what()));
+    }
+    if (!(time > 0))
+      value_.fail(fmt::format("'{}': expected a delay greater than 0 s, found {:.6g}", reference.text, time));
+    return time;
+  }
+
   const YamlValue& value_;
+  const std::vector<std::string>& variables_;
   Model& model_;
 };
-
-/// Lists the names in a formula, in the order in which they appear, each once.
-std::vector<std::string> words_in(const std::string& text) {
-  std::vector<std::string> words;
-  const auto inside = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
-    for (end = begin; end < text.size() && inside(text[end]);) ++end;
-    if (end == begin || std::isdigit(static_cast<unsigned char>(text[begin]))) continue;
-    std::string word = text.substr(begin, end - begin);
-    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(std::move(word));
-  }
-  return words;
-}
 
 struct ReadFormula {
   Expression expression;
   std::vector<const Measure*> measures;
 };
 
-ReadFormula read_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model) {
-  Lookup lookup(value, model);
-  FormulaText formula = value.formula_text(variables, functions_of_names());
-  const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
+FormulaText formula_text(const YamlValue& value, const std::vector<std::string>& variables) {
+  return references_in(value.formula_text(variables, functions_of_names()).written, variables, value);
+}
+
+/// @param formula  the whole formula of the value, or a part of it
+ReadFormula read_formula(const YamlValue& value, const FormulaText& formula, const std::vector<std::string>& variables,
+                         Model& model) {
+  Lookup lookup(value, variables, model);
   ReadFormula result;
   std::vector<std::string> names = variables;
   for (const std::string& word : words_in(formula.replaced)) {
     const bool known = model.announces_measure(word) || find_event_record(model, word);
-    if (!known || is_in(variables, word) || value.parameters().count(word)) continue;
+    if (!known || contains(variables, word) || value.parameters().count(word)) continue;
     names.push_back(word);
     result.measures.push_back(lookup.named(word));
   }
   for (const FormulaReference& reference : formula.references) result.measures.push_back(&lookup.find(reference));
   result.expression = value.expression(names, formula);
   return result;
+}
+
+ReadFormula read_formula(const YamlValue& value, const std::vector<std::string>& variables, Model& model) {
+  return read_formula(value, formula_text(value, variables), variables, model);
 }
 
 std::vector<StateFormula::Argument> refer_to(const std::vector<const Measure*>& measures, References& references) {
@@ -194,9 +253,8 @@ std::vector<std::string> argument_units(const std::vector<const Measure*>& measu
   return units;
 }
 
-std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue& formula,
-                                       const std::optional<YamlValue>& units, Model& model) {
-  const ReadFormula read = read_formula(formula, {"t"}, model);
+std::unique_ptr<Measure> make_combined(const std::string& name, const ReadFormula& read, const YamlValue& formula,
+                                       const std::optional<YamlValue>& units) {
   if (read.measures.empty() && read.expression.is_constant())
     formula.fail(
         "a measure is a formula of the time t, or of the state: of joints (main.angle), nodes (pin.position.x), other "
@@ -205,6 +263,19 @@ std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue&
   References references;
   StateFormula of_state(read.expression, 1, refer_to(read.measures, references));
   return std::make_unique<CombinedMeasure>(name, std::move(references), std::move(of_state), std::move(inferred));
+}
+
+std::unique_ptr<Measure> read_combined(const std::string& name, const YamlValue& formula,
+                                       const std::optional<YamlValue>& units, Model& model) {
+  return make_combined(name, read_formula(formula, {"t"}, model), formula, units);
+}
+
+/// Returns the measure that a formula names, or one that it defines.
+const Measure& measure_of(const YamlValue& value, const FormulaText& formula, Model& model) {
+  static const std::vector<std::string> variables = {"t"};
+  const ReadFormula read = read_formula(value, formula, variables, model);  // makes a single measure known by its name
+  if (const Measure* known = Lookup(value, variables, model).named(formula.written)) return *known;
+  return model.add_measure(make_combined(formula.written, read, value, {}), false);
 }
 
 /// In the order of NodeQuantity.
@@ -270,10 +341,8 @@ void check_measure_name(const std::string& name, const YamlValue& entry, const M
   if (model.announces_measure(name)) entry.fail(fmt::format("there is a measure, input or state '{}' already", name));
   if (entry.parameters().count(name)) entry.fail(fmt::format("'{}' is a parameter already; choose another name", name));
   const std::vector<std::string> own = {"t", "q", "v", "e", "s"};
-  const auto is_in = [&](const std::vector<std::string>& names) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  if (is_in(own) || is_in(built_in_names()) || is_in(functions_of_names()))
+  if (contains(own, name) || contains(built_in_names(), name) || contains(functions_of_names(), name) ||
+      contains(functions_of_formulas(), name))
     entry.fail(fmt::format("'{}' means something in formulas already; choose another name", name));
   if (!is_dotted_word(name)) entry.fail("this is a name in formulas: letters, digits and '_', no digit first");
 }
@@ -308,9 +377,7 @@ void read_measure(const std::string& name, const YamlValue& given, Model& model)
 }
 
 const Measure& measure_named_by(const YamlValue& value, Model& model) {
-  read_formula(value, {"t"}, model);  // the units of a text that is a single measure are then known
-  if (const Measure* known = Lookup(value, model).named(value.text())) return *known;
-  return model.add_measure(read_combined(value.text(), value, {}, model), false);
+  return measure_of(value, formula_text(value, {"t"}), model);
 }
 
 }  // namespace bielle::mechanism

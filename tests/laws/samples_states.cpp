@@ -105,6 +105,16 @@ Sample delay() {
           {{"delayed", "axle.angel", "did you mean 'angle'"}, {"delayed", "it", "refers to itself"}}};
 }
 
+Sample delay_in_formula() {
+  return {
+      Section::states,
+      "state",
+      "rate with a delay",
+      states("  it: {rate: \"delay(axle.angle*axle.angle.rate, 0.2)*axle.angle - delay(it^2, 0.1)\", start: 0.3}\n"),
+      {{"rate", "'delay(axle.angel, 0.2)'", "did you mean 'angle'"},
+       {"rate", "'delay(axle.angle, -1)'", "greater than 0 s"}}};
+}
+
 }  // namespace
 
 std::vector<Sample> state_samples() {
@@ -120,6 +130,7 @@ std::vector<Sample> state_samples() {
       transfer_function(),
       state_space(),
       delay(),
+      delay_in_formula(),
       sampled("sampled", "sampled: \"axle.angle*(1 + t) + 0.1*it\", delay: 0.1, quantum: 0.01, start: 0.3",
               {{"sampled", "axle.angel", "did you mean 'angle'"}, {"start", "[1, 2]", "a list of 1"}}),
       sampled("sampled PID controller",

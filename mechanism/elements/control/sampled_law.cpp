@@ -26,9 +26,9 @@ VectorX SampledPid::step(const VectorX& u, const OutputStage& stage, Eigen::Ref<
   enum { sum, before, slope, begun };
   const double e = u[0];
   if (x[begun] == 0) x[before] = e;
-  const double change = gains_.I * h_ * (e + x[before]) / 2;
-  x[slope] = (gains_.T * x[slope] + gains_.D * (e - x[before])) / (gains_.T + h_);
-  const double rest = gains_.P * e + x[slope], whole = rest + x[sum] + change;
+  const double T = gains_.filter, change = gains_.integral * h_ * (e + x[before]) / 2;
+  x[slope] = (T * x[slope] + gains_.derivative * (e - x[before])) / (T + h_);
+  const double rest = gains_.proportional * e + x[slope], whole = rest + x[sum] + change;
   const bool winds_up = (whole > stage.most && change > 0) || (whole < stage.least && change < 0);
   if (!winds_up) x[sum] += change;
   x[before] = e;
@@ -37,8 +37,8 @@ VectorX SampledPid::step(const VectorX& u, const OutputStage& stage, Eigen::Ref<
 }
 
 std::string SampledPid::about() const {
-  return fmt::format("PID controller, {:.6g}, {:.6g} 1/s, {:.6g} s, filter {:.6g} s", gains_.P, gains_.I, gains_.D,
-                     gains_.T);
+  return fmt::format("PID controller, {:.6g}, {:.6g} 1/s, {:.6g} s, filter {:.6g} s", gains_.proportional,
+                     gains_.integral, gains_.derivative, gains_.filter);
 }
 
 }  // namespace bielle::mechanism

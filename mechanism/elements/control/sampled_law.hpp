@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "mechanism/elements/control/linear_block.hpp"
+#include "mechanism/reading/pid_gains.hpp"
 
 namespace bielle::mechanism {
 
@@ -39,27 +40,21 @@ class SampledLinear final : public SampledLaw {
   std::string about_;
 };
 
-/// A PID controller with the period h of the samples e_k of its input:
+/// A PID controller with the period h of the samples e_k of its input, its gains P, I, D and the filter's T:
 ///     y_k = P e_k + S_k + d_k,   S_k = S_(k-1) + I h (e_k + e_(k-1))/2,   (T + h) d_k = T d_(k-1) + D (e_k - e_(k-1))
 /// The first sample is taken as its own predecessor. While the output is beyond a limit, S keeps its value if its
 /// change would lead further beyond (anti-windup by conditional integration).
 /// Reference: K. J. Astrom, T. Hagglund, Advanced PID Control, 2006, ch. 3 and 13.
 class SampledPid final : public SampledLaw {
  public:
-  struct Gains {
-    double P = 0;  ///< [output/input]
-    double I = 0;  ///< [output/(input s)]
-    double D = 0;  ///< [output s/input]
-    double T = 0;  ///< time constant of the filter of the derivative [s] >= 0
-  };
-  SampledPid(const Gains& gains, double period) : gains_(gains), h_(period) {}
+  SampledPid(const PidGains& gains, double period) : gains_(gains), h_(period) {}
   Eigen::Index states() const override { return 4; }
   Eigen::Index outputs() const override { return 1; }
   VectorX step(const VectorX& u, const OutputStage& stage, Eigen::Ref<VectorX> x) const override;
   std::string about() const override;
 
  private:
-  Gains gains_;
+  PidGains gains_;
   double h_;
 };
 

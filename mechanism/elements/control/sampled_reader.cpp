@@ -1,14 +1,18 @@
 #include "mechanism/elements/control/sampled_reader.hpp"
 
+#include <algorithm>
+#include <complex>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "mechanism/elements/control/block_reading.hpp"
 #include "mechanism/elements/control/sampled_block.hpp"
 #include "mechanism/measures/read_measure.hpp"
+#include "mechanism/reading/pid_gains.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -18,21 +22,19 @@ const KeyTable& pid_keys() {
   static const KeyTable table{
       "`pid`",
       "A PID controller of sampled values, its integral by the trapezoidal rule and without wind-up at its limits.",
-      {{"kp", number("any"), otherwise("0"), "Proportional gain: output per input."},
-       {"ki", number("any"), otherwise("0"), "Integral gain: output per input and time."},
-       {"kd", number("any"), otherwise("0"), "Derivative gain: output per rate of the input."},
-       {"filter", number("s").non_negative(), otherwise("0"), "Time constant of the derivative; 0 is none."}}};
+      pid_gain_keys("output", "input")};
   return table;
 }
 
-std::unique_ptr<SampledLaw> read_pid(const YamlValue& pid, double period) {
-  SampledPid::Gains gains;
-  gains.P = pid.at("kp").number();
-  gains.I = pid.at("ki").number();
-  gains.D = pid.at("kd").number();
-  gains.T = pid.at("filter").number();
-  if (gains.P == 0 && gains.I == 0 && gains.D == 0) pid.fail("a controller needs at least one of the gains kp, ki, kd");
-  return std::make_unique<SampledPid>(gains, period);
+/// Warns of a block whose states grow from instant to instant without any input.
+LinearBlock watched(LinearBlock block, const YamlValue& value, const std::string& what) {
+  double largest = 0;
+  for (const std::complex<double>& root : block.A.eigenvalues()) largest = std::max(largest, std::abs(root));
+  constexpr double rounding = 1e-4;  // triple roots on the unit circle (three integrators) have errors of 1e-5
+  if (largest > 1 + rounding)
+    value.warn(
+        fmt::format("{} of magnitude {:.6g}: the block grows by this factor from instant to instant", what, largest));
+  return block;
 }
 
 /// Reads the law of a block with this number of inputs.
@@ -42,14 +44,16 @@ std::unique_ptr<SampledLaw> read_law(const YamlValue& entry, Eigen::Index inputs
     entry.fail("expected one of `pid`, `transfer_function` and `state_space`, or none: then the input itself is held");
   if (inputs != 1 && !matrices)
     entry.at("sampled").fail("a list of inputs belongs to a `state_space`; expected one formula");
-  if (pid) return read_pid(*pid, period);
+  if (pid) return std::make_unique<SampledPid>(read_pid_gains(*pid), period);
   if (function) {
-    LinearBlock block = read_quotient(*function, "z", "such a function would need later samples; add powers of z");
+    LinearBlock block =
+        watched(read_quotient(*function, "z", "such a function would need later samples; add powers of z"),
+                function->at("denominator"), "the polynomial has a root");
     std::string about = fmt::format("sampled transfer function of order {} of", block.A.rows());
     return std::make_unique<SampledLinear>(std::move(block), std::move(about));
   }
   if (matrices) {
-    LinearBlock block = read_matrices(*matrices, inputs);
+    LinearBlock block = watched(read_matrices(*matrices, inputs), matrices->at("A"), "the matrix has an eigenvalue");
     std::string about = fmt::format("sampled state space of order {} of", block.A.rows());
     return std::make_unique<SampledLinear>(std::move(block), std::move(about));
   }

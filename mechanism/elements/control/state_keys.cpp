@@ -1,5 +1,5 @@
 // Keys of the section `states` of the mechanism file.
-#include "mechanism/elements/control/delayed_measure.hpp"
+#include "mechanism/elements/control/delay_reader.hpp"
 #include "mechanism/elements/control/sampled_reader.hpp"
 #include "mechanism/elements/control/state_reader.hpp"
 

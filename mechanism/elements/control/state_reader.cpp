@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/elements/control/block_reading.hpp"
-#include "mechanism/elements/control/delayed_measure.hpp"
+#include "mechanism/elements/control/delay_reader.hpp"
 #include "mechanism/elements/control/sampled_reader.hpp"
 #include "mechanism/elements/control/state_equation.hpp"
 #include "mechanism/elements/control/state_output.hpp"

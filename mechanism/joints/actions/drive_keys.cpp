@@ -1,6 +1,7 @@
 #include "mechanism/joints/actions/drive_keys.hpp"
 
 #include "mechanism/joints/actions/drive.hpp"
+#include "mechanism/reading/pid_gains.hpp"
 #include "mechanism/reading/read_activity.hpp"
 
 namespace bielle::mechanism {
@@ -20,21 +21,17 @@ template <Moves moves>
 const KeyTable& keys_of_pid() {
   using namespace keys;
   static const KeyTable table{
-      "`pid`",
-      "A controller, whose torque or force moves a coordinate or a measure to a target.",
-      {{"coordinate", text(), computed("the only one of the joint"), "Coordinate on which the drive acts."},
-       {"measure",
-        {name_of("measure"), state_formula("any", {"t"})},
-        computed("the coordinate itself"),
-        "Quantity that is controlled."},
-       {"target", state_formula("any", {"t"}), required, "Target as a formula of t and measures."},
-       {"kp", number("any"), otherwise("0"), "Proportional gain: torque or force per error."},
-       {"ki", number("any"), otherwise("0"), "Integral gain: torque or force per error and time."},
-       {"kd", number("any"), otherwise("0"), "Derivative gain: torque or force per rate of the error."},
-       {"filter", number("s").non_negative(), otherwise("0"), "Time constant of the derivative; 0 is none."},
-       limit_key(moves),
-       {"tracking_time", number("s").positive(), computed("kp/ki"),
-        "Time in which the integral leaves a limit after the error has changed its sign."}}};
+      "`pid`", "A controller, whose torque or force moves a coordinate or a measure to a target.",
+      joined({{{"coordinate", text(), computed("the only one of the joint"), "Coordinate on which the drive acts."},
+               {"measure",
+                {name_of("measure"), state_formula("any", {"t"})},
+                computed("the coordinate itself"),
+                "Quantity that is controlled."},
+               {"target", state_formula("any", {"t"}), required, "Target as a formula of t and measures."}},
+              pid_gain_keys("torque or force", "error"),
+              {limit_key(moves),
+               {"tracking_time", number("s").positive(), computed("kp/ki"),
+                "Time in which the integral leaves a limit after the error has changed its sign."}}})};
   return table;
 }
 

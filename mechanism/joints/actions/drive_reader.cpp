@@ -107,27 +107,23 @@ void read_release(const YamlValue& value, Drive& drive, Model& model) {
 
 std::unique_ptr<Drive> make_pid(const std::string& name, const YamlValue& entry, Joint& joint, std::size_t coordinate,
                                 Model& model) {
-  PidGains gains{entry.at("kp").number(), entry.at("ki").number(), entry.at("kd").number(),
-                 entry.at("filter").number()};
-  if (gains.proportional == 0 && gains.integral == 0 && gains.derivative == 0)
-    entry.fail("a controller needs at least one of the gains kp, ki, kd");
-  if (gains.derivative == 0 && gains.filter > 0)
-    entry.at("filter").fail("is that of the derivative, which has no gain: give `kd`, too");
+  const PidGains gains = read_pid_gains(entry);
+  double tracking_time = 0;
   const ForceLimit limit = entry.has("limit") ? read_force_limit(entry.at("limit")) : ForceLimit{};
   if (const auto tracking = entry.find("tracking_time")) {
-    gains.tracking_time = tracking->number();
+    tracking_time = tracking->number();
     if (gains.integral == 0 || !limit.limits())
       tracking->fail("is that of the integral at a limit: give `ki` and `limit`, too");
   } else if (gains.integral != 0 && limit.limits()) {
     if (gains.proportional == 0)
       entry.fail("an integral without `kp` needs a `tracking_time` [s] in which it leaves a limit (default kp/ki)");
-    gains.tracking_time = std::abs(gains.proportional / gains.integral);
+    tracking_time = std::abs(gains.proportional / gains.integral);
   }
   const YamlValue target = entry.at("target");
   const auto measure = entry.find("measure");
   if (measure && gains.derivative != 0 && gains.filter == 0)
     measure->fail("has a rate that is not known: give the controller a `filter` [s] for the derivative, or `kd: 0`");
-  auto drive = std::make_unique<PidDrive>(name, joint, coordinate, limit, gains);
+  auto drive = std::make_unique<PidDrive>(name, joint, coordinate, limit, gains, tracking_time);
   model.when_read(Model::Stage::formulas,
                   [drive = drive.get(), target, measure, &model] { drive->read(target, measure, model); });
   return drive;

@@ -131,7 +131,7 @@ bool PidDrive::keeps_integral(const LocalState& state) const {
 }
 
 double PidDrive::windup_rate(double side, double u) const {
-  return side == 0 ? 0 : (limited(side, u) - u) / (gains_.integral * gains_.tracking_time);
+  return side == 0 ? 0 : (limited(side, u) - u) / (gains_.integral * tracking_time_);
 }
 
 void PidDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
@@ -159,7 +159,7 @@ void PidDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const
       if (tangent.wants_C) tangent.C.dense().row(0) -= error.by_rate.transpose();
       calc_effort(state, effort);
       if (side(effort.value) != 0) {
-        const double factor = 1 / (gains_.integral * gains_.tracking_time);
+        const double factor = 1 / (gains_.integral * tracking_time_);
         if (tangent.wants_K) tangent.K.dense().row(0) += factor * effort.by_position.transpose();
         if (tangent.wants_C) tangent.C.dense().row(0) += factor * effort.by_rate.transpose();
       }
@@ -213,7 +213,7 @@ Drive::LawText PidDrive::law_text() const {
                                 measure_ ? measure_->name() : coordinate().name, gains_.proportional, gains_.integral,
                                 gains_.derivative);
   if (filters()) law += fmt::format(", filter {:.6g} s", gains_.filter);
-  if (integrates() && limit().limits()) law += fmt::format(", tracking time {:.6g} s", gains_.tracking_time);
+  if (integrates() && limit().limits()) law += fmt::format(", tracking time {:.6g} s", tracking_time_);
   return {fmt::format("{} on {}", turning ? "torque" : "force", coordinate().name), law + limit_text(),
           coordinate().force_units()};
 }

@@ -19,21 +19,16 @@
 #include "mechanism/joints/actions/actuator_drive.hpp"
 #include "mechanism/measures/state_formula.hpp"
 #include "mechanism/model/time_dependent.hpp"
+#include "mechanism/reading/pid_gains.hpp"
 
 namespace bielle::mechanism {
 
-struct PidGains {
-  double proportional = 0;   ///< kp [N/m], [N m/rad], or per unit of the measure
-  double integral = 0;       ///< ki [.../s]
-  double derivative = 0;     ///< kd [... s]
-  double filter = 0;         ///< T_f [s]; 0: none
-  double tracking_time = 0;  ///< T_w [s]; not used without integral or limit
-};
-
 class PidDrive final : public ActuatorDrive, public TimeDependent {
  public:
-  PidDrive(std::string name, const Joint& joint, std::size_t coordinate, const ForceLimit& limit, const PidGains& gains)
-      : ActuatorDrive(std::move(name), joint, coordinate, limit), gains_(gains) {}
+  /// @param tracking_time  T_w [s]; not used without integral or limit
+  PidDrive(std::string name, const Joint& joint, std::size_t coordinate, const ForceLimit& limit, const PidGains& gains,
+           double tracking_time)
+      : ActuatorDrive(std::move(name), joint, coordinate, limit), gains_(gains), tracking_time_(tracking_time) {}
   /// Reads its formulas, after the model has been read. @param measure  controlled measure; if empty, the coordinate
   /// itself
   void read(const YamlValue& target, const std::optional<YamlValue>& measure, Model& model);
@@ -70,6 +65,7 @@ class PidDrive final : public ActuatorDrive, public TimeDependent {
   double windup_rate(double side, double u) const;
 
   PidGains gains_;
+  double tracking_time_;
   StateFormula target_;
   const Measure* measure_ = nullptr;
   int measure_reference_ = 0;

@@ -53,7 +53,8 @@ MarchLog MarchLog::followed_by(const MarchLog& next) const {
   return both;
 }
 
-/// The times at which steps have to end: the grid of fixed steps, kinks, instants of samplers, and the end.
+/// The times at which steps have to end: the grid of fixed steps, kinks, instants of samplers, jumps that delays bring
+/// back, and the end.
 class March::Stops {
  public:
   Stops(double begin, double end, const StepOptions& options, std::vector<Sampler::Instants> instants)
@@ -86,6 +87,14 @@ class March::Stops {
         at_kink_ = false;
       }
   }
+  /// Takes account of a kink after the present time that has become known during the motion.
+  void heed(double kink) {
+    if (kink > stop_ + rounding(stop_)) return;
+    at_kink_ = true;
+    if (kink < stop_ - rounding(stop_)) stop_ = kink;
+  }
+  /// Returns the latest time that is equal to the given one.
+  double just_after(double time) const { return time + rounding(time); }
   double time() const { return stop_; }
   bool at_kink() const { return at_kink_; }
   bool on_grid() const { return steps_ == 0 || stop_ == grid(k_); }
@@ -159,12 +168,17 @@ void March::begin_branch(double h, std::optional<Jump>& before) {
   before = integration_.begin_branch(h, begins);
 }
 
+/// Ends the step at the next jump that a delay brings back.
+void March::heed_echoes() { stops_->heed(integration_.next_echo(stops_->just_after(integration_.state().time))); }
+
 void March::begin_step(MarchStep& step) {
+  heed_echoes();
   double h = std::min(size_, stops_->time() - integration_.state().time);
   if (is_short(h)) h = size_;  // the scheme's own values are for the steps that follow
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
   begin_branches(h, step);
+  heed_echoes();  // also those of jumps that have just occurred
 }
 
 /// Begins the branches of events and kinks at the start of a step.

@@ -124,6 +124,7 @@ class March {
   void tell(Attempt::Outcome outcome, const Plan& plan, const Trial& trial) const;
   void count(const Plan& plan, const Trial& trial);
   void pass_noted(double begin, MarchStep& step);
+  void heed_echoes();
   void begin_step(MarchStep& step);
   void begin_branches(double h, MarchStep& step);
   bool has_actions_to_do() const;

@@ -74,11 +74,15 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       event_function_values_(system),
       extrapolation_(system.size(), options.extrapolation),
       short_span_(system, environment_),
-      samplers_(system) {
+      samplers_(system),
+      echoes_(system) {
   start_report_ = make_consistent(system_, environment_, step_.state());
   step_.take_rates();
   system_.accept(step_.state(), environment_);
-  if (samplers_.take(step_.state(), environment_)) make_consistent_anew(start_report_);
+  if (samplers_.take(step_.state(), environment_)) {
+    make_consistent_anew(start_report_);
+    echoes_.note_jump(step_.state(), environment_, step_.state().time);
+  }
   step_.trial() = step_.state();
   extrapolate_from_here();
 }
@@ -93,7 +97,8 @@ TimeIntegration::TimeIntegration(const System& system, const Environment& enviro
       event_function_values_(system),
       extrapolation_(system.size(), options.extrapolation),
       short_span_(system, environment_),
-      samplers_(system) {
+      samplers_(system),
+      echoes_(system) {
   exchange(archive);
 }
 
@@ -191,6 +196,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
   newton_.forget_factors();
   jump.after = system_.energy(state, environment_);
   jump.work = report.impulse_work;
+  echoes_.note_jump(state, environment_, jump.time);
   state.time = jump.time;
   return jump;
 }

@@ -18,6 +18,7 @@
 #include "mechanism/solvers/dynamics/step_newton.hpp"
 #include "mechanism/solvers/dynamics/velocity_correction.hpp"
 #include "mechanism/solvers/start/start_report.hpp"
+#include "mechanism/system/echoes.hpp"
 #include "mechanism/system/sampling.hpp"
 
 namespace bielle::mechanism {
@@ -60,6 +61,8 @@ class TimeIntegration {
   /// Attempts a step that is much shorter than those before, and solves for its accelerations and multipliers at its
   /// end (short_span.hpp). If it `is_short`, `restart` or `begin_branch` must follow, as above.
   StepReport attempt_settled(double h, double end, bool kink);
+  /// Returns the first time after `after` at which an earlier jump comes back by a delay [s]; infinity if none does.
+  double next_echo(double after) const { return echoes_.next(state(), environment_, after); }
   /// Whether the last attempt was over a short span, without the scheme.
   bool is_short() const { return short_; }
   /// In spans shorter than this, accelerations of the scheme have less than six accurate digits, at the present state
@@ -140,6 +143,7 @@ class TimeIntegration {
   SchemeLoss loss_;
   ShortSpan short_span_;
   Samplers samplers_;
+  Echoes echoes_;
   VectorX highest_;  ///< buffer: SchemeStep::get_highest
   StartReport start_report_;
   double end_ = 0;      ///< end of the last attempt [s]

@@ -29,7 +29,9 @@ struct Occurrence {
 
 class Scanner {
  public:
-  Scanner(const std::string& text, const std::vector<std::string>& functions) : text_(text), functions_(functions) {}
+  Scanner(const std::string& text, const std::vector<std::string>& functions,
+          const std::vector<std::string>& of_formulas)
+      : text_(text), functions_(functions), of_formulas_(of_formulas) {}
 
   void scan() {
     while (at_ < text_.size()) {
@@ -99,6 +101,11 @@ class Scanner {
       add(begin, word, subjects, path(begin));
       return;
     }
+    if (contains(of_formulas_, word) && parenthesis_follows(begin, word)) {
+      const std::vector<std::string> operands = formulas_in_parentheses(begin, word);
+      add(begin, word, operands, path(begin));
+      return;
+    }
     const std::vector<std::string> words = path(begin);
     if (words.empty()) {
       plain.push_back(word);
@@ -159,6 +166,35 @@ class Scanner {
     return names;
   }
 
+  std::vector<std::string> formulas_in_parentheses(std::size_t begin, const std::string& function) {
+    std::vector<std::string> formulas;
+    std::size_t from = ++at_;
+    for (int depth = 1; depth > 0;) {
+      if (at_ >= text_.size())
+        throw InputError(fmt::format("the parenthesis of '{}' at character {} is not closed", function, begin + 1));
+      if (is_quote(here())) {
+        quoted();
+        continue;
+      }
+      if (here() == '(') ++depth;
+      if (here() == ')') --depth;
+      if (depth == 0 || (depth == 1 && here() == ',')) {
+        formulas.push_back(trimmed(since(from)));
+        if (formulas.back().empty())
+          throw InputError(fmt::format("an operand of '{}' at character {} is missing", function, begin + 1));
+        from = at_ + 1;
+      }
+      ++at_;
+    }
+    return formulas;
+  }
+  static std::string trimmed(const std::string& text) {
+    std::size_t begin = 0, end = text.size();
+    while (begin < end && is_blank(text[begin])) ++begin;
+    while (end > begin && is_blank(text[end - 1])) --end;
+    return text.substr(begin, end - begin);
+  }
+
   void add(std::size_t begin, const std::string& function, const std::vector<std::string>& subjects,
            const std::vector<std::string>& words) {
     const auto same = [&](const FormulaReference& known) {
@@ -171,6 +207,7 @@ class Scanner {
 
   const std::string& text_;
   const std::vector<std::string>& functions_;
+  const std::vector<std::string>& of_formulas_;
   std::size_t at_ = 0;
 };
 
@@ -191,13 +228,13 @@ std::string free_name(const std::string& text, std::size_t length, const std::ve
 }  // namespace
 
 FormulaText find_references(const std::string& text, const std::vector<std::string>& plain_names,
-                            const std::vector<std::string>& functions) {
-  Scanner scanner(text, functions);
+                            const std::vector<std::string>& functions, const std::vector<std::string>& of_formulas) {
+  Scanner scanner(text, functions, of_formulas);
   scanner.scan();
   FormulaText result{text, text, std::move(scanner.references)};
 
   std::vector<std::string> taken = scanner.plain;
-  for (const auto* names : {&plain_names, &functions, &built_in_names()})
+  for (const auto* names : {&plain_names, &functions, &of_formulas, &built_in_names()})
     taken.insert(taken.end(), names->begin(), names->end());
   for (std::size_t i = 0; i < result.references.size(); ++i) {
     std::size_t length = longest_identifier;
@@ -225,7 +262,8 @@ std::string spelled(const std::string& name) { return is_dotted_word(name) ? nam
 std::string rename_in_formula(const std::string& text, const std::vector<std::string>& functions,
                               const std::function<std::optional<std::string>(const std::string&)>& subject,
                               const std::function<std::optional<std::string>(const std::string&)>& word) {
-  Scanner scanner(text, functions);
+  const std::vector<std::string> none;  // names in operands are renamed as all others are
+  Scanner scanner(text, functions, none);
   scanner.scan();
   struct Change {
     std::size_t begin, end;

@@ -1,4 +1,5 @@
-// References in formulas to quantities of a model: `main.angle.rate`, `'left arm'.position.x`, `distance(a, 'node 2')`.
+// References in formulas to quantities of a model: `main.angle.rate`, `'left arm'.position.x`, `distance(a, 'node 2')`,
+// `delay(main.angle - 1, 2*T)`.
 //
 // muParser accepts plain names only. Each reference is therefore replaced by a plain name, which becomes a further
 // variable of the formula; the caller decides which objects and quantities exist.
@@ -14,13 +15,15 @@ namespace bielle {
 
 /// One reference in a formula.
 struct FormulaReference {
-  std::string text;                   ///< its first spelling, for messages
-  std::string function;               ///< "distance"; empty of a dotted reference
-  std::vector<std::string> subjects;  ///< names without quotes: one before the dot, those in the parentheses
-  std::vector<std::string> path;      ///< the words after the dots: "angle", "rate"
-  std::string identifier;             ///< the plain name that stands for it
-  std::size_t position = 0;           ///< position of its first character in the formula (from 0; messages count from
-                                      ///< 1)
+  std::string text;      ///< its first spelling, for messages
+  std::string function;  ///< "distance"; empty of a dotted reference
+  /// Names without quotes: one before the dot, those in the parentheses; texts of the operands of a function of
+  /// formulas.
+  std::vector<std::string> subjects;
+  std::vector<std::string> path;  ///< the words after the dots: "angle", "rate"
+  std::string identifier;         ///< the plain name that stands for it
+  std::size_t position = 0;       ///< position of its first character in the formula (from 0; messages count from
+                                  ///< 1)
 };
 
 /// A formula and its references.
@@ -40,9 +43,12 @@ struct FormulaText {
 ///
 /// @param plain_names  variables and parameters
 /// @param functions    functions whose operands are names, e.g. {"distance", "angle"}
+/// @param of_formulas  functions whose operands are formulas that the caller reads, e.g. {"delay"}; their references
+///                     are not among those of this formula
 /// @throws InputError without file or line: the error and its position
 FormulaText find_references(const std::string& text, const std::vector<std::string>& plain_names,
-                            const std::vector<std::string>& functions);
+                            const std::vector<std::string>& functions,
+                            const std::vector<std::string>& of_formulas = {});
 
 /// Returns a formula with other names. The names within quotes and parentheses are found as above; a name in
 /// parentheses may have dots.

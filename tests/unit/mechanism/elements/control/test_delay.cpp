@@ -1,11 +1,11 @@
-// Delayed measures: polynomials of the method of steps, limits of stability, and the stored past itself.
+// Delayed measures: polynomials of the method of steps, and limits of stability.
 #include <cmath>
+#include <complex>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "mechanism/analyses/statics.hpp"
-#include "mechanism/elements/control/value_history.hpp"
 #include "tests/support/hinged_rotor.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/second_order.hpp"
@@ -45,42 +45,6 @@ std::string decay(double T) {
 
 }  // namespace test_delay
 using namespace test_delay;
-
-TEST_CASE("the past of a value reproduces parabolas, within steps and beyond the last one") {
-  const ValueHistory history(0.5, 20);
-  VectorX memory = VectorX::Zero(static_cast<Eigen::Index>(history.memory_size()));
-  const auto y = [](double t) { return 2 - 3 * t + 4 * t * t; };
-  CHECK(history.before(0, memory).factor == 1);
-  double t = 0, step = 0.03;
-  for (int k = 0; k < 200; ++k, t += step, step = 0.03 + 0.02 * std::sin(k)) {
-    history.store(t, y(t), memory);
-    REQUIRE(history.knows(memory));
-    if (k < 3) continue;
-    const double h = 0.02, at = t + h - 0.5;
-    const ValueHistory::Past past = history.before(t + h, memory);
-    CHECK(past.factor == 0);
-    CHECK(past.constant == Approx(at < 0 ? y(0) : y(at)).epsilon(1e-10));
-    const ValueHistory::Past within = history.before(t + 0.7, memory);  // a step longer than the delay
-    CHECK(within.constant + within.factor * y(t + 0.7) == Approx(y(t + 0.2)).epsilon(1e-10));
-    CHECK(within.factor > 0);
-  }
-}
-
-TEST_CASE("the past of a value has a fixed size for any steps, and forgets what comes later") {
-  const ValueHistory history(1, 50);
-  VectorX memory = VectorX::Zero(static_cast<Eigen::Index>(history.memory_size()));
-  double t = 0, worst = 0;
-  for (int k = 0; k < 20000; ++k, t += k % 3 == 0 ? 1e-9 : 3e-4) {
-    history.store(t, std::sin(t), memory);
-    REQUIRE(history.knows(memory));
-    if (k % 100 == 0 && t > 1) worst = std::max(worst, std::abs(history.before(t, memory).constant - std::sin(t - 1)));
-  }
-  CHECK(worst > 0);
-  CHECK(worst < 1e-5);  // (1/50)^3, times 1/12 and less
-  history.store(t - 0.5, 7, memory);
-  CHECK(history.knows(memory));
-  CHECK(history.before(t - 0.5 + 1, memory).constant == Approx(7).epsilon(1e-12));
-}
 
 TEST_CASE("a delay differential equation is solved with second order, whatever the ratio of delay and step") {
   const double T = 1;
@@ -129,12 +93,36 @@ TEST_CASE("delayed damping makes an oscillator unstable beyond the delay of theo
   CHECK(growth(1.05 * limit) > 1.4);
 }
 
-TEST_CASE("kinks of a delayed measure come back after the delay, and a static analysis knows no delay") {
-  const std::string text = rotor(
-      "states: {late: {delayed: switched, time: 0.25}, whole: {rate: late}}\n"
-      "measures: {switched: \"if(t < 0.1234, 1, 0)\"}\n");
-  // The past is a ramp over the step that follows the jump; its integral is that of the values.
-  CHECK(last_value(text, 1, 0.01, "whole") == Approx(0.25 + 0.1234).margin(0.01));
+TEST_CASE("a delayed position feeds an oscillator with energy beyond the gain of theory") {
+  // q'' + c q' + w^2 q + k q(t - T) = 0: at the limit w^2 + k cos(W T) = W^2, k sin(W T) = c W.
+  const double c = 1, W = 8, T = 0.1, k = c * W / std::sin(W * T), w2 = W * W - k * std::cos(W * T);
+  const auto growth = [&](double gain) {
+    Session session = session_of(rotor(
+        fmt::format("parameters: {{k: {}, w2: {}, T: {}}}\n"
+                    "drives: {{m: {{joint: main, torque: \"-0.5*(main.angle.rate + w2*main.angle + k*delay(main.angle, "
+                    "T)) + if(t < 0.1, 1, 0)\"}}}}\n"
+                    "measures: {{turned: main.angle}}\n",
+                    gain, w2, T)));
+    Motion motion = session.dynamics(steps_of(30, 0.0025));
+    double early = 0, late = 0;
+    while (motion.step()) {
+      const double now = std::abs(session.read("measures/turned")[0]);
+      if (motion.time() > 8 && motion.time() < 10) early = std::max(early, now);
+      if (motion.time() > 28) late = std::max(late, now);
+    }
+    return std::log(late / early) / 20;
+  };
+  // The exponent s of the slow motion changes with the gain by ds/dk = -exp(-s T)/(2 s + c - k T exp(-s T)).
+  const std::complex<double> s(0, W), z = std::exp(-s * T);
+  const double slope = (-z / (2.0 * s + c - k * T * z)).real();
+  for (const double change : {-0.05, 0.05}) {
+    INFO("gain changed by " << change << " of the limit");
+    CHECK(growth(k * (1 + change)) == Approx(slope * k * change).epsilon(0.1));
+  }
+  CHECK(std::abs(growth(k)) < 0.02 * slope * k);
+}
+
+TEST_CASE("a static analysis knows no delay") {
   Session session =
       session_of(rotor("states: {late: {delayed: main.angle, time: 0.25}}\n"
                        "drives: {m: {joint: main, torque: \"5 - 20*late\"}}\n"));

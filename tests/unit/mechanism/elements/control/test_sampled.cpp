@@ -279,3 +279,38 @@ TEST_CASE("wrong sampled states are refused with a sentence") {
              Contains("no power of z"));
   CHECK_THAT(message("sampled: main.angle, periode: 1"), Contains("did you mean 'period'"));
 }
+
+TEST_CASE("a sampled block that grows by itself is warned of, one that integrates is not") {
+  const auto warnings = [](const std::string& law) {
+    const MechanismFile file =
+        read_mechanism_text(rotor("states: {u: {sampled: main.angle, period: 0.01, " + law + "}}\n"), "model.yaml");
+    return file.warnings;
+  };
+  const auto first = [&](const std::string& law) {
+    const std::vector<std::string> all = warnings(law);
+    return all.empty() ? "" : all.front();
+  };
+  CHECK_THAT(first("transfer_function: {numerator: [1], denominator: [1, -1.2]}"),
+             Contains("states.u.transfer_function.denominator") && Contains("a root of magnitude 1.2"));
+  CHECK_THAT(first("transfer_function: {numerator: [1], denominator: [1, 0, 4]}"), Contains("a root of magnitude 2"));
+  CHECK_THAT(first("state_space: {A: [[0.5, 1], [0, -3]], B: [[1], [0]]}"),
+             Contains("states.u.state_space.A") && Contains("an eigenvalue of magnitude 3"));
+  // One and three integrators; leading zeros, which change nothing.
+  CHECK(warnings("transfer_function: {numerator: [0.01, 0], denominator: [1, -1]}").empty());
+  CHECK(warnings("transfer_function: {numerator: [1], denominator: [1, -3, 3, -1]}").empty());
+  CHECK(warnings("transfer_function: {numerator: [0, 0, 0, 1], denominator: [0, 1, -0.5]}").empty());
+  CHECK(warnings("pid: {kp: 1, ki: 100}").empty());
+}
+
+TEST_CASE("leading zeros of a sampled transfer function change nothing") {
+  const auto value = [](const std::string& function) {
+    Session session =
+        session_of(rotor("states: {u: {sampled: \"1 + t\", period: 0.1, transfer_function: {" + function + "}}}\n"));
+    Motion motion = session.dynamics(steps_of(1, 0.05));
+    motion.finish();
+    return held_value(session, "u");
+  };
+  const double u = value("numerator: [1, 0.3], denominator: [1, -0.5]");
+  CHECK(u != 0);
+  CHECK(value("numerator: [0, 0, 1, 0.3], denominator: [0, 1, -0.5]") == u);
+}

@@ -78,6 +78,30 @@ TEST_CASE("Functions of names are references") {
   CHECK(only("angle*angle(a, b)").function == "angle");
 }
 
+TEST_CASE("Operands of functions of formulas are texts, with their own references") {
+  const auto found_with_delay = [](const std::string& text) {
+    return bielle::find_references(text, {"t"}, {"angle"}, {"delay"});
+  };
+  const FormulaText formula = found_with_delay("2*delay( main.angle - f(1, 'a)b'.x) , 2*T)^2 + main.angle");
+  REQUIRE(formula.references.size() == 2);
+  CHECK(formula.references[0].function == "delay");
+  CHECK(formula.references[0].subjects == Names{"main.angle - f(1, 'a)b'.x)", "2*T"});
+  CHECK(formula.references[1].text == "main.angle");
+  CHECK(found_with_delay("delay(delay(x, 1), 2)").references[0].subjects == Names{"delay(x, 1)", "2"});
+  CHECK(found_with_delay("delay + delays(1)").references.empty());
+  CHECK_THROWS_WITH(found_with_delay("1 + delay(x, (2)"),
+                    Contains("the parenthesis of 'delay' at character 5 is not closed"));
+  CHECK_THROWS_WITH(found_with_delay("delay(x,)"), Contains("an operand of 'delay' at character 1 is missing"));
+  CHECK_THROWS_WITH(found_with_delay("delay (x, 1)"), Contains("must be followed by '('"));
+  // Names in the operands are renamed as all others are.
+  CHECK(bielle::rename_in_formula(
+            "delay(a.angle + b, T)", {"angle"},
+            [](const std::string& name) -> std::optional<std::string> { return "part." + name; },
+            [](const std::string& word) -> std::optional<std::string> {
+              return word == "b" ? std::optional<std::string>("part.b") : std::nullopt;
+            }) == "delay(part.a.angle + part.b, T)");
+}
+
 TEST_CASE("Numbers, plain names and names of files are left alone") {
   for (const std::string text :
        {"2.5*t + .5 - 1e-3 + 2.e3 + 1.5e+2", "2.*t", "t .5", "table('file.csv', t)", "spline(\"a b.csv\", t)", "", "  ",
