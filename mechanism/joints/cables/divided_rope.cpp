@@ -40,7 +40,7 @@ void DividedRope::add_slip(std::size_t place) {
   const auto centre = [&](std::size_t k) -> Vector3 { return (path_.drawn[k] * path_.pulleys[k].on_node).x; };
   for (const std::size_t other : {(place + count - 1) % count, (place + 1) % count})
     length += (centre(other) - centre(place)).norm();
-  auto slip = std::make_unique<RopeSlip>(type_, name_, path_.names[place], length, material_.damping > 0);
+  auto slip = std::make_unique<RopeSlip>(type_, name_, path_.names[place], length, material_.damping);
   slips_[place] = slip.get();
   model_.add(std::move(slip), own(), Recorded::no);
 }

@@ -29,7 +29,7 @@ RopeFriction::RopeFriction(const RopeSection& before, const RopeSection& after, 
 void RopeFriction::declare(Declaration& declaration) const {
   declaration.references = {&before_, &after_};
   declaration.stiffness = true;
-  declaration.damping = after_.material().damping > 0;
+  declaration.damping = damped();
   EventFunction slips{fmt::format("begins to slip on pulley '{}'", wrap_.pulley()), EventFunction::Direction::rising},
       sticks{fmt::format("sticks on pulley '{}'", wrap_.pulley()), EventFunction::Direction::falling};
   slips.restarts = sticks.restarts = false;
@@ -49,31 +49,58 @@ double RopeFriction::excess(const Sides& sides, int towards) {
   return sides.reduction * sides.stretch[towards].pull - sides.stretch[1 - towards].tension;
 }
 
-/// Returns the force per increment of the slip that only makes it unique [N/m].
-double RopeFriction::resistance(const LocalState& state) const {
+/// Returns an upper bound of the derivative of a pull by the change of the slip, nearly [N/m or N s/m].
+double RopeFriction::stiffness(const LocalState& state, const Sides& sides, int side) const {
+  const RopeMaterial& material = after_.material();
   const LocalState slip = slip_of(state);
-  const double rate = RopeSlip::has_begun(slip) ? RopeSlip::mean_rate(slip).by_slip : 0;
-  return hardening * stiffness_ + viscosity_ * rate;
+  const double by_length = RopeSlip::rate_begins(slip) ? 0 : 1;
+  return material.EA * (by_length + material.damping * RopeSlip::rate(slip).most) / sides.stretch[side].natural;
 }
 
-/// A rope that slips at a distant iterate is drawn to the tight side, or else sticks in the next one.
+double RopeFriction::stiffness(const LocalState& state, const Sides& sides) const {
+  return stiffness(state, sides, 0) + stiffness(state, sides, 1);
+}
+
+/// Returns the factor on the equation of a slipping rope. The tension of the other side begins to grow with a larger
+/// slope than that by which friction reduces the tight one. A step of Newton's method that passes this kink would
+/// increase the residual, and be shortened, although the next one finds the solution.
+double RopeFriction::scale(const Sides& sides, int towards) {
+  return sides.stretch[1 - towards].taut ? 1 : 1 / sides.reduction;
+}
+
+/// Returns the force per change of the slip that only makes it unique [N/m or N s/m].
+double RopeFriction::resistance(const LocalState& state) const {
+  const LocalState slip = slip_of(state);
+  if (RopeSlip::rate_begins(slip)) return hardening * after_.material().damping * stiffness_ + viscosity_;
+  return hardening * stiffness_ + viscosity_ * RopeSlip::per_time(slip);
+}
+
+/// Returns the median of the three branches.
 int RopeFriction::slips_towards(const LocalState& state, const Sides& sides) const {
   const LocalState slip = slip_of(state);
-  if (!RopeSlip::may_change(slip)) return -1;
-  const double increment = RopeSlip::increment(slip), held = (stiffness_ - resistance(state)) * increment;
-  const int tight = sides.stretch[1].pull > sides.stretch[0].pull ? 1 : 0;
-  return (tight == 1 ? held : -held) + excess(sides, tight) > 0 ? tight : -1;
+  if (!RopeSlip::may_change(slip) || slip.held(0)) return -1;
+  const double change = RopeSlip::change(slip).value, held = -stiffness(state, sides) * change,
+               resisted = resistance(state) * change;
+  if (held < excess(sides, 1) - resisted) return 1;
+  if (-held < excess(sides, 0) + resisted) return 0;
+  return -1;
 }
 
 void RopeFriction::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const Sides& sides = calc_sides(state);
-  double& row = r[slip_row(state.slots())];
+  const LocalState slip = slip_of(state);
+  const auto [unknown, change] = RopeSlip::change(slip);
   const int towards = slips_towards(state, sides);
-  const double increment = RopeSlip::increment(slip_of(state));
+  double& row = r[slip_row(state.slots(), unknown)];
   if (towards < 0)
-    row += stiffness_ * increment;
+    row += stiffness(state, sides) * change;
   else
-    row += resistance(state) * increment + (towards == 1 ? -1 : 1) * excess(sides, towards);
+    row += scale(sides, towards) * (resistance(state) * change + (towards == 1 ? -1 : 1) * excess(sides, towards));
+  if (!damped()) return;
+  if (unknown == 1)
+    r[slip_row(state.slots(), 0)] += stiffness_ * RopeSlip::increment(slip);
+  else
+    r[slip_row(state.slots(), 1)] += rate_factor() * (RopeSlip::rate_unknown(slip) - RopeSlip::rate(slip).value);
 }
 
 /// Adds the derivatives of a section's pull. @param factor  factor on them
@@ -96,36 +123,65 @@ void RopeFriction::add_wrap(const LocalState& state, const Sides& sides, double 
   position.segment(state.slots().reference_row(1), leaves.size()) += factor * wrap_.sense() * leaves;
 }
 
+/// Adds the derivatives of the equation of a rope that sticks.
+void RopeFriction::add_held(const LocalState& state, const Sides& sides, LocalTangent& tangent) const {
+  thread_local VectorX gradient;
+  gradient.setZero(state.slots().size());
+  const double change = RopeSlip::change(slip_of(state)).value;
+  const int row = change_row(state);
+  for (const int side : {0, 1}) {
+    const Slots& slots = state.of(side).slots();
+    const double k = stiffness(state, sides, side);
+    section(side).add_natural_gradient(state.of(side), sides.stretch[side], -k * change / sides.stretch[side].natural,
+                                       gradient.segment(state.slots().reference_row(side), slots.size()));
+  }
+  gradient[row] += stiffness(state, sides);
+  tangent.K.dense().row(row) += gradient.transpose();
+}
+
+/// Adds the derivatives of the equation of the unknown that does not follow from the balance of tensions.
+void RopeFriction::add_other_tangent(const LocalState& state, LocalTangent& tangent) const {
+  auto K = tangent.K.dense();
+  const int slip = slip_row(state.slots(), 0), rate = slip_row(state.slots(), 1);
+  if (change_row(state) == rate) {
+    K(slip, slip) += stiffness_;
+    return;
+  }
+  K(rate, rate) += rate_factor();
+  K(rate, slip) -= rate_factor() * RopeSlip::rate(slip_of(state)).by_change;
+}
+
 void RopeFriction::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  if (!tangent.wants_K && !(tangent.wants_C && after_.material().damping > 0)) return;
+  if (!tangent.wants_K && !(tangent.wants_C && damped())) return;
   const Sides& sides = calc_sides(state);
-  const int row = slip_row(state.slots()), towards = slips_towards(state, sides);
+  if (tangent.wants_K && damped()) add_other_tangent(state, tangent);
+  const int row = change_row(state), towards = slips_towards(state, sides);
   if (towards < 0) {
-    if (tangent.wants_K) tangent.K.dense()(row, row) += stiffness_;
+    if (tangent.wants_K) add_held(state, sides, tangent);
     return;
   }
   thread_local MeasureGradient gradient;
   gradient.prepare(state.slots().size());
-  const double sign = towards == 1 ? -1 : 1, tight = sides.stretch[towards].pull;
+  const double factor = scale(sides, towards), sign = towards == 1 ? -factor : factor,
+               tight = sides.stretch[towards].pull;
   add_pull(state, sides, towards, sign * sides.reduction, gradient);
   add_wrap(state, sides, -sign * coefficient_ * sides.reduction * tight, gradient);
   if (sides.stretch[1 - towards].taut) add_pull(state, sides, 1 - towards, -sign, gradient);
   if (tangent.wants_K) {
     auto K = tangent.K.dense();
     K.row(row) += gradient.position().transpose();
-    K(row, row) += resistance(state);
+    K(row, row) += factor * resistance(state);
   }
   if (tangent.wants_C) tangent.C.dense().row(row) += gradient.rate().transpose();
 }
 
-/// The slip occurs twice in the local layout, in those of both sections: its row is the one of the section before.
 void RopeFriction::add_pattern(const Slots& slots, LocalPattern& pattern) const {
-  pattern.add_block(slip_row(slots), 0, 1, slots.size());
+  pattern.add_block(slip_row(slots, 0), 0, damped() ? 2 : 1, slots.size());
 }
 
 void RopeFriction::add_energy(const LocalState& state, Energy& energy) const {
   const Sides& sides = calc_sides(state);
-  const double power = (sides.stretch[1].tension - sides.stretch[0].tension) * RopeSlip::rate(slip_of(state));
+  const double power = (sides.stretch[1].tension - sides.stretch[0].tension) * RopeSlip::rate(slip_of(state)).value;
   energy.input += power;  // the power that the sections give away by the slip
   energy.dissipation += power;
 }
@@ -134,18 +190,18 @@ void RopeFriction::add_energy(const LocalState& state, Energy& energy) const {
 /// is nearly zero; if it sticks there is no increment.
 void RopeFriction::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   const Sides& sides = calc_sides(state);
-  const double slipped = std::abs(RopeSlip::last_increment(slip_of(state)));
+  const double slipped = std::abs(RopeSlip::last_change(slip_of(state)));
   values.setConstant(stiffness_ * slipped + std::max(excess(sides, 0), excess(sides, 1)));
 }
 
 double RopeFriction::calc_slip(const LocalState& state, MeasureGradient& gradient) const {
-  gradient.position()[slip_row(state.slots())] += 1;
+  gradient.position()[slip_row(state.slots(), 0)] += 1;
   return RopeSlip::slip(slip_of(state));
 }
 
 double RopeFriction::calc_slip_rate(const LocalState& state, MeasureGradient& gradient) const {
-  const RopeSlip::Rate rate = RopeSlip::mean_rate(slip_of(state));
-  gradient.position()[slip_row(state.slots())] += rate.by_slip;
+  const RopeSlip::Value rate = RopeSlip::rate(slip_of(state));
+  gradient.position()[change_row(state)] += rate.by_change;
   return rate.value;
 }
 

@@ -4,15 +4,19 @@
 //     T_b > exp(mu theta) T_a,
 // with the smaller tension T_a, the coefficient mu and the present wrap theta (rope_wrap.hpp); while it slips both
 // sides are equal. Otherwise it sticks: the slip s of rope_slip.hpp keeps its value exactly. With a = exp(-mu theta),
-// the increment d = s - s_0 of a step of size h, and the stiffness k of both sections, which only scales the equation,
-// this is
-//     0 = k d - max(0, k d + F) + max(0, R - k d),
-//     F = a T_2 - T_1 - (1e-9 k + c/h) d,   R = a T_1 - T_2 + (1e-9 k + c/h) d,
-// for the tensions T_1 before and T_2 after the pulley. The terms with d are no model of friction: they keep a rope
-// whose other side is slack under a negligible tension greater than zero while it slides, c = 1e-10 s/m EA, and make
-// the slip unique where several pulleys of a belt slip at once. A negative wrap counts as zero: both tensions are then
-// equal. The friction T_2 - T_1 acts on the rim of the pulley by the tensions themselves. The power (T_2 - T_1) ds/dt
-// is dissipated.
+// the increment d = s - s_0 of a step of size h, and the tensions T_1 before and T_2 after the pulley, this is
+//     0 = median(-k d, F, -R),   F = a T_2 - T_1 - (1e-9 k_0 + c/h) d,   R = a T_1 - T_2 + (1e-9 k_0 + c/h) d.
+// All three terms decrease as d grows. The factor k only decides which of them Newton's method takes at a distant
+// iterate: with the derivative of both tensions by d, damping included, an iterate beyond a kink of F (a slack side
+// becomes taut) stays on the slipping branch, from which the next one finds the solution; with a smaller factor the
+// method would go to and fro between sticking and slipping. The terms with c and the stiffness k_0 of both sections are
+// no model of friction: they keep a rope whose other side is slack under a negligible tension greater than zero while
+// it slides, c = 1e-10 s/m EA, and make the slip unique where several pulleys of a belt slip at once. A negative wrap
+// counts as zero: both tensions are then equal. The friction T_2 - T_1 acts on the rim of the pulley by the tensions
+// themselves. The power (T_2 - T_1) ds/dt is dissipated.
+//
+// At the beginning of a branch the rate of the slip of a damped rope follows from the same equation in place of d: the
+// accelerations with which the branch begins need the tensions after the discontinuity.
 //
 // The rope has no mass, and so no centrifugal tension. Its elastic creep on the pulley is neglected.
 // L. Euler, Remarques sur l'effet du frottement dans l'equilibre (1762); J. A. Eytelwein, Handbuch der Statik fester
@@ -24,10 +28,11 @@
 #include <vector>
 
 #include "mechanism/joints/cables/rope_wrap.hpp"
+#include "mechanism/model/sticking_part.hpp"
 
 namespace bielle::mechanism {
 
-class RopeFriction final : public Component {
+class RopeFriction final : public Component, public StickingPart {
  public:
   /// @param before,after  sections that end and begin at the pulley; both refer to its slip
   /// @param number,count  number of the pulley among those of the rope with friction
@@ -48,6 +53,9 @@ class RopeFriction final : public Component {
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
+  void hold(const LocalState& state, std::vector<char>& held) const override;
+  std::string describe_overload(const LocalState& state) const override;
+
   /// A quantity with its derivatives over the local layout.
   /// @param gradient  zero on entry
   double calc_slip(const LocalState& state, MeasureGradient& gradient) const;
@@ -63,15 +71,28 @@ class RopeFriction final : public Component {
     double reduction = 1;  ///< a
   };
   LocalState slip_of(const LocalState& state) const { return before_.slip_at(state.of(0), RopeSection::last_end); }
-  int slip_row(const Slots& slots) const {
-    return slots.reference_row(0) + before_.slip_row(*slots.references[0], RopeSection::last_end);
+  /// Row of an unknown of the slip. It occurs twice in the local layout, in those of both sections: its row is the one
+  /// of the section before.
+  int slip_row(const Slots& slots, int unknown) const {
+    return slots.reference_row(0) + before_.slip_row(*slots.references[0], RopeSection::last_end) + unknown;
   }
+  int change_row(const LocalState& state) const {
+    return slip_row(state.slots(), RopeSlip::change(slip_of(state)).unknown);
+  }
+  /// Factor on the equation of the second unknown [N s/m].
+  double rate_factor() const { return after_.material().damping * stiffness_; }
+  bool damped() const { return after_.material().damping > 0; }
   const RopeSection& section(int side) const { return side == 0 ? before_ : after_; }
   const Sides& calc_sides(const LocalState& state) const;
   /// The tension that draws the rope towards a side, less that which friction can hold there [N].
   static double excess(const Sides& sides, int towards);
-  /// The side to which the rope slips in this step: 0 or 1; -1: it sticks.
+  /// The side to which the rope slips in this step, by the median: 0 or 1; -1: it sticks.
   int slips_towards(const LocalState& state, const Sides& sides) const;
+  double stiffness(const LocalState& state, const Sides& sides, int side) const;
+  double stiffness(const LocalState& state, const Sides& sides) const;
+  static double scale(const Sides& sides, int towards);
+  void add_held(const LocalState& state, const Sides& sides, LocalTangent& tangent) const;
+  void add_other_tangent(const LocalState& state, LocalTangent& tangent) const;
   double resistance(const LocalState& state) const;
   void add_pull(const LocalState& state, const Sides& sides, int side, double factor, MeasureGradient& gradient) const;
   void add_wrap(const LocalState& state, const Sides& sides, double factor, MeasureGradient& gradient) const;
@@ -80,7 +101,7 @@ class RopeFriction final : public Component {
   RopeWrap wrap_;
   double coefficient_;
   std::size_t number_, count_;
-  double stiffness_;  ///< k [N/m]
+  double stiffness_;  ///< k_0 [N/m]
   double viscosity_;  ///< c [N s/m]
 };
 

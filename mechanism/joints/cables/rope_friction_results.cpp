@@ -28,7 +28,7 @@ void RopeFriction::write_output(const LocalState& state, double* values) const {
   std::fill(values, values + 6 * count_, 0.0);
   const LocalState slip = slip_of(state);
   const Sides& sides = calc_sides(state);
-  const double before = sides.stretch[0].tension, after = sides.stretch[1].tension, rate = RopeSlip::rate(slip);
+  const double before = sides.stretch[0].tension, after = sides.stretch[1].tension, rate = RopeSlip::rate(slip).value;
   const double lower = std::min(before, after);
   double* value = values + number_;
   for (const double each : {RopeSlip::slip(slip), rate, rate != 0 ? 1.0 : 0.0, after - before,
@@ -43,6 +43,21 @@ void RopeFriction::describe(const LocalState& state, Description& description) c
   description.add(
       fmt::format("friction {:.6g} on '{}', wrap {:.6g} rad: slips if one tension is {:.6g} times the other",
                   coefficient_, wrap_.pulley(), sides.wrap, 1 / sides.reduction));
+}
+
+void RopeFriction::hold(const LocalState& state, std::vector<char>& held) const {
+  held[static_cast<std::size_t>(slip_of(state).slots().first_order_begin)] = 1;
+}
+
+std::string RopeFriction::describe_overload(const LocalState& state) const {
+  const Sides& sides = calc_sides(state);
+  if (excess(sides, 0) <= 0 && excess(sides, 1) <= 0) return {};
+  const double before = sides.stretch[0].tension, after = sides.stretch[1].tension;
+  return fmt::format(
+      "slips on pulley '{}': if it stuck there, its tensions would be {:.4g} N before and {:.4g} N after it, but "
+      "friction {:.4g} with a wrap of {:.4g} rad holds only {:.4g} times the smaller one: give it more friction, more "
+      "turns, or a smaller difference of loads, or compute the slip by a dynamic analysis",
+      wrap_.pulley(), before, after, coefficient_, sides.wrap, 1 / sides.reduction);
 }
 
 namespace {

@@ -126,15 +126,14 @@ void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
   stretch.E += stretch.L;
   for_each_slip(state, [&](End, const LocalState& slip, double sign) {
     stretch.E += sign * RopeSlip::slip(slip);
-    stretch.E_rate += sign * RopeSlip::mean_rate(slip).value;
+    stretch.E_rate += sign * RopeSlip::rate(slip).value;
   });
-  const double natural = stretch.L - stretch.E;
-  if (!(natural > 0)) {
-    stretch.taut = stretch.stretched = false;
-    // It is wound to its end: not a valid trial state.
-    stretch.tension = stretch.pull = std::numeric_limits<double>::quiet_NaN();
-    return;
-  }
+  const double natural = stretch.natural = stretch.L - stretch.E;
+  if (!(natural > 0))
+    throw ComputationError(fmt::format(
+        "t = {:.6g} s: {} '{}': no free rope is left between '{}' and '{}': one has been drawn to the other, "
+        "or all rope is wound",
+        state.time(), type(), name(), path_.names.front(), path_.names.back()));
   const bool stretched = state.environment().statics ? stretch.E >= 0 : state.memory()[taut_memory] != 0;
   stretch.pull = material_.EA * (stretch.E + material_.damping * stretch.E_rate) / natural;
   stretch.stretched = stretched;
@@ -193,9 +192,11 @@ void RopeSection::check_way(const LocalState& state, int i, int j, double least)
     return node.x + node.R * path_.pulleys[static_cast<std::size_t>(k)].on_node.x;
   };
   if ((point(j) - point(i)).squaredNorm() > least * least) return;
-  throw ComputationError(fmt::format("t = {:.6g} s: {} '{}' has no straight way from '{}' to '{}': the pulleys overlap",
-                                     state.time(), type(), name(), path_.names[static_cast<std::size_t>(i)],
-                                     path_.names[static_cast<std::size_t>(j)]));
+  const auto name_of = [&](int k) { return path_.names[static_cast<std::size_t>(k)]; };
+  const auto is_point = [&](int k) { return path_.pulleys[static_cast<std::size_t>(k)].radius == 0; };
+  throw ComputationError(fmt::format(
+      "t = {:.6g} s: {} '{}' has no straight way from '{}' to '{}': {}", state.time(), type(), name(), name_of(i),
+      name_of(j), is_point(i) || is_point(j) ? "the end has reached the rim of the pulley" : "the pulleys overlap"));
 }
 
 /// Returns the wrap of a touched place at this state, from the directions in which the rope arrives and leaves.
@@ -215,20 +216,20 @@ double RopeSection::count_wrap(const LocalState& state, int place, double radius
 void RopeSection::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   thread_local Stretch stretch;
   calc_stretch(state, stretch);
-  if (stretch.taut || std::isnan(stretch.tension))
-    r.head(stretch.E_gradient.size()) += stretch.tension * stretch.E_gradient;
+  if (stretch.taut) r.head(stretch.E_gradient.size()) += stretch.tension * stretch.E_gradient;
 }
 
 // dT = EA/N (dE + tau dEdot) + T/N (dE - dL),   N = L - E
 void RopeSection::calc_pull_gradient(const LocalState& state, const Stretch& stretch, MeasureGradient& gradient) const {
   const auto n = stretch.E_gradient.size();
-  const double natural = stretch.L - stretch.E, k = material_.EA / natural, by_rate = k * material_.damping;
+  const double natural = stretch.natural, k = material_.EA / natural, by_rate = k * material_.damping;
   const double strain_slope = stretch.pull / natural;
   gradient.prepare(state.slots().size());
   auto position = gradient.position();
   position.head(n) = (k + strain_slope) * stretch.E_gradient - strain_slope * stretch.L_gradient;
   for_each_slip(state, [&](End end, const LocalState& slip, double sign) {
-    position[slip_row(state.slots(), end)] += sign * (k + strain_slope + by_rate * RopeSlip::mean_rate(slip).by_slip);
+    position[slip_row(state.slots(), end)] += sign * (k + strain_slope);
+    position[change_row(state, end)] += sign * by_rate * RopeSlip::rate(slip).by_change;
   });
   if (by_rate == 0) return;
   thread_local VectorX v;
@@ -236,6 +237,14 @@ void RopeSection::calc_pull_gradient(const LocalState& state, const Stretch& str
   get_local_velocities(state, v);
   position.head(n).noalias() += by_rate * (stretch.E_second.transpose() * v.head(n));
   gradient.rate().head(n) = by_rate * stretch.E_gradient;
+}
+
+void RopeSection::add_natural_gradient(const LocalState& state, const Stretch& stretch, double factor,
+                                       Eigen::Ref<VectorX> gradient) const {
+  gradient.head(stretch.E_gradient.size()) += factor * (stretch.L_gradient - stretch.E_gradient);
+  for_each_slip(state, [&](End end, const LocalState& /*slip*/, double sign) {
+    gradient[slip_row(state.slots(), end)] -= factor * sign;
+  });
 }
 
 void RopeSection::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -265,14 +274,14 @@ void RopeSection::add_energy(const LocalState& state, Energy& energy) const {
   if (!s.stretched) return;
   VectorX v(state.slots().size());
   get_local_velocities(state, v);
-  const double natural = s.L - s.E, L_rate = s.L_gradient.dot(v.head(s.L_gradient.size()));
+  const double natural = s.natural, L_rate = s.L_gradient.dot(v.head(s.L_gradient.size()));
   const double strain = s.E / natural, elastic_tension = material_.EA * strain;
   energy.elastic += 0.5 * elastic_tension * s.E;
   // d/dt (EA E^2/(2 N)) = EA strain Edot - EA strain^2/2 Ndot
   energy.input -= 0.5 * elastic_tension * strain * (L_rate - s.E_rate);
   energy.dissipation += (s.tension - elastic_tension) * s.E_rate;
   for_each_slip(state, [&](End, const LocalState& slip, double sign) {
-    energy.input += sign * s.tension * RopeSlip::rate(slip);
+    energy.input += sign * s.tension * RopeSlip::rate(slip).value;
   });
 }
 

@@ -72,7 +72,8 @@ class RopeSection final : public Component {
   /// The whole section at a state, along the increments of its nodes.
   struct Stretch {
     double E = 0, E_rate = 0, L = 0, tension = 0;
-    double pull = 0;  ///< EA (E + tau Edot)/(L - E): the tension of a section that could push as well [N]
+    double natural = 0;  ///< L - E: unloaded length of the piece [m]
+    double pull = 0;     ///< EA (E + tau Edot)/(L - E): the tension of a section that could push as well [N]
     VectorX E_gradient, L_gradient;
     MatrixX E_second;
     bool stretched = false;              ///< whether E > 0 on the present branch
@@ -85,9 +86,16 @@ class RopeSection final : public Component {
   void calc_stretch(const LocalState& state, Stretch& stretch) const;
   /// Computes the derivatives of `pull` over the whole local layout. @param gradient  resized by this function
   void calc_pull_gradient(const LocalState& state, const Stretch& stretch, MeasureGradient& gradient) const;
+  /// Adds the derivatives of `natural` over the whole local layout.
+  void add_natural_gradient(const LocalState& state, const Stretch& stretch, double factor,
+                            Eigen::Ref<VectorX> gradient) const;
   /// Returns the state of the slip at an end that has one, and the row of this unknown in the local layout.
   LocalState slip_at(const LocalState& state, End end) const { return state.of(slip_references_[end]); }
   int slip_row(const Slots& slots, End end) const { return slots.reference_row(slip_references_[end]); }
+  /// Returns the row of the unknown that `RopeSlip::change` names.
+  int change_row(const LocalState& state, End end) const {
+    return slip_row(state.slots(), end) + RopeSlip::change(slip_at(state, end)).unknown;
+  }
   const RopeMaterial& material() const { return material_; }
   const RopePath& path() const { return path_; }
   /// Initial value of alpha + gamma at an end.

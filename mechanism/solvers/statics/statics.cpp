@@ -10,6 +10,7 @@
 #include "mechanism/solvers/statics/held_coordinates.hpp"
 #include "mechanism/solvers/statics/held_states.hpp"
 #include "mechanism/solvers/statics/increments.hpp"
+#include "mechanism/solvers/statics/overloaded_friction.hpp"
 #include "mechanism/solvers/statics/path_watch.hpp"
 #include "mechanism/solvers/statics/stability.hpp"
 #include "mechanism/solvers/statics/stability_watch.hpp"
@@ -24,7 +25,8 @@ class LoadStepping {
  public:
   LoadStepping(const LoadRamp& ramp, const Environment& environment, const LoadSteps& steps,
                const NewtonOptions& options, State& state)
-      : steps_(steps),
+      : ramp_(ramp),
+        steps_(steps),
         line_search_(options.line_search),
         state_(state),
         begin_(ramp.begin()),
@@ -58,6 +60,7 @@ class LoadStepping {
   bool judge(const PathWatch::Point& from, double factor);
   void land(PathWatch::Point& to, const PathWatch::Verdict& verdict, LoadJump& jump);
 
+  const LoadRamp& ramp_;
   const LoadSteps& steps_;
   bool line_search_;
   State& state_;
@@ -134,9 +137,11 @@ void LoadStepping::refuse(double factor, bool falls) {
   log_.why_refused = why_;
   const double size = (increments_.end() - increments_.made()) * (1 - begin_);
   if (!loaded_ && !falls && increments_.halve()) return;
-  throw ComputationError(
-      fmt::format("statics: no equilibrium found at load factor {:.6g} (increment {:.3g}): {}{}", factor, size, why_,
-                  loaded_ || falls ? "" : "; if the load has a maximum there, `arc_length` follows the path past it"));
+  std::string advice = describe_overloaded_friction(ramp_, equilibrium_, factor, state_);
+  if (advice.empty() && !loaded_ && !falls)
+    advice = "; if the load has a maximum there, `arc_length` follows the path past it";
+  throw ComputationError(fmt::format("statics: no equilibrium found at load factor {:.6g} (increment {:.3g}): {}{}",
+                                     factor, size, why_, advice));
 }
 
 /// Moves a new increment to its path, and records jumps. @returns whether the path had to be followed

@@ -237,3 +237,38 @@ TEST_CASE("a rope on a pulley without friction has one tension, as one that slid
     CHECK(session.node("b").v.z() == Approx(-a * 0.3).epsilon(5e-3));
   });
 }
+
+TEST_CASE("statics names the pulley whose friction is too small, with its tensions") {
+  const auto message = [](double first, double second, const std::string& keys) {
+    return bielle::test::message_of<bielle::ComputationError>([&] {
+      const MechanismFile file = read_mechanism_text(over_drum(first, second, "fixed: true", keys), "model.yaml");
+      Session session(file.model);
+      compute_statics(session);
+    });
+  };
+  const std::string keys = ", friction: 0.3, pretension: 60";
+  CHECK_THAT(message(10, 3, keys), Catch::Contains("joint 'rope' slips on pulley 'drum'") &&
+                                       Catch::Contains("98.1 N before and 29.43 N after it") &&
+                                       Catch::Contains("2.566 times"));
+  CHECK_THAT(message(3, 10, keys), Catch::Contains("29.43 N before and 98.1 N after it"));
+  // Just above and just below the limit.
+  CHECK_THAT(message(10, 10 / (1.001 * std::exp(0.3 * M_PI)), keys), Catch::Contains("slips on pulley 'drum'"));
+  const MechanismFile file =
+      read_mechanism_text(over_drum(10, 10 / (0.999 * std::exp(0.3 * M_PI)), "fixed: true", keys), "model.yaml");
+  Session session(file.model);
+  compute_statics(session);
+  CHECK(session.read("joints/rope/tension")[0] == Approx(98.1).epsilon(1e-6));
+}
+
+TEST_CASE("a rope whose end is drawn to its drum is named") {
+  const std::string text = R"yaml(
+nodes:
+  a: {position: [-0.1, 0, -1], fixed: [x, y, rx, ry, rz]}
+  drum: {fixed: true}
+  b: {position: [0.05, 0, -0.3], motion: {x: 0, y: 0, z: "t", rx: 0, ry: 0, rz: 0}}
+elements: {m: {type: point_mass, node: a, mass: 4}}
+joints: {rope: {type: cable, nodes: [a, drum, b], radii: [0, 0.1, 0], axis: [0, 1, 0], EA: 1e5, friction: 0.3}}
+)yaml";
+  const std::string message = bielle::test::message_of<bielle::ComputationError>([&] { account(text, 7e-3, 1); });
+  CHECK_THAT(message, Catch::Contains("'rope'") && Catch::Contains("'drum'") && Catch::Contains("'b'"));
+}
