@@ -16,7 +16,7 @@ namespace bielle::mechanism {
 
 class DelayedMeasure final : public Measure, public Echo {
  public:
-  static constexpr int usual_points = 2000;
+  static constexpr int usual_points = 1000;
   /// @param time  T [s] > 0 @param points  number of stored values over this time
   DelayedMeasure(std::string name, const Measure& of, double time, int points, std::string units);
   const Measure& of() const { return of_; }
