@@ -20,10 +20,9 @@
 // LuGre law, creep under a steady force as long as they vibrate (P. Dupont et al., IEEE Trans. Automatic Control 47
 // (2002) 787). eta_1 = eta + T/sigma_x, T = 1 ms: the return takes a time without damping, too. eta fades as
 // (1 - (V_r/v_0)^2)^2 and is zero above v_0. l(N) = 1, or 2 w/(1 + w^2) with w = N/N_0, if the slip stiffness is
-// largest at the load N_0. The trail is that of the brush model, with q = |f|/(mu N) and p = (1 - q)^(1/3): t = 3 t_0
-// p^3/(1 + p
-// + p^2). Without load the force is zero, and u vanishes at the rate 1/T. Rolling resistance is the moment -f N tau
-// rho_r of the rolling radius rho_r.
+// largest at the load N_0. The trail is that of the brush model, with q = |f|/(mu N) and p = (1 - q)^(1/3):
+// t = 3 t_0 p^3/(1 + p + p^2). Without load the force is zero, and u vanishes at the rate 1/T. Rolling resistance is
+// the moment -f N tau rho_r of the rolling radius rho_r.
 //
 // All forces act along the velocities that they depend on, so that the tyre dissipates
 //     (S - N) edot + u . K u L/sigma + D udot . v' + f N tau V_r >= 0,      and stores  int S de + u . K u/2.
