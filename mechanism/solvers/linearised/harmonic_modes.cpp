@@ -233,13 +233,13 @@ bool HarmonicSearch::is_known(const HarmonicModes& modes, const Mode& mode, cons
 HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const {
   if (equations_.constant()) return find_with(options, 0);
   constexpr int most = 64;
-  constexpr double exact = 1e-7, nothing = 1e-9;
+  constexpr double exact = 1e-7, nothing = 1e-12;
   int h = std::max(1, least);
   HarmonicModes modes = find_with(options, h);
   while (true) {
     if (h <= 2) {
-      // The exponents change by the defect times their distance from the shift over that from other exponents: by less
-      // than `exact` if this is below a hundred. Rounding leaves up to 1e-11 for stiff mechanisms.
+      // A mode has a larger share of this harmonic if its exponent is near others: by the square of its distance from
+      // the shift over that from them.
       modes.change = defect(modes);
       modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
       if (modes.change < nothing) return modes;
