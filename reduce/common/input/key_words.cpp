@@ -13,17 +13,6 @@
 namespace bielle {
 namespace {
 
-/// Returns "; did you mean .." with the nearest name, or the names that contain what was asked; empty if there are
-/// none.
-std::string similar_names(const std::string& asked, const std::vector<std::string>& names) {
-  if (const std::string nearest = nearest_name(asked, names); !nearest.empty())
-    return fmt::format("; did you mean '{}'?", nearest);
-  std::set<std::string> containing;
-  for (const std::string& each : names)
-    if (!asked.empty() && each.find(asked) != std::string::npos) containing.insert(each);
-  return did_you_mean(asked, std::vector<std::string>(containing.begin(), containing.end()));
-}
-
 std::string variable_words(const KeyForm& form) {
   std::vector<std::string> variables = form.words;
   if (form.reads_state) variables.emplace_back("measures");
@@ -118,6 +107,17 @@ void visit_forms(const KeyForms& forms, const std::function<void(const KeyTable&
 std::string in_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
+}
+
+/// Returns "; did you mean .." with the nearest name, or the names that contain what was asked; empty if there are
+/// none.
+std::string similar_names(const std::string& asked, const std::vector<std::string>& names) {
+  if (const std::string nearest = nearest_name(asked, names); !nearest.empty())
+    return fmt::format("; did you mean '{}'?", nearest);
+  std::set<std::string> containing;
+  for (const std::string& each : names)
+    if (!asked.empty() && in_words(each).find(in_words(asked)) != std::string::npos) containing.insert(each);
+  return did_you_mean(asked, std::vector<std::string>(containing.begin(), containing.end()));
 }
 
 }  // namespace
