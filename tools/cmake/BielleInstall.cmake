@@ -45,4 +45,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/BielleConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/BielleConfig.cmake ${PROJECT_BINARY_DIR}/BielleConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/Dependencies.cmake
         DESTINATION ${BIELLE_INSTALL_CMAKE} COMPONENT development)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/LICENSES.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+include(BielleDocuments)

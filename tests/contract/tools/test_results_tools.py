@@ -251,6 +251,14 @@ class Plots(ResultsTool):
             self.assertEqual(done.returncode, status, done.stderr)
             self.assertIn(says, done.stderr)
 
+    def test_tools_print_the_version_of_their_program(self):
+        program = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        for tool in ("bielle-plot", "bielle-table", "bielle-study", "bielle-view", "bielle-exchange"):
+            done = subprocess.run([os.path.join(REPOSITORY, "tools", tool), "--version"], capture_output=True, text=True, timeout=60,
+                                  env={**os.environ, "BIELLE_BIN": os.path.dirname(program)})
+            self.assertEqual((done.returncode, done.stdout), (0, f"{tool} with {program}\n{said}"), done.stderr)
+
     def test_installed_tools_advise_to_use_apt(self):
         shutil.copytree(os.path.join(REPOSITORY, "tools", "bielle_tools"), self.path("tools/bielle_tools"), ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy(os.path.join(REPOSITORY, "tools", "bielle-plot"), self.path("tools"))
