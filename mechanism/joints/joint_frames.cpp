@@ -115,6 +115,7 @@ std::array<Vector3, 2> read_points_at(const YamlValue& at) {
 }
 
 JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need, const std::string& axis_key) {
+  constexpr int ground = 0;  // index of the built-in node
   JointFrames frames;
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
   frames.first = nodes[0];
@@ -133,7 +134,8 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
     const auto points = read_points_at(*at);
     frames.on_first.x = points[0];
     frames.on_second.x = points[1];
-  } else if (!position) {
+  } else if (!position && frames.first != ground) {
+    // A joint of a part with the ground belongs at the part: the origin of the ground is no place of a machine.
     constexpr double rounding = 1e-9;  // [m]
     const double distance = (second.x - first.x).norm();
     if (distance > rounding) frames.arm = distance;

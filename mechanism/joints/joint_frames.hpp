@@ -27,7 +27,7 @@ struct JointFrames {
   int first = 0, second = 0;  ///< node indices in the model
   Frame on_first, on_second;
   /// Initial distance of the nodes if the file does not give the position of the joint: a lever arm of the first node
-  /// bridges it [m]. It is 0 if the file does.
+  /// bridges it [m]. It is 0 if the file does, or if the first node is the ground.
   double arm = 0;
 };
 

@@ -173,8 +173,9 @@ std::string explain(const std::vector<Explanation>& explanations, const std::str
   if (best >= likely) return for_terminals(*nearest);
   if (with_all_words.size() == 1) return for_terminals(*with_all_words.front());
   if (!with_all_words.empty()) return listed(with_all_words);
+  const std::string nearest_one = nearest_name(asked, names);
   throw InputError(fmt::format("--explain: no explanation fits '{}'{}; `--explain all` lists them", asked,
-                               did_you_mean(asked, names)));
+                               nearest_one.empty() ? "" : fmt::format("; did you mean '{}'?", nearest_one)));
 }
 
 }  // namespace bielle

@@ -2,15 +2,31 @@
 
 import argparse
 import math
+import subprocess
 
 from .messages import InputError, check_names, did_you_mean
+from .programs import find_program
 from .results.results_file import Results
+
+
+class _Version(argparse.Action):
+    """Prints the version of the program that belongs to the tools, which has the commit, and exits."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        program = find_program("bielle-mechanism")
+        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        print(f"{parser.prog} with {program}\n{said}", end="")
+        parser.exit()
 
 
 class Parser(argparse.ArgumentParser):
     """Wrong options give one sentence and status 1, as in all programs of Bielle."""
 
     raw = argparse.RawDescriptionHelpFormatter
+
+    def __init__(self, *arguments, **options):
+        super().__init__(*arguments, **options)
+        self.add_argument("--version", action=_Version, nargs=0, help="prints version, commit and libraries, and exits")
 
     def parse_args(self, args=None, namespace=None):
         options, unknown = self.parse_known_args(args, namespace)

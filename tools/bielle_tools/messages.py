@@ -119,10 +119,16 @@ def require(*modules):
         return
     command = os.path.relpath(sys.argv[0])
     advice = f"run {command} itself, not through python3, or" if sys.executable != "/usr/bin/python3" else "run"
-    packages = " ".join(f"python3-{PACKAGES.get(module, module.lower())}" for module in missing)
+    packages = [f"python3-{PACKAGES.get(module, module.lower())}" for module in missing]
     print(f"{os.path.basename(command)}: {sys.executable} has no {' and no '.join(missing)}. Debian's /usr/bin/python3 has, with the "
-          f"packages {packages}: {advice} tools/install", file=sys.stderr)
+          f"packages {' '.join(packages)}: {advice} {installation(*packages)}", file=sys.stderr)
     sys.exit(2)
+
+
+def installation(*packages):
+    """The command that installs Debian's packages: that of the repository, or apt for tools that are installed."""
+    tools = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    return "tools/install" if os.path.isfile(os.path.join(tools, "install")) else f"apt install {' '.join(packages)}"
 
 
 def note(text):

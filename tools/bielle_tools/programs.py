@@ -15,5 +15,7 @@ def find_program(name):
         path = os.path.join(folder, name)
         if os.access(path, os.X_OK):
             return path
-    raise InputError(f"{name} is not built: run 'cmake --preset release && cmake --build build/release', "
-                     "or say where it is with BIELLE_BIN=FOLDER")
+    absent = "is not built: run 'cmake --preset release && cmake --build build/release'"
+    if not os.path.exists(os.path.join(tools, "install")):  # installed tools
+        absent = "is not installed: install the Debian package bielle"
+    raise InputError(f"{name} {absent}, or say where it is with BIELLE_BIN=FOLDER")

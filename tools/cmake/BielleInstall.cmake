@@ -21,10 +21,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/bielle_tools DESTINATION ${BIELLE_
         PATTERN "*.js" PATTERN "*.css" PATTERN "*.html"
         PATTERN __pycache__ EXCLUDE
         PATTERN gallery EXCLUDE)  # needs the examples of the repository
-foreach(tool bielle-animate bielle-exchange bielle-loads bielle-paraview bielle-plot bielle-rainflow bielle-table bielle-view study)
+foreach(tool bielle-animate bielle-exchange bielle-loads bielle-paraview bielle-plot bielle-rainflow bielle-table bielle-study bielle-view)
   install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/${tool} DESTINATION ${BIELLE_INSTALL_TOOLS} COMPONENT programs)
-  string(REPLACE study bielle-study command ${tool})
-  set(link "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/${command}")
+  set(link "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/${tool}")
   file(RELATIVE_PATH target /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${BIELLE_INSTALL_TOOLS}/${tool})
   install(CODE "file(CREATE_LINK \"${target}\" \"${link}\" SYMBOLIC)" COMPONENT programs)
 endforeach()
@@ -46,4 +45,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/BielleConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/BielleConfig.cmake ${PROJECT_BINARY_DIR}/BielleConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/Dependencies.cmake
         DESTINATION ${BIELLE_INSTALL_CMAKE} COMPONENT development)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/LICENSES.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+include(BielleDocuments)

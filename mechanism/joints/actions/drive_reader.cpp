@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/joints/actions/drive_keys.hpp"
 #include "mechanism/joints/actions/force_drive.hpp"
@@ -43,6 +44,17 @@ std::string find_law(const YamlValue& entry) {
   return law;
 }
 
+/// Returns a clause on the coordinates of a joint, none of which the laws of the other kind can drive, and their laws.
+std::string coordinates_and_laws(const Joint& joint, bool turning) {
+  if (joint.coordinates().empty()) return "it has no coordinate";
+  std::vector<std::string> names;
+  for (const JointCoordinate& coordinate : joint.coordinates()) names.push_back(fmt::format("'{}'", coordinate.name));
+  const bool one = names.size() == 1;
+  return fmt::format("its {} {} {} {}, `pid` or `motor`", one ? "coordinate" : "coordinates",
+                     fmt::join(names, names.size() == 2 ? " and " : ", "), one ? "takes" : "take",
+                     turning ? "`angle`, `rate`, `torque`" : "`displacement`, `speed`, `force`");
+}
+
 /// Returns the coordinate that a law drives. @param place  the map that may contain `coordinate`: the drive, or its
 /// `pid` or `motor`
 std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, const std::string& law,
@@ -52,10 +64,11 @@ std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, cons
   for (const JointCoordinate& coordinate : joint.coordinates())
     if (any || (coordinate.kind != JointCoordinate::Kind::displacement) == turning) names.push_back(coordinate.name);
   if (names.empty())
-    entry.at(law).fail(fmt::format("a {} joint has no {} to drive", joint.type(),
+    entry.at(law).fail(fmt::format("a {} joint has no {} to drive: {}", joint.type(),
                                    any       ? "coordinate"
                                    : turning ? "angle"
-                                             : "displacement"));
+                                             : "displacement",
+                                   coordinates_and_laws(joint, !turning)));
   if (names.size() > 1 && !place.has("coordinate"))
     place.fail(
         fmt::format("joint '{}' has several coordinates: give `coordinate`{}", joint.name(), did_you_mean("", names)));

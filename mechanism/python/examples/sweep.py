@@ -3,8 +3,8 @@
 
     PYTHONPATH=build/release/python mechanism/python/examples/sweep.py [MODEL.yaml PARAMETER FROM TO COUNT]
 
-Sessions compute without Python's global lock, so that threads use all cores; `tools/study` does the same with processes
-and files.
+Sessions compute without Python's global lock, so that threads use all cores; `tools/bielle-study` does the same with
+processes and files.
 """
 
 import os

@@ -109,6 +109,17 @@ std::string in_words(std::string name) {
   return name;
 }
 
+/// Returns "; did you mean .." with the nearest name, or the names that contain what was asked; empty if there are
+/// none.
+std::string similar_names(const std::string& asked, const std::vector<std::string>& names) {
+  if (const std::string nearest = nearest_name(asked, names); !nearest.empty())
+    return fmt::format("; did you mean '{}'?", nearest);
+  std::set<std::string> containing;
+  for (const std::string& each : names)
+    if (!asked.empty() && in_words(each).find(in_words(asked)) != std::string::npos) containing.insert(each);
+  return did_you_mean(asked, std::vector<std::string>(containing.begin(), containing.end()));
+}
+
 }  // namespace
 
 std::string form_words(const KeyForms& forms) {
@@ -163,7 +174,8 @@ std::string keys_of_named(const KeyTable& root, const std::string& name) {
       if (fmt::format(" {} ", in_words(names[k])).find(fmt::format(" {} ", in_words(name))) != std::string::npos)
         add(*tables[k]);
   if (text.empty())
-    throw InputError(fmt::format("--keys {}: nothing has this name{}", name, did_you_mean(name, names)));
+    throw InputError(fmt::format("--keys {}: nothing has this name{}; `--keys all` prints all names with their keys",
+                                 name, similar_names(name, names)));
   return text;
 }
 

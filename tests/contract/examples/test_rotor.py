@@ -74,7 +74,7 @@ class Rotor(unittest.TestCase):
             table, target = os.path.join(folder, "speeds.csv"), os.path.join(folder, "speeds.h5")
             with open(table, "w") as file:
                 file.write("speed\n10\n80\n")
-            subprocess.run([os.path.join(REPOSITORY, "tools", "study"), MODEL, table, "-o", target], check=True, capture_output=True,
+            subprocess.run([os.path.join(REPOSITORY, "tools", "bielle-study"), MODEL, table, "-o", target], check=True, capture_output=True,
                            env={**os.environ, "BIELLE_BIN": os.environ["BIELLE_PROGRAMS"]}, timeout=100)
             with h5py.File(target) as file:
                 for k, speed in enumerate(file["/parameters/speed"], start=1):

@@ -1,4 +1,4 @@
-"""Files of studies and tables with words and numbers exchanged: study ends with a sentence, and its input files are not
+"""Files of studies and tables with words and numbers exchanged: bielle-study ends with a sentence, and its input files are not
 lost."""
 
 import re
@@ -61,7 +61,7 @@ class StudyFiles(FuzzTest):
                 for word in NEVER:
                     self.assertNotIn(word, done.stderr)
                 if done.returncode == 1:
-                    self.assertIn("study: ", done.stderr)
+                    self.assertIn("bielle-study: ", done.stderr)
                 for each, text in inputs.items():
                     self.assertEqual(self.read(each), text, f"{each} has changed")
 

@@ -1,4 +1,4 @@
-"""A stand-in for bielle-mechanism in tests of tools/study, whose results are known in closed form."""
+"""A stand-in for bielle-mechanism in tests of tools/bielle-study, whose results are known in closed form."""
 
 import os
 import stat
@@ -6,7 +6,7 @@ import stat
 from box_mesh import REPOSITORY, InFolder
 from python_tool import run_python_tool
 
-STUDY = os.path.join(REPOSITORY, "tools", "study")
+STUDY = os.path.join(REPOSITORY, "tools", "bielle-study")
 # Takes the arguments of bielle-mechanism; doubles the parameter `speed`, fails when `mass` is negative; keeps a log of its runs.
 STAND_IN = """#!/usr/bin/python3
 import os, sys, time, h5py

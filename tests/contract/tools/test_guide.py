@@ -16,7 +16,7 @@ sys.path.insert(0, TOOLS)
 from bielle_tools.manual import pages  # noqa: E402
 
 COMMANDS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-loads",
-            "bielle-exchange", "convert_mesh.py", "tools/study", "tools/verify"]
+            "bielle-exchange", "convert_mesh.py", "tools/bielle-study", "tools/verify"]
 
 
 def guide():

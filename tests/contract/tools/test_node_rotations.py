@@ -130,7 +130,7 @@ class InStudies(_ResultsTool):
     def test_the_table_has_them(self):
         with open(self.path("wheel.yaml"), "w", encoding="utf-8") as file:
             file.write(STUDIED)
-        command = ["/usr/bin/python3", "-B", os.path.join(REPOSITORY, "tools", "study"), self.path("wheel.yaml"), "--grid", "speed=10,20",
+        command = ["/usr/bin/python3", "-B", os.path.join(REPOSITORY, "tools", "bielle-study"), self.path("wheel.yaml"), "--grid", "speed=10,20",
                    "--gather", "turn=last nodes/wheel/bryant[c]", "-o", self.path("study.h5")]
         done = subprocess.run(command, capture_output=True, text=True, timeout=240, env={**os.environ, "BIELLE_BIN": os.environ["BIELLE_PROGRAMS"]})
         self.assertEqual(done.returncode, 0, done.stderr)

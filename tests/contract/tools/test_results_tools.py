@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree as ElementTree
@@ -229,7 +230,7 @@ class Plots(ResultsTool):
 
     def test_a_python_without_the_packages_says_what_to_do(self):
         for tool, module in (("bielle-plot", "matplotlib"), ("bielle-animate", "h5py"), ("bielle-paraview", "meshio"),
-                             ("convert_mesh.py", "meshio"), ("study", "h5py")):
+                             ("convert_mesh.py", "meshio"), ("bielle-study", "h5py")):
             # -S runs Python without the packages of the machine.
             done = subprocess.run(["/usr/bin/python3", "-B", "-S", os.path.join(REPOSITORY, "tools", tool)], text=True,
                                   capture_output=True, timeout=60)
@@ -237,6 +238,34 @@ class Plots(ResultsTool):
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
             for text in (tool + ": /usr/bin/python3 has no ", module, "python3-" + module, "tools/install"):
                 self.assertIn(text, done.stderr)
+
+    def test_plots_need_no_library_that_they_do_not_use(self):
+        hide = ("import runpy, sys; hidden, *sys.argv = sys.argv[1:]; sys.modules.update(dict.fromkeys(hidden.split(',')));"
+                "sys.path.insert(0, sys.argv[0].rpartition('/')[0]); runpy.run_path(sys.argv[0], run_name='__main__')")
+        tool = os.path.join(REPOSITORY, "tools", "bielle-plot")
+        for hidden, options, status, says in (
+                ("vtkmodules,scipy", [], 0, ""), ("vtkmodules,scipy", ["--quantity", "kinetic"], 0, ""),
+                ("scipy", ["--quantity", "kinetic", "--spectrum"], 2, "has no scipy"), ("matplotlib", [], 2, "has no matplotlib")):
+            done = subprocess.run(["/usr/bin/python3", "-B", "-c", hide, hidden, tool, self.path("run.h5"), "-o", self.path("plots"), *options],
+                                  capture_output=True, text=True, timeout=120)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertIn(says, done.stderr)
+
+    def test_tools_print_the_version_of_their_program(self):
+        program = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        for tool in ("bielle-plot", "bielle-table", "bielle-study", "bielle-view", "bielle-exchange"):
+            done = subprocess.run([os.path.join(REPOSITORY, "tools", tool), "--version"], capture_output=True, text=True, timeout=60,
+                                  env={**os.environ, "BIELLE_BIN": os.path.dirname(program)})
+            self.assertEqual((done.returncode, done.stdout), (0, f"{tool} with {program}\n{said}"), done.stderr)
+
+    def test_installed_tools_advise_to_use_apt(self):
+        shutil.copytree(os.path.join(REPOSITORY, "tools", "bielle_tools"), self.path("tools/bielle_tools"), ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copy(os.path.join(REPOSITORY, "tools", "bielle-plot"), self.path("tools"))
+        done = subprocess.run(["/usr/bin/python3", "-B", "-S", self.path("tools/bielle-plot")], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("run apt install python3-numpy python3-h5py python3-matplotlib python3-yaml\n", done.stderr)
+        self.assertNotIn("tools/install", done.stderr)
 
 
 class Pictures(ResultsTool):

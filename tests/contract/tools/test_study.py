@@ -1,4 +1,4 @@
-"""study: every line of a table becomes a run, failed ones among them; a stand-in takes the place of
+"""bielle-study: every line of a table becomes a run, failed ones among them; a stand-in takes the place of
 bielle-mechanism."""
 
 import os
@@ -46,7 +46,7 @@ class Study(WithStandIn):
             self.assertIn(part, done.stderr)
 
     def test_a_parameter_that_no_run_has_ends_the_study(self):
-        self.refuse("sped,mass\n1,2\n2,2\n1,3\n", "study: --set sped=1: model.yaml has no parameter 'sped'; did you mean 'speed'?")
+        self.refuse("sped,mass\n1,2\n2,2\n1,3\n", "bielle-study: --set sped=1: model.yaml has no parameter 'sped'; did you mean 'speed'?")
         self.assertEqual([name for name in os.listdir(self.folder) if "study." in name], [])
 
     def test_only_studies_are_replaced(self):

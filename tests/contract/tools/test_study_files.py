@@ -1,4 +1,4 @@
-"""study keeps its inputs, files of others, and the runs of another study of the same file."""
+"""bielle-study keeps its inputs, files of others, and the runs of another study of the same file."""
 
 import fcntl
 import glob

@@ -1,4 +1,4 @@
-"""study: grids, gathered numbers, figures, and jobs for schedulers; against the stand-in and against single runs."""
+"""bielle-study: grids, gathered numbers, figures, and jobs for schedulers; against the stand-in and against single runs."""
 
 import csv
 import os

@@ -1,4 +1,4 @@
-"""study with the program itself: its runs equal single runs to the bit, and a failed one does not affect the others."""
+"""bielle-study with the program itself: its runs equal single runs to the bit, and a failed one does not affect the others."""
 
 import os
 import subprocess
@@ -32,7 +32,7 @@ class StudyRuns(unittest.TestCase):
                 file.write(MODEL)
             with open(at("masses.csv"), "w", encoding="utf-8") as file:
                 file.write("\n".join(["mass", *masses]) + "\n")
-            done = subprocess.run([os.path.join(REPOSITORY, "tools", "study"), at("model.yaml"), at("masses.csv"), "-o", at("study.h5"),
+            done = subprocess.run([os.path.join(REPOSITORY, "tools", "bielle-study"), at("model.yaml"), at("masses.csv"), "-o", at("study.h5"),
                                    "--jobs", "2"], capture_output=True, text=True, timeout=300,
                                   env={**os.environ, "BIELLE_BIN": PROGRAMS})
             self.assertEqual(done.returncode, 2, done.stderr)  # message of a run that failed

@@ -139,6 +139,9 @@ class OfSynthetic(TableTool):
             self.assertEqual((rows["elements/shaft/von_mises"]["shape"], rows["elements/shaft/von_mises"]["unit"]), ("4 x 2", "Pa"))
             self.assertEqual((rows["elements/rod/radiated_power"]["shape"], rows["elements/rod/radiated_power"]["unit"]), ("made", "W"))
             self.assertIn("R = Rx(a) Ry(b) Rz(c)", rows["nodes/hub/bryant"]["description"])
+            for place, short in (("joints/main/reaction", "main.reaction"), ("joints/main/coordinate", "main.displacement, main.angle"),
+                                 ("joints/main/rate", "main.displacement.rate, main.angle.rate"), ("elements/shaft/von_mises", "shaft.von_mises"), ("time", "")):
+                self.assertEqual(rows[place]["short name"], short)
             if layout == "named":
                 synthetic.stack(self.path("run.h5"))
         self.assertIn("joints/main/reaction ", self.succeed("run.h5").stdout)

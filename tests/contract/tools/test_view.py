@@ -166,6 +166,21 @@ class Viewed(Pages, InFolder):
         np.testing.assert_allclose(places[0], places[1], atol=0.01)
         self.no_errors()
 
+    def test_another_size_of_the_window_is_filled_until_the_view_is_changed(self):
+        self.page(self.every())
+        def ratio(width, height):
+            """The height of the picture relative to that of a picture that is fitted to the size of this window."""
+            self.browser.set_window_size(width, height)
+            self.settled()
+            return self.run_script("const c = bielle.camera, shown = c.height, touched = c.touched, target = c.target; c.fit(); const fitted = c.height;"
+                                   "Object.assign(c, {height: shown, touched, target}); return shown / fitted")
+        self.addCleanup(self.browser.set_window_size, 1000, 700)
+        self.assertAlmostEqual(ratio(1000, 700), 1, delta=1e-6)
+        self.assertAlmostEqual(ratio(600, 900), 1, delta=1e-6)
+        self.run_script("bielle.camera.touched = true")
+        self.assertGreater(abs(ratio(1400, 500) - 1), 0.05)
+        self.no_errors()
+
     def test_keys(self):
         self.page(self.every())
         press = "document.dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0], bubbles: true}))"

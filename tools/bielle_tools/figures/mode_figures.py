@@ -69,12 +69,13 @@ def eigenvalues(modes, at):
 
 def shapes(scenery, at):
     """Draws a panel for each of the first modes: its largest deviation, over the state in grey."""
-    from ..pictures import display, frames, shot  # VTK takes time to load
+    from ..pictures import display
     modes = scenery.modes
     count = min(len(modes), MOST_SHAPES)
     if display.missing():
         note(f"mode_shapes is left out: {display.missing()}")
         return []
+    from ..pictures import frames, shot  # VTK takes time to load
     if count < len(modes):
         note(f"mode_shapes shows {count} of {len(modes)} modes; bielle-animate --mode N shows any")
     look = shot.Look(view="iso", superelements=scenery.superelements, size=PANEL)

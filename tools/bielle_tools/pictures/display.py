@@ -5,19 +5,22 @@ the processor. The display of the user is never used: pictures are the same on a
 """
 
 import contextlib
+import importlib.util
 import os
 import select
 import shutil
 import subprocess
 
-from ..messages import InputError
+from ..messages import InputError, installation
 
 LONGEST_START = 30  # [s]
 
 
 def missing():
-    """A sentence on the program that is missing to draw; empty if there is one."""
-    return "" if shutil.which("Xvfb") else "drawing needs the program Xvfb (Debian package xvfb): run tools/install"
+    """A sentence on the package that is missing to draw; empty if there is all."""
+    if importlib.util.find_spec("vtkmodules") is None:
+        return f"drawing needs VTK (Debian package python3-vtk9): run {installation('python3-vtk9')}"
+    return "" if shutil.which("Xvfb") else f"drawing needs the program Xvfb (Debian package xvfb): run {installation('xvfb')}"
 
 
 @contextlib.contextmanager

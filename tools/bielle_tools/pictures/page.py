@@ -3,7 +3,7 @@
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from ..messages import InputError
+from ..messages import InputError, installation
 from ..scene.stress_scale import stress_colours
 
 INK, QUIET = (30, 33, 38), (95, 102, 112)
@@ -121,4 +121,5 @@ def _font(size, bold):
     try:
         return ImageFont.truetype(f"DejaVuSans{'-Bold' if bold else ''}.ttf", size)
     except OSError:
-        raise InputError("drawing needs the letters DejaVu Sans (Debian package fonts-dejavu-core): run tools/install") from None
+        raise InputError("drawing needs the letters DejaVu Sans (Debian package fonts-dejavu-core): run "
+                         + installation("fonts-dejavu-core")) from None

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from ..messages import InputError, note
+from ..messages import InputError, note, require
 from .table_file import header
 
 MOST_BINS = 400
@@ -52,6 +52,7 @@ def with_gaps(curve):
 def spectra(found, kind):
     """Curves over the frequency. kind: `amplitude` or `psd`. Notes tell the resolution, and what was done to a
     signal."""
+    require("scipy")
     from .spectra import amplitude_spectrum, power_density  # SciPy takes a while
     results = []
     for curve in found:
@@ -75,6 +76,7 @@ def density(unit):
 
 def orders(runs, names, select, speed):
     """[(Curve, Orders)] over the quantity `speed` [rad/s]. @raises InputError"""
+    require("scipy")
     from .spectra import order_analysis  # SciPy takes a while
     results = []
     for run in runs:

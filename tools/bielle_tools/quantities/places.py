@@ -6,6 +6,8 @@ precedes others); and the coordinates of joints with their rates, `main.angle`, 
 are optional: `'rod.wrist'.position`.
 """
 
+import contextlib
+
 import h5py
 
 from ..messages import InputError, did_you_mean
@@ -31,7 +33,21 @@ class Places:
             known = set(self.recorded)
             self.made = [place for name in bodies for place in (f"elements/{name}/{field}" for field in MADE)
                          if place not in known]
-        self._named = None
+        self._named = self._shortest = None
+
+    def short_names(self, place):
+        """@returns the shortest names of a quantity for users: one for each coordinate of a joint or its rate, otherwise
+        one; none if only its path is unique"""
+        if self._shortest is None:
+            self._shortest = {}
+            for name, found in self._names().items():
+                with contextlib.suppress(InputError):  # several quantities may have the name
+                    one = self._one(name, found)
+                    self._shortest[one] = min(self._shortest.get(one, name), name, key=len)
+        width = next(iter(self.results.shape(place)[1:]), 1) if place in self.recorded else 0
+        columns = [self._shortest[place, column] for column in range(width) if (place, column) in self._shortest]
+        names = columns if columns and len(columns) == width else [self._shortest.get((place, None), place)]
+        return [name for name in names if name != place and "," not in name]
 
     def find(self, text):
         """@returns the place of a quantity, the number of its column or None, and the rest of the text, `.x` or `[3]`.

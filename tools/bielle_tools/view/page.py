@@ -9,7 +9,7 @@ import zlib
 
 import numpy as np
 
-from ..messages import InputError
+from ..messages import InputError, installation
 from ..results.checked_model import check_of
 from ..scene import make_scene
 from ..scene.marks import marks_of
@@ -95,7 +95,8 @@ def _page(data, pack):
     libraries = []
     for path in LIBRARIES:
         if not os.path.isfile(path):
-            raise InputError(f"'{path}' is missing: install libjs-three and libjs-chart.js, which tools/install does")
+            raise InputError(f"'{path}' is missing (Debian packages libjs-three and libjs-chart.js): run "
+                             + installation("libjs-three", "libjs-chart.js"))
         libraries.append(_file(path))
     sources = "\n".join(_file(os.path.join(FOLDER, name)) for name in SOURCES)
     description = base64.b64encode(zlib.compress(json.dumps(_finite(data)).encode(), 6)).decode()

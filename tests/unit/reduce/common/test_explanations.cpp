@@ -92,7 +92,8 @@ TEST_CASE("Texts without an explanation lead to names") {
   CHECK_THAT(message_of<InputError>([] { explain(samples(), "singular-equation"); }),
              Contains("did you mean 'singular-equations'?") && Contains("`--explain all` lists them"));
   for (const char* text : {"", "   ", "zebra", "7", "..", "\xff\xfe"})
-    CHECK_THAT(message_of<InputError>([&] { explain(samples(), text); }), Contains("no explanation fits"));
+    CHECK_THAT(message_of<InputError>([&] { explain(samples(), text); }),
+               Contains("no explanation fits") && Contains("'; `--explain all` lists them"));
   CHECK_THAT(message_of<InputError>([] { explain({}, "all words"); }), Contains("no explanation fits"));
 }
 

@@ -26,7 +26,10 @@ class App {
     this.controls = new Controls(this);
     this.chooser();
     this.show(0);
-    new ResizeObserver(() => this.resize()).observe(document.getElementById("stage"));
+    new ResizeObserver(() => {
+      this.resize();
+      if (!this.camera.touched && !this.following()) this.camera.fit();
+    }).observe(document.getElementById("stage"));
   }
 
   /// Points of all that moves, over the sequence: some of each part at some rows.

@@ -58,7 +58,10 @@ TEST_CASE("a torque drive accelerates its joint") {
 TEST_CASE("drives refuse what they cannot drive, in one sentence") {
   using Catch::Contains;
   const auto refuse = [](const std::string& drive) { ReadyModel model(arm(drive)); };
-  CHECK_THROWS_WITH(refuse("displacement: \"t\""), Contains("a hinge joint has no displacement to drive"));
+  CHECK_THROWS_WITH(
+      refuse("displacement: \"t\""),
+      Contains("a hinge joint has no displacement to drive: its coordinate 'angle' takes `angle`, `rate`, "
+               "`torque`, `pid` or `motor`"));
   CHECK_THROWS_WITH(refuse("angle: \"t\", torque: \"1\""), Contains("one law"));
   CHECK_THROWS_WITH(refuse("angle: 1}, second: {joint: axle, torque: 2"),
                     Contains("the angle of joint 'axle' is driven by 'motor' already"));

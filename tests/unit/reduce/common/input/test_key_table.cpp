@@ -360,6 +360,11 @@ TEST_CASE("Keys of a thing are found by its name, with blanks or underscores, or
   CHECK(headings("sampled") == "sampled state");
   CHECK(headings("state") == "sampled state, delayed state");
   CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "sample"); }),
-             Contains("one of") && Contains("'sampled state'"));
-  CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "tate"); }), Contains("nothing has this name"));
+             Contains("; expected 'sampled state'; `--keys all`"));
+  CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "tate"); }),
+             Contains("; expected one of 'delayed state', 'sampled state'"));
+  CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "pont_mass"); }),
+             Contains("; did you mean 'point_mass'?"));
+  CHECK(message_of<InputError>([&] { keys_of_named(root, "frobnicate"); }) ==
+        "--keys frobnicate: nothing has this name; `--keys all` prints all names with their keys");
 }
