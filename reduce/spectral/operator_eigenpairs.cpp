@@ -18,11 +18,13 @@
 
 // OpenBLAS contains LAPACK but has no C header for it.
 extern "C" {
-void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda, double* real, double* imag,
-            double* vl, const int* ldvl, double* vr, const int* ldvr, double* work, const int* lwork, int* info);
 void zgeev_(const char* left, const char* right, const int* n, std::complex<double>* a, const int* lda,
             std::complex<double>* values, std::complex<double>* vl, const int* ldvl, std::complex<double>* vr,
             const int* ldvr, std::complex<double>* work, const int* lwork, double* rwork, int* info);
+void dgeevx_(const char* balance, const char* left, const char* right, const char* conditions, const int* n, double* a,
+             const int* lda, double* real, double* imag, double* vl, const int* ldvl, double* vr, const int* ldvr,
+             int* low, int* high, double* scale, double* norm, double* of_values, double* of_vectors, double* work,
+             const int* lwork, int* iwork, int* info);
 }
 
 namespace bielle {
@@ -65,23 +67,37 @@ MatrixXcd join_pairs(const VectorXd& imag, const MatrixXd& pairs, Index count) {
   return vectors;
 }
 
-ComplexPairs dense_pairs(MatrixXd A) {
+/// @param balance  LAPACK's letter: "B" permutes and scales, "N" leaves the matrix as it is
+ComplexPairs dense_pairs(MatrixXd A, const char* balance) {
   const int n = static_cast<int>(A.rows()), one = 1;
-  VectorXd real(n), imag(n);
+  VectorXd real(n), imag(n), scale(n);
   MatrixXd vectors(n, n);
-  int room = -1, info = 0;
-  double wanted = 0;
-  dgeev_("N", "V", &n, A.data(), &n, real.data(), imag.data(), nullptr, &one, vectors.data(), &n, &wanted, &room,
-         &info);
+  int room = -1, info = 0, low = 0, high = 0;
+  double wanted = 0, norm = 0;
+  const auto run = [&](double* work) {
+    dgeevx_(balance, "N", "V", "N", &n, A.data(), &n, real.data(), imag.data(), nullptr, &one, vectors.data(), &n, &low,
+            &high, scale.data(), &norm, nullptr, nullptr, work, &room, nullptr, &info);
+  };
+  run(&wanted);
   room = static_cast<int>(wanted);
   VectorXd work(room);
-  dgeev_("N", "V", &n, A.data(), &n, real.data(), imag.data(), nullptr, &one, vectors.data(), &n, work.data(), &room,
-         &info);
+  run(work.data());
   check_lapack(info);
   ComplexPairs pairs{VectorXcd(n), join_pairs(imag, vectors, n)};
   pairs.values.real() = real;
   pairs.values.imag() = imag;
   return pairs;
+}
+
+/// Scaling can magnify rounding errors of a nilpotent part to the size of the others: the pairs are then no longer
+/// those of a matrix near by (R. James, J. Langou, B. R. Lowery, arXiv:1401.5766), and are computed without it.
+ComplexPairs dense_pairs(const MatrixXd& A) {
+  ComplexPairs pairs = dense_pairs(A, "B");
+  constexpr double backward = 1e-12;
+  double most = 0;
+  for (Index k = 0; k < A.cols(); ++k)
+    most = std::max(most, (A * pairs.vectors.col(k) - pairs.values[k] * pairs.vectors.col(k)).norm());
+  return most > backward * A.norm() ? dense_pairs(A, "N") : pairs;
 }
 
 ComplexPairs dense_pairs(MatrixXcd A) {

@@ -90,13 +90,18 @@ void ShiftedOperator::set_scale(const SparseC& D) {
   scale_ = VectorX::Zero(e.states());
   const VectorX mass = e.M.diagonal();
   const VectorX stiffness = D.diagonal().cwiseAbs();
+  // Centrifugal terms that cancel leave rounding in place of a stiffness (a blade without inertia about its length).
+  constexpr double rounding = 1e-12;
+  double stiffest[] = {0, 0};  // translations and amplitudes, rotations
+  const auto kind = [&](int i) { return !e.turns.empty() && e.turns[static_cast<std::size_t>(i)] != 0 ? 1 : 0; };
+  for (int i = 0; i < dofs; ++i) stiffest[kind(i)] = std::max(stiffest[kind(i)], stiffness[i]);
   // Dofs without mass are scaled by the stiffness; without either, like the others.
   double sum = 0;
   int known = 0;
   for (int i = 0; i < dofs; ++i) {
     if (mass[i] > 0)
       scale_[i] = 1 / std::sqrt(mass[i]);
-    else if (stiffness[i] > 0)
+    else if (stiffness[i] > rounding * stiffest[kind(i)])
       scale_[i] = rate / std::sqrt(stiffness[i]);
     if (scale_[i] == 0) continue;
     sum += std::log(scale_[i]);
