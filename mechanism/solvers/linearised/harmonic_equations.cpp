@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "reduce/common/error.hpp"
-
 namespace bielle::mechanism {
 namespace {
 
@@ -66,8 +64,9 @@ std::vector<const Sparse*> list_of(const std::vector<LinearisedEquations>& azimu
   return list;
 }
 
-/// Computes the coefficients; those that rounding alone makes are left out.
-HarmonicMatrix decompose(const std::vector<const Sparse*>& A, const EntrySizes& sizes) {
+/// Computes the coefficients; those that rounding alone makes are left out. @param resolved  set to false if the last
+/// of them is not negligible
+HarmonicMatrix decompose(const std::vector<const Sparse*>& A, const EntrySizes& sizes, bool& resolved) {
   const auto count = static_cast<int>(A.size());
   constexpr double rounding = 1e-12, rapid = 1e-8;
   HarmonicMatrix result;
@@ -81,8 +80,7 @@ HarmonicMatrix decompose(const std::vector<const Sparse*>& A, const EntrySizes& 
     sum.prune([&](Eigen::Index i, Eigen::Index j, double value) {
       return p == 0 ? value != 0 : std::abs(value) > (last ? rapid : rounding) * sizes.of(i, j);
     });
-    if (last && sum.nonZeros() > 0)
-      throw ComputationError("the equations change too rapidly with the azimuth of the turning part");
+    if (last && sum.nonZeros() > 0) resolved = false;
     result.push_back(sum);
   }
   return result;
@@ -106,12 +104,12 @@ PeriodicEquations::PeriodicEquations(const std::vector<LinearisedEquations>& azi
   of_C.at_least(std::abs(rate), of_M);
   of_K.at_least(std::abs(rate), of_C);
   of_S.at_least(std::abs(rate), of_B);
-  M_ = decompose(M, of_M);
-  C_ = decompose(C, of_C);
-  K_ = decompose(K, of_K);
-  B_ = decompose(B, of_B);
-  S_ = decompose(S, of_S);
-  F_ = decompose(F, of_F);
+  M_ = decompose(M, of_M, resolved_);
+  C_ = decompose(C, of_C, resolved_);
+  K_ = decompose(K, of_K, resolved_);
+  B_ = decompose(B, of_B, resolved_);
+  S_ = decompose(S, of_S, resolved_);
+  F_ = decompose(F, of_F, resolved_);
   for (const HarmonicMatrix* each : {&M_, &C_, &K_, &B_, &S_, &F_}) constant_ = constant_ && !varies(*each);
 }
 
