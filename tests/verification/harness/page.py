@@ -5,7 +5,7 @@ import re
 
 from bielle_tools.html_parts import document, mark, table, text
 
-from .collections import COLLECTIONS
+from .published import COLLECTIONS
 
 SUBJECTS = ["Rigid mechanisms", "Beams at rest", "Beams in motion", "Solids and superelements",
             "Hydraulics and friction", "Integration in time"]
@@ -72,16 +72,18 @@ def largest_share(result):
     return math.nan if any(map(math.isnan, shares)) else max(shares, default=math.nan)
 
 
+def submitted(results):
+    """The studies that have an accuracy, each with its problem and the quantity of the accuracy."""
+    return [(result, study, next(each for each in study["quantities"] if each["name"] == study["accuracy"]))
+            for result in results.values() for study in result["studies"] if study["accuracy"]]
+
+
 def submissions(results):
     """The problems of the IFToMM library in the form of its submissions: accuracy and processor time at each step."""
-    lines = []
-    for result in results.values():
-        for study in filter(lambda study: study["accuracy"], result["studies"]):
-            quantity = next(each for each in study["quantities"] if each["name"] == study["accuracy"])
-            for level, error in zip(study["levels"], quantity["errors"]):
-                lines.append([text(result["title"]), text(study["title"]), text(quantity["meaning"]),
-                              text(f"{level['level']}"), f"{number(error, 2)} {text(quantity['error_unit'])}",
-                              number(level["processor_time"], 2)])
+    lines = [[text(result["title"]), text(study["title"]), text(quantity["meaning"]), text(f"{level['level']}"),
+              f"{number(error, 2)} {text(quantity['error_unit'])}", number(level["processor_time"], 2)]
+             for result, study, quantity in submitted(results)
+             for level, error in zip(study["levels"], quantity["errors"])]
     if not lines:
         return ""
     return "<h2>In the form of the IFToMM library</h2>\n" + table(

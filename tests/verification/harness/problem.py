@@ -80,7 +80,7 @@ class Study:
     parameter: name and unit of the level, such as "step [s]".
     by: "step" if the errors fall with the level, "elements" if they fall with its inverse, "" if levels are not a
     refinement: each level is then held to the tolerance.
-    accuracy: name of the quantity that a submission to the IFToMM library states as its accuracy; empty if there is none.
+    accuracy: name of the quantity that a submission to the IFToMM library states as its accuracy; empty without one.
     """
 
     title: str

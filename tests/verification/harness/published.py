@@ -7,7 +7,7 @@ THESIS = "A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Lieg
 
 @dataclass(frozen=True)
 class Part:
-    """A part of a collection. problems: names of problem files, empty if it is left out; remark: a sentence about it."""
+    """A part of a collection. problems: names of problem files, empty if it is left out; remark: sentences about it."""
 
     name: str
     problems: tuple[str, ...]
@@ -17,7 +17,8 @@ class Part:
 COLLECTIONS = {
     "IFToMM library of computational benchmark problems": [
         Part("A01 Simple pendulum", ("simple_pendulum",), "The library asks for a drift of the energy below 5e-5 J."),
-        Part("A02 N four-bars", ("four_bar_loops",), "The library has 2 and 40 loops; the tolerance is ours."),
+        Part("A02 N four-bars", ("four_bar_loops",),
+             "40 loops in the library, 2 in its restatement for OpenSim; the tolerance is ours."),
         Part("A03 Andrews' squeezing mechanism", ("squeezer",), "The tolerance of the balance of energy is ours."),
         Part("A04 Bricard's mechanism", ("bricard",), "The tolerance is ours."),
         Part("A05 Stiff flyball governor", ("flyball_governor",), "The tolerance is ours."),
@@ -46,7 +47,8 @@ COLLECTIONS = {
         Part("Flexible slider-crank", ("flexible_slider_crank", "superelement_crank")),
     ],
     "Results of ADAMS": [
-        Part("NREL 5 MW turbine, table 9-1", ("turbine",), "The only published ADAMS numbers with all data of the model."),
+        Part("NREL 5 MW turbine, table 9-1", ("turbine",),
+             "The only published ADAMS numbers that were found with all data of the model."),
     ],
     "Hydraulics": [
         Part("Cylinders", ("hydraulic_cylinder",)), Part("Orifices, valves, accumulators", ("hydraulic_lines",)),

@@ -1,7 +1,7 @@
 """The copy of the report that is kept with the sources: results of all problems as one page of Markdown."""
 
-from .collections import COLLECTIONS
-from .page import largest_share, number, orders, processor_time, sorted_by_subject
+from .published import COLLECTIONS
+from .page import largest_share, number, orders, processor_time, sorted_by_subject, submitted
 
 KEPT = ("program", "commit", "date", "processor", "cores")  # facts of the machine that are stated
 
@@ -23,13 +23,27 @@ def released(results, facts):
                       "|---|---|---|---|---|---|"]
         lines.append(f"| `{result['name']}` | {result['title']} | {'passed' if result['passed'] else 'failed'} | "
                      f"{number(largest_share(result), 2)} | {orders(result)} | {number(processor_time(result), 2)} |")
-    return "\n".join(lines + ["", *coverage(), ""])
+    return "\n".join(lines + ["", *submissions(sorted_by_subject(results)), "", *coverage(), ""])
+
+
+def submissions(results):
+    """Lines about the problems of the IFToMM library: the largest step with which all tolerances are kept."""
+    lines = ["## In the form of the IFToMM library", "",
+             "| problem | study | accuracy | tolerance | step [s] | processor time [s] |", "|---|---|---|---|---|---|"]
+    for result, study, quantity in submitted(results):
+        k = study["kept_from"]
+        level = study["levels"][k]
+        lines.append(f"| {result['title']} | {study['title']} | {quantity['meaning']}: "
+                     f"{number(quantity['errors'][k], 2)} {quantity['error_unit']} | {number(quantity['tolerance'], 2)} | {level['level']} | "
+                     f"{number(level['processor_time'], 2)} |")
+    return lines
 
 
 def coverage():
-    """Lines about the collections."""
+    """Lines about the collections, each of which is named at its first part."""
     lines = ["## Collections", "", "| collection | part | files | |", "|---|---|---|---|"]
     for collection, parts in COLLECTIONS.items():
-        lines += [f"| {collection} | {part.name} | {', '.join(f'`{name}`' for name in part.problems) or 'left out'} | "
-                  f"{part.remark} |" for part in parts]
+        lines += [f"| {'' if k else collection} | {part.name} | "
+                  f"{', '.join(f'`{name}`' for name in part.problems) or 'left out'} | {part.remark} |"
+                  for k, part in enumerate(parts)]
     return lines
