@@ -33,9 +33,9 @@ def submissions(results):
     for result, study, quantity in submitted(results):
         k = study["kept_from"]
         level = study["levels"][k]
-        lines.append(f"| {result['title']} | {study['title']} | {quantity['meaning']}: "
-                     f"{number(quantity['errors'][k], 2)} {quantity['error_unit']} | {number(quantity['tolerance'], 2)} | {level['level']} | "
-                     f"{number(level['processor_time'], 2)} |")
+        accuracy = f"{quantity['meaning']}: {number(quantity['errors'][k], 2)} {quantity['error_unit']}"
+        lines.append(f"| {result['title']} | {study['title']} | {accuracy} | {number(quantity['tolerance'], 2)} | "
+                     f"{level['level']} | {number(level['processor_time'], 2)} |")
     return lines
 
 
