@@ -64,12 +64,14 @@ def fill(rows):
     turning = acceleration[2::3]
     rows.add("start.beta", turning[0], 1e-7, "angular acceleration of the crank at rest [rad/s^2]")
     rows.add("start.theta", turning[1] - turning[0], 1e-7, "angular acceleration of bar 2 against the crank [rad/s^2]")
-    positions, _ = link.move(z, np.zeros(21), [0.03])
-    b = positions[0][2::3]
-    angles = {"beta": b[0], "theta": b[1] - b[0] - np.pi, "gamma": b[2] + np.pi / 2, "phi": b[3] - b[4] + np.pi / 2,
-              "delta": b[4], "Omega": b[5] - b[6] - np.pi / 2, "epsilon": b[6] + np.pi / 2}
-    for name, angle in angles.items():
-        rows.add(f"at_30_ms.{name}", angle, 1e-10, "angle at 0.03 s [rad]")
+    positions, _ = link.move(z, np.zeros(21), [0.03, 0.05])
+    for time, place in zip((30, 50), positions):
+        b = place[2::3]
+        angles = {"beta": b[0], "theta": b[1] - b[0] - np.pi, "gamma": b[2] + np.pi / 2,
+                  "phi": b[3] - b[4] + np.pi / 2, "delta": b[4], "Omega": b[5] - b[6] - np.pi / 2,
+                  "epsilon": b[6] + np.pi / 2}
+        for name, angle in angles.items():
+            rows.add(f"at_{time}_ms.{name}", angle, 1e-10, f"angle at {time / 1000} s [rad]")
 
 
 if __name__ == "__main__":

@@ -27,7 +27,7 @@ MOST_WORDS = 1500  # in one page
 
 LONG = {  # theory and derivations, measurements, tables that tools/keys writes, rules of the project
     "CHANGELOG.md", "CONTRIBUTING.md", "mechanism/keys.md", "reduce/keys.md", "mechanism/solvers/README.md", "reduce/reduction/README.md",
-    "tests/performance/README.md"}
+    "tests/performance/README.md", "tests/verification/released.md"}
 
 
 def pages_of_repository():

@@ -17,6 +17,8 @@ from python_tool import run_python_tool  # noqa: E402
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "verification"))
 
 from harness import Problem, Quantity, Study  # noqa: E402
+from harness.catalogue import entries  # noqa: E402
+from harness.published import COLLECTIONS  # noqa: E402
 from harness.judgement import compute_problem, observed_order  # noqa: E402
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
@@ -60,11 +62,50 @@ class Usage(InFolder):
                                     (["--fast"], "'--fast' is not an option"),
                                     (["--problems", self.path("none")], "No such file"),
                                     (["--problems", self.folder], "has no problem to compute"),
-                                    (["--quick", "four_bar_loops"], "takes longer")):
+                                    (["--quick", "four_bar_loops"], "takes longer"),
+                                    (["--release", "--quick"], "--release needs all problems"),
+                                    (["--release", "bend_45"], "--release needs all problems"),
+                                    (["--release", "--problems", self.folder], "--release needs all problems")):
             done = verify(*arguments, "-o", self.path("page"))
             self.assertEqual(done.returncode, 1, (arguments, done.stderr))
             self.assertIn(sentence, done.stderr)
             self.assertFalse(os.path.exists(self.path("page")))
+
+
+class Released(unittest.TestCase):
+    """The copy of the report with the sources, and the collections."""
+
+    def setUp(self):
+        with open(os.path.join(REPOSITORY, "tests", "verification", "released.md"), encoding="utf-8") as file:
+            self.text = file.read()
+        self.entries = entries(PROBLEMS)
+
+    def test_the_copy_lists_the_problems_that_there_are(self):
+        listed = re.findall(r"(?m)^\| `(\w+)` \| ([^|]+) \| (\w+) \| ([^|]+) \|", self.text)
+        renew = "tools/verify --release renews tests/verification/released.md"
+        self.assertEqual(sorted((name, title) for name, title, _, _ in listed),
+                         [(entry.name, entry["title"]) for entry in self.entries], renew)
+        for name, _, verdict, share in listed:
+            self.assertEqual((verdict, 0 <= float(share) <= 1), ("passed", True), name)
+        for fact in ("program: bielle-mechanism ", "commit: ", "date: ", "processor: "):
+            self.assertIn(f"\n- {fact}", self.text)
+
+    def test_collections_name_problems_that_there_are_and_reasons_for_what_is_left_out(self):
+        names = {entry.name for entry in self.entries}
+        for collection, parts in COLLECTIONS.items():
+            for part in parts:
+                with self.subTest(f"{collection}: {part.name}"):
+                    self.assertLessEqual(set(part.problems), names)
+                    self.assertTrue(part.problems or part.remark)
+                    self.assertIn(f"| {part.name} |", self.text)
+
+    def test_numbers_of_the_iftomm_library_stand_in_titles_of_its_problems_alone(self):
+        library = next(parts for collection, parts in COLLECTIONS.items() if collection.startswith("IFToMM"))
+        numbered = {name for part in library for name in part.problems if re.match(r"A\d\d ", part.name)}
+        self.assertEqual({entry.name for entry in self.entries if re.match(r"A\d\d ", entry["title"])}, numbered)
+        for entry in self.entries:
+            if entry.name in numbered:
+                self.assertIn("IFToMM library", entry["source"])
 
 
 @unittest.skipUnless(os.path.isdir(os.path.join(PACKAGE, "bielle")), "the Python package is not built")
@@ -125,6 +166,17 @@ class Report(InFolder):
         self.assertIn("Sample &lt;exact&gt;", page)
         self.assertIn("crashed: SIGSEGV", page)
         self.assertEqual(page.count("<table"), page.count("</table>"))
+        self.assertNotIn("Collections</h2>", page)  # none of these problems is in one
+
+    def test_submissions_and_collections_stand_on_the_page(self):
+        done = verify("simple_pendulum", "-o", self.path("page"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("page/index.html"), encoding="utf-8") as file:
+            page = file.read()
+        submitted = page[page.index("In the form of the IFToMM library</h2>"):page.index("Collections</h2>")]
+        self.assertEqual(submitted.count("<tr"), 1 + 4)  # head and steps
+        self.assertIn("<a href='#simple_pendulum'>", page[page.index("Collections</h2>"):])
+        self.assertIn("LE11", page)
 
 
 class Judgement(unittest.TestCase):
@@ -176,6 +228,8 @@ class Judgement(unittest.TestCase):
                                   ((2, 1), "elements", None), ((1,), "mesh", None)):
             with self.assertRaises(ValueError, msg=(levels, by)):
                 Study("study", mock.Mock(), list(levels), [self.quantity(order=order)], by=by)
+        with self.assertRaises(ValueError):
+            Study("study", mock.Mock(), [1], [self.quantity()], accuracy="y")
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ def compute_study(study):
         values.append(found)
     quantities = [judge(study, quantity, [found[quantity.name] for found in values]) for quantity in study.quantities]
     return {"title": study.title, "parameter": study.parameter, "by": study.by, "levels": levels,
-            "quantities": quantities,
+            "quantities": quantities, "accuracy": study.accuracy,
             "kept_from": kept_from(quantities, len(levels)) if study.by else None}
 
 

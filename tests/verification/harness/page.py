@@ -5,6 +5,8 @@ import re
 
 from bielle_tools.html_parts import document, mark, table, text
 
+from .published import COLLECTIONS
+
 SUBJECTS = ["Rigid mechanisms", "Beams at rest", "Beams in motion", "Solids and superelements",
             "Hydraulics and friction", "Integration in time"]
 
@@ -16,7 +18,7 @@ def page(results, facts, quick):
     verdict = f"All {len(results)} problems passed"
     if failed:
         verdict = f"{len(failed)} of {len(results)} problems failed: {names}"
-    results = dict(sorted(results.items(), key=lambda item: (place(item[1]["subject"]), item[1]["title"])))
+    results = sorted_by_subject(results)
     subjects = list(dict.fromkeys(result["subject"] for result in results.values()))
     parts = ["<h1>Verification of Bielle</h1>", f"<p class='{'failed' if failed else 'passed'}'>{text(verdict)}.</p>",
              "<p>Each problem has an exact or published reference. Models were computed for this page, at several "
@@ -26,11 +28,16 @@ def page(results, facts, quick):
              "No reference comes from Bielle.</p>",
              "<p>Quick selection: run without <code>--quick</code> for all problems.</p>" if quick else "",
              table(["", ""], [[text(what), text(value)] for what, value in facts]), "<h2>Summary</h2>",
-             summary(results)]
+             summary(results), submissions(results), collections(results)]
     for subject in subjects:
         parts.append(f"<h2>{text(subject or 'Problems')}</h2>")
         parts += [section(result) for result in results.values() if result["subject"] == subject]
-    return document("Bielle: verification", parts)
+    return document("Bielle: verification", list(filter(None, parts)))
+
+
+def sorted_by_subject(results):
+    """The results in the order of the page."""
+    return dict(sorted(results.items(), key=lambda item: (place(item[1]["subject"]), item[1]["title"])))
 
 
 def place(subject):
@@ -40,18 +47,60 @@ def place(subject):
 
 def summary(results):
     """The table on top: a line for each problem."""
-    lines = []
-    for result in results.values():
-        quantities = [quantity for study in result["studies"] for quantity in study["quantities"]]
-        orders = [f"{float(quantity['order']):.2f} ({quantity['expected_order']:g})" for quantity in quantities
-                  if quantity["expected_order"] is not None]
-        shares = [float(quantity["errors"][-1]) / quantity["tolerance"] for quantity in quantities]
-        worst = math.nan if any(map(math.isnan, shares)) else max(shares, default=math.nan)
-        lines.append([f"<a href='#{text(result['name'])}'>{text(result['title'])}</a>", mark(result["passed"]),
-                      number(worst, 2),
-                      text(", ".join(dict.fromkeys(orders)) or "-"), number(processor_time(result), 3)])
+    lines = [[f"<a href='#{text(result['name'])}'>{text(result['title'])}</a>", mark(result["passed"]),
+              number(largest_share(result), 2), text(orders(result)), number(processor_time(result), 3)]
+             for result in results.values()]
     return table(["problem", "", "largest error / tolerance", "observed order (expected)", "processor time [s]"],
                  lines, numbers=(2, 4))
+
+
+def quantities_of(result):
+    """The quantities of all studies of a problem."""
+    return [quantity for study in result["studies"] for quantity in study["quantities"]]
+
+
+def orders(result):
+    """Observed orders, with the expected ones, as a text."""
+    found = [f"{float(quantity['order']):.2f} ({quantity['expected_order']:g})" for quantity in quantities_of(result)
+             if quantity["expected_order"] is not None]
+    return ", ".join(dict.fromkeys(found)) or "-"
+
+
+def largest_share(result):
+    """The largest error at the last level over its tolerance; not a number if there is none."""
+    shares = [float(quantity["errors"][-1]) / quantity["tolerance"] for quantity in quantities_of(result)]
+    return math.nan if any(map(math.isnan, shares)) else max(shares, default=math.nan)
+
+
+def submitted(results):
+    """The studies that have an accuracy, each with its problem and the quantity of the accuracy."""
+    return [(result, study, next(each for each in study["quantities"] if each["name"] == study["accuracy"]))
+            for result in results.values() for study in result["studies"] if study["accuracy"]]
+
+
+def submissions(results):
+    """The problems of the IFToMM library in the form of its submissions: accuracy and processor time at each step."""
+    lines = [[text(result["title"]), text(study["title"]), text(quantity["meaning"]), text(f"{level['level']}"),
+              f"{number(error, 2)} {text(quantity['error_unit'])}", number(level["processor_time"], 2)]
+             for result, study, quantity in submitted(results)
+             for level, error in zip(study["levels"], quantity["errors"])]
+    if not lines:
+        return ""
+    return "<h2>In the form of the IFToMM library</h2>\n" + table(
+        ["problem", "study", "accuracy", "step [s]", "", "processor time [s]"], lines, numbers=(3, 5))
+
+
+def collections(results):
+    """Table of the published collections, with parts that are left out; none if no problem of them was computed."""
+    if not any(name in results for parts in COLLECTIONS.values() for part in parts for name in part.problems):
+        return ""
+    lines = []
+    for collection, parts in COLLECTIONS.items():
+        for part in parts:
+            links = [f"<a href='#{text(name)}'>{text(name)}</a>" if name in results else text(name)
+                     for name in part.problems]
+            lines.append([text(collection), text(part.name), ", ".join(links) or "left out", text(part.remark)])
+    return "<h2>Collections</h2>\n" + table(["collection", "part", "problems", ""], lines)
 
 
 def processor_time(result):

@@ -80,6 +80,7 @@ class Study:
     parameter: name and unit of the level, such as "step [s]".
     by: "step" if the errors fall with the level, "elements" if they fall with its inverse, "" if levels are not a
     refinement: each level is then held to the tolerance.
+    accuracy: name of the quantity that a submission to the IFToMM library states as its accuracy; empty without one.
     """
 
     title: str
@@ -88,8 +89,11 @@ class Study:
     quantities: list[Quantity]
     parameter: str = "step [s]"
     by: str = "step"
+    accuracy: str = ""
 
     def __post_init__(self):
+        if self.accuracy and self.accuracy not in [quantity.name for quantity in self.quantities]:
+            raise ValueError(f"'{self.title}': accuracy = '{self.accuracy}' is none of its quantities")
         if self.by not in ("step", "elements", "") or not self.levels or not self.quantities:
             raise ValueError(f"'{self.title}': a study has levels, quantities, and by = 'step', 'elements' or ''")
         sizes = [self.size(level) for level in self.levels]

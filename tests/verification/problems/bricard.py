@@ -59,5 +59,5 @@ PROBLEM = Problem(
         Study("1 s", swing(1), [4e-3, 2e-3, 1e-3], quantities("1", 1e-5,
                                                               "(w h)^2/12 to (w h)^2/4, w = 3 rad/s at 1 ms, of a way "
                                                               "of 3 m: 2e-6 to 7e-6")),
-        Study("9 s", swing(9), [4e-3, 2e-3, 1e-3], quantities("9", 1e-4, "nine times the way")),
+        Study("9 s", swing(9), [4e-3, 2e-3, 1e-3], quantities("9", 1e-4, "nine times the way"), accuracy="drift"),
     ])

@@ -27,7 +27,7 @@ ANGLES = vector("double_pendulum", "upper_at_2", "lower_at_2")
 RODS = np.array([[np.sin(angle), -np.cos(angle)] for angle in ANGLES["reference"]])
 
 PROBLEM = Problem(
-    title="A06 Double pendulum",
+    title="Double pendulum",
     subject="Rigid mechanisms",
     source="textbook problem, e.g. L. D. Landau, E. M. Lifshitz, Mechanics, section 5",
     model="Two masses of 1 kg on massless rods of 1 m, released at rest from the horizontal, g = 9.81 m/s^2, for 2 s. "

@@ -67,4 +67,4 @@ PROBLEM = Problem(
           "000 1/s: the problem is stiff. Rigid bodies, hinges, a "
           "prismatic joint, rho = 0.8.",
     studies=[Study("1 s", govern(1), [1e-2, 5e-3, 2.5e-3, 1.25e-3], quantities("1", 1e-4, 5e-4)),
-             Study("10 s", govern(10), [1e-2, 5e-3, 2.5e-3, 1.25e-3], quantities("10", 1e-3, 5e-3))])
+             Study("10 s", govern(10), [1e-2, 5e-3, 2.5e-3, 1.25e-3], quantities("10", 1e-3, 5e-3), accuracy="slider")])

@@ -39,7 +39,7 @@ def release(step):
 
 EXACT = "equations of motion in Cartesian coordinates of the bars, DOP853 (tests/references/four_bar.py)"
 PROBLEM = Problem(
-    title="A06 Four-bar released under gravity",
+    title="Four-bar released under gravity",
     subject="Rigid mechanisms",
     source="textbook problem; data: ground 1 m, crank 0.3 m, coupler 0.9 m, rocker 0.7 m",
     model="Thin bars of 1 kg/m, the crank is released from 60 degrees, g = 9.81 m/s^2, for 1 s. Rigid bodies with "

@@ -37,11 +37,12 @@ def quantities(factor):
 
 
 PROBLEM = Problem(
-    title="A07 Heavy top",
+    title="Heavy top",
     subject="Rigid mechanisms",
     source="O. Bruls, A. Cardona, M. Arnold, Lie group generalized-alpha time integration of constrained flexible "
            "multibody systems, Mech. Mach. Theory 48 "
-           "(2012) 121",
+           "(2012) 121; "
+           "subject of A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Liege 1989, ch. 2",
     model="A body of 15 kg, J = diag(0.234375, 0.46875, 0.234375) kg m^2 about its centre, 1 m from a fixed ball "
           "joint, spins with 150 rad/s in gravity and "
           "precesses with 4.6 rad/s, for 1 s. The node is the centre, so that the joint is a constraint. "

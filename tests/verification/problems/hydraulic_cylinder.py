@@ -93,7 +93,8 @@ def pressure(name, names, tolerance, reason, order=2):
 PROBLEM = Problem(
     title="Hydraulic cylinders",
     subject="Hydraulics and friction",
-    source="H. E. Merritt, Hydraulic Control Systems (1967), ch. 3 and 6",
+    source="H. E. Merritt, Hydraulic Control Systems (1967), ch. 3 and 6; "
+           "subject of A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Liege 1989, ch. 5",
     model="A mass of 500 kg on a single-acting cylinder, A = 20 cm^2, filled from 10 MPa through an orifice of 2 mm "
           "against gravity; on a double-acting one, 20 and 12 cm^2, with a "
           "servo-valve that opens to 5 mm^2 within 10 ms, supply 21 MPa, with leakage. Bulk modulus 1.4 GPa. The oil "

@@ -111,7 +111,8 @@ PROBLEM = Problem(
     subject="Integration in time",
     source="J. Chung, G. Hulbert, J. Appl. Mech. 60 (1993) 371; M. Arnold, O. Bruls, Convergence of the "
            "generalized-alpha scheme for constrained mechanical systems, Multibody Syst. "
-           "Dyn. 18 (2007) 185; A. Cardona, M. Geradin, Comput. Struct. 33 (1989) 801",
+           "Dyn. 18 (2007) 185; A. Cardona, M. Geradin, Comput. Struct. 33 (1989) 801; "
+           "subject of A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Liege 1989, ch. 6",
     model="The pendulum of 1 kg and 1 m released from the horizontal, with its constraint of position alone; an "
           "oscillator at several w h.",
     quick=True,

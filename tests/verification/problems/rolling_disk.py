@@ -30,7 +30,7 @@ def roll(step):
 
 
 PROBLEM = Problem(
-    title="A07 Rolling disk",
+    title="Rolling disk",
     subject="Rigid mechanisms",
     source="J. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems (1972), ch. I",
     model="A thin disk of 1 kg and radius 0.5 m leans by 20 degrees and rolls without slip on a plane, from the spin "

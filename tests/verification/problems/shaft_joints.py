@@ -61,10 +61,11 @@ def screw(step):
 
 
 PROBLEM = Problem(
-    title="A06 Universal joint, gear pair, screw",
+    title="Universal joint, gear pair, screw",
     subject="Rigid mechanisms",
     source="H. C. Seherr-Thoss et al., Universal Joints and Driveshafts, 2nd ed. (2006), 1.2; G. Niemann, H. Winter, "
-           "Maschinenelemente 2 (2003), ch. 21",
+           "Maschinenelemente 2 (2003), ch. 21; "
+           "subject of A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Liege 1989, ch. 3",
     model="Two flywheels on shafts bent by 30 degrees with a universal joint, free from 10 rad/s; two spur wheels "
           "with 20 and 50 teeth of module 2 mm under torques "
           "of 1 and 1.5 N m; a nut of 2 kg that runs down a vertical screw without friction, 0.1 m per turn. Rigid "

@@ -40,7 +40,7 @@ def driven(degrees):
 
 
 PROBLEM = Problem(
-    title="A06 Rigid slider-crank",
+    title="Rigid slider-crank",
     subject="Rigid mechanisms",
     source="data of the problem 'crank' of the Test Set for IVP Solvers: B. Simeon, Math. Model. Syst. 2 (1996) 1",
     model="Crank 0.15 m, thin rod 0.30 m of 0.151 kg, slider 0.0756 kg, 150 rad/s, without gravity. Rigid bodies, "

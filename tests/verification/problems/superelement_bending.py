@@ -28,7 +28,8 @@ PROBLEM = Problem(
     title="Large bending of superelements in a row",
     subject="Solids and superelements",
     source="K. Mattiasson, IJNME 17 (1981) 145; A. Cardona, M. Geradin, Modelling of superelements in mechanism "
-           "analysis, IJNME 32 (1991) 1565",
+           "analysis, IJNME 32 (1991) 1565; "
+           "subject of A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Liege 1989, ch. 4",
     model="A solid steel cantilever of 1 m, 0.01 m square, cut by bielle-reduce into 2, 4 or 8 superelements, each "
           "linear in its own frame; a dead load P L^2/EI = 1 "
           "deflects its tip by 0.30 m.",

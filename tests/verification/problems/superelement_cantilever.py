@@ -49,7 +49,8 @@ PROBLEM = Problem(
     title="Solid cantilever as a superelement",
     subject="Solids and superelements",
     source="R. Craig, M. Bampton, Coupling of substructures for dynamic analyses, AIAA J. 6 (1968) 1313; S. "
-           "Timoshenko, Phil. Mag. 41 (1921) 744",
+           "Timoshenko, Phil. Mag. 41 (1921) 744; "
+           "subject of A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Liege 1989, ch. 4",
     model="A steel bar of 1 m, meshed by bielle-reduce with quadratic bricks (one or two across), reduced to the mean "
           "motion of its two ends and 8 (24) fixed-boundary modes, and held at one end: "
           "0.02 m square, or 0.1 m square. Deflection under a force, frequencies, and those of the free bar.",

@@ -54,7 +54,8 @@ PROBLEM = Problem(
     title="Slider-crank with a superelement",
     subject="Solids and superelements",
     source="B. Simeon, Modelling a flexible slider crank mechanism by a mixed system of DAEs and PDEs, Math. Model. "
-           "Syst. 2 (1996) 1; A. Cardona, M. Geradin, IJNME 32 (1991) 1565",
+           "Syst. 2 (1996) 1; A. Cardona, M. Geradin, IJNME 32 (1991) 1565; "
+           "subject of A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Liege 1989, ch. 4",
     model="The flexible slider-crank with its rod, 0.30 m, 8 x 8 mm, as a solid that bielle-reduce reduces to its "
           "ends and eight modes; 150 rad/s, 0.1 s, from a straight rod with rigid "
           "velocities. The axial force stiffens and softens its bending, which moves the middle by 1e-4 m.",

@@ -38,7 +38,8 @@ PROBLEM = Problem(
     subject="Solids and superelements",
     source="A. Wright, C. Smith, R. Thresher, J. Wang, J. Appl. Mech. 49 (1982) 197; A. Cardona, M. Geradin, "
            "Modelling of superelements in mechanism analysis, IJNME 32 "
-           "(1991) 1565",
+           "(1991) 1565; "
+           "subject of A. Cardona, An Integrated Approach to Mechanism Analysis, thesis, Liege 1989, ch. 4",
     model="A solid steel bar of 1 m, 0.02 m square, as one superelement that turns about an axis through its root, "
           "eta = Omega sqrt(m L^4/EI) = 1, 3, 6. A linear body without "
           "geometric stiffness has no stiffness left in the plane at eta = 3.5; the superelement carries that of its "

@@ -33,7 +33,7 @@ def flips(step):
 
 
 PROBLEM = Problem(
-    title="A07 Free body about its intermediate axis (Dzhanibekov)",
+    title="Free body about its intermediate axis (Dzhanibekov)",
     subject="Rigid mechanisms",
     source="L. Poinsot (1834); L. D. Landau, E. M. Lifshitz, Mechanics, section 37",
     model="A free rigid body, J = diag(1, 2, 3) kg m^2, spins with (0.01, 5, 0.01) rad/s about its intermediate axis "
