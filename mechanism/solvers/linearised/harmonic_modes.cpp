@@ -103,14 +103,13 @@ HarmonicModes HarmonicSearch::find_with(const ModeOptions& options, int harmonic
   return result;
 }
 
-/// Returns the share of the kinetic energy of a mode that the harmonics beyond h have. (Energies of stiff unknowns
-/// alone would show rounding.) @param u  amplitudes of more harmonics
-double HarmonicSearch::share_beyond(int h, const Eigen::MatrixXcd& u) const {
-  const VectorX mass = equations_.first().M.diagonal().cwiseAbs();
-  const Eigen::RowVectorXd all = mass.transpose() * u.cwiseAbs2();
+/// Returns the share of the size of a mode that the harmonics beyond h have. @param u  amplitudes of more harmonics
+double HarmonicSearch::share_beyond(int h, const Eigen::MatrixXcd& u, std::complex<double> s) const {
+  const Sizes sizes = sizes_of(u, s);
+  const VectorX all = sizes.standing + sizes.turning;
   const Eigen::Index middle = all.size() / 2;
   const double whole = all.sum();
-  return whole > 0 ? (all.head(middle - h).sum() + all.tail(middle - h).sum()) / whole : 0;
+  return whole > 0 ? 1 - all.segment(middle - h, 2 * h + 1).sum() / whole : 0;
 }
 
 /// Applies the inverted equations with one more harmonic to the modes. @returns the largest share of the result that
@@ -133,7 +132,7 @@ double HarmonicSearch::defect(const HarmonicModes& modes) const {
     Eigen::VectorXcd x(next.states());
     x << equations_.functions(widened(modes.u[k], h + 1)), equations_.functions(widened(modes.w[k], h + 1));
     const Eigen::VectorXcd y = scale.cwiseProduct(T.apply(Eigen::VectorXcd(x.cwiseQuotient(scale))));
-    most = std::max(most, share_beyond(h, equations_.amplitudes(y.head(next.unknowns()), h + 1)));
+    most = std::max(most, share_beyond(h, equations_.amplitudes(y.head(next.unknowns()), h + 1), mode.s));
   }
   return most;
 }
@@ -255,7 +254,7 @@ HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const 
     modes.change = 0;
     for (std::size_t k = 0; k < next.found.modes.size(); ++k)
       if (next.found.modes[k].kind != ModeKind::rigid)
-        modes.change = std::max(modes.change, share_beyond(h, next.u[k]));
+        modes.change = std::max(modes.change, share_beyond(h, next.u[k], next.found.modes[k].s));
     modes.periodicity = h == 1 && modes.change < exact ? Periodicity::multiblade : Periodicity::periodic;
     if (modes.change < exact) return modes;
     if (more > most)

@@ -25,7 +25,7 @@ enum class Periodicity {
 struct HarmonicModes {
   Periodicity periodicity = Periodicity::constant;
   int harmonics = 0;  ///< h
-  /// Largest share of the kinetic energy of a mode that harmonics beyond h have, as a sum over single unknowns. The
+  /// Largest share of the size of a mode that harmonics beyond h have, as a sum of energies of single unknowns. The
   /// exponents change by about this share of themselves, as it is of second order in the amplitudes.
   double change = 0;
   LinearisedEquations equations;       ///< equations of the harmonics
@@ -54,7 +54,7 @@ class HarmonicSearch {
   bool is_principal(const Sizes& sizes) const;
   double whirl_of(const Sizes& sizes) const;
   bool take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const;
-  double share_beyond(int h, const Eigen::MatrixXcd& u) const;
+  double share_beyond(int h, const Eigen::MatrixXcd& u, std::complex<double> s) const;
   double defect(const HarmonicModes& modes) const;
   bool recentre(Mode& mode, Eigen::MatrixXcd& u, Eigen::MatrixXcd& w) const;
   void iterate(const LinearisedEquations& equations, Mode& mode) const;
