@@ -151,7 +151,7 @@ std::vector<Sample> coupled_bearings() {
     std::ofstream file(folder + "/seal.csv");
     for (const double speed : {-40.0, 40.0}) {
       file << speed;
-      for (int k = 0; k < 50; ++k) file << ' ' << std::cos(k + 0.01 * speed) + (k % 6 == 0 ? 3 : 0);
+      for (int k = 0; k < 50; ++k) file << ' ' << std::cos(k + 0.01 * speed) + (k % 25 % 6 == 0 ? 6 : 0);
       file << '\n';
     }
     std::ofstream(folder + "/narrow.csv") << "0 1 1 1 1 1 1 1 1\n";

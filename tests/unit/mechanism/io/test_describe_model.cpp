@@ -138,7 +138,8 @@ TEST_CASE("one thing is told in the singular, and directions without mass by nod
       "nodes: {a: {fixed: [x, y, z]}, lonely: {fixed: true}, half: {fixed: [x]}}\n"
       "elements: {a: {type: rigid_body, node: a, mass: 2, inertia: [1, 1, 1]}, half: {type: point_mass, node: half, "
       "mass: "
-      "1}}\njoints: {main: {type: spherical, nodes: [ground, half], position: [0, 0, 0]}}\n");
+      "1}}\njoints: {main: {type: spherical, nodes: [ground, half], position: [0, 0, 0]}}\n"
+      "loads: {twist: {node: half, moment: [1, 1, 1]}}\n");
   CHECK_THAT(text, Contains("  elements     2 (point_mass 1, rigid_body 1)\n"));
   CHECK_THAT(text, Contains("  joints       1 (spherical)\n"));
   CHECK_THAT(text, Contains("  unused       node 'lonely': no element, joint or load is attached to it\n"));
