@@ -37,7 +37,7 @@ class Mechanism(CommandTest):
         model = PENDULUM.replace("type: rigid_body, node: bob, mass: 1, inertia: [1e-3, 1e-3, 1e-3]",
                                  "type: point_mass, node: bob, mass: 1")
         begin, end = model.index("joints:"), model.index("analysis:")
-        self.write("model.yaml", model[:begin] + model[end:])
+        self.write("model.yaml", model[:begin] + "loads: {twist: {node: bob, moment: [1, 0, 0]}}\n" + model[end:])
         self.expect_refusal(2, "model.yaml", says=["rotation x of node 'bob'", "no mass",
                                                    "hold it (`fixed`), join it, or give it a body with inertia"])
 
