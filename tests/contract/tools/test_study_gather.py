@@ -274,17 +274,16 @@ class AgainstSingleRuns(InFolder):
 
     def test_the_study_of_the_guide(self):
         with open(os.path.join(REPOSITORY, "tools", "guide", "studies.md"), encoding="utf-8") as file:
-            text = re.search(r"```yaml\n(.*?)```", file.read(), re.DOTALL)[1]
-        self.assertIn("model: servo.yaml", text)
-        with open(os.path.join(REPOSITORY, "mechanism", "examples", "servo.yaml"), encoding="utf-8") as file:
-            self.write("servo.yaml", file.read())
+            model, text = re.findall(r"```yaml\n(.*?)```", file.read(), re.DOTALL)[:2]
+        self.assertIn("model: swing.yaml", text)
+        self.write("swing.yaml", model)
         self.write("sweep.yaml", text)
         done = self.study("sweep.yaml")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         table = table_of(self.path("sweep-table.csv"))
-        self.assertEqual(table[0], ["run", "lift", "mass", "length", "status", "top", "torque"])
-        self.assertEqual((len(table), table[1][1:4], table[-1][1:4]), (19, ["0.6", "1", "0.8"], ["0.6", "5", "0.4*sqrt(2)"]))
-        self.assertEqual(os.listdir(self.path("sweep-plots")), ["top_over_mass_by_length.png"])
+        self.assertEqual(table[0], ["run", "mass", "start", "length", "status", "top", "force"])
+        self.assertEqual((len(table), table[1][1:4], table[-1][1:4]), (7, ["3", "0.2", "0.8"], ["3", "1", "0.8*sqrt(2)"]))
+        self.assertEqual(os.listdir(self.path("sweep-plots")), ["top_over_start_by_length.png"])
 
     def test_a_study_over_20_values_equals_20_single_runs(self):
         self.write("pendulum.yaml", PENDULUM)
