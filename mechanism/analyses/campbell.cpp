@@ -114,7 +114,7 @@ class CampbellStates {
     names = numbered_names(names, rates);
   }
 
-  /// Keeps the largest number of harmonics and the largest share of further ones.
+  /// Keeps the largest number of harmonics and the largest change by one more.
   void note_harmonics(const LinearisedSetting::Turning& turning) {
     LinearisedSetting::Turning& whole = *found_->turning;
     whole.periodicity = std::max(whole.periodicity, turning.periodicity);

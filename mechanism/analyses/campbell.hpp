@@ -29,7 +29,7 @@ struct CampbellOptions {
 };
 
 /// The setting is that of the last value; for a rotation behind a joint with the largest number of harmonics, and the
-/// largest share of further ones, of all values.
+/// largest change by one more, of all values.
 struct Campbell : LinearisedSetting {
   SweptModes swept;
   Vector3 axis = Vector3::Zero();  ///< zero for a rotation behind a joint

@@ -22,7 +22,7 @@ struct LinearisedSetting {
     double rate = 0;    ///< [rad/s]
     Periodicity periodicity = Periodicity::constant;
     int harmonics = 0;
-    double change = 0;  ///< share of the modes' energy in further harmonics (HarmonicModes::change)
+    double change = 0;  ///< relative change of the exponents by one more harmonic
   };
   std::optional<Turning> turning;
   /// Delays that are taken as none (describe_delays).

@@ -201,7 +201,7 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
     default:
       return text + fmt::format(
                         "  the equations are periodic in any axes: Floquet exponents by {} harmonics of the rotation, "
-                        "further ones have {:.1g} of their energy; frequencies are those of the largest harmonic of "
+                        "one more changes them by {:.1g}; frequencies are those of the largest harmonic of "
                         "what stands still\n",
                         turning.harmonics, turning.change);
   }

@@ -3,10 +3,6 @@
 // Each motion occurs with the exponents s + i k rate, k = .., -1, 0, 1, ... The principal one is that whose largest
 // harmonic of the standing part is constant (the frequency that an observer on the standing part measures); if the
 // standing part does not move, that of the turning part.
-//
-// All modes are searched for once, with few harmonics. Each is then continued with more harmonics by inverse iteration
-// until those beyond hold a negligible share of it. The slower the rotation, the more harmonics are necessary: about
-// the change of the frequency over a turn divided by the rate.
 #pragma once
 
 #include "mechanism/solvers/linearised/harmonic_equations.hpp"
@@ -24,11 +20,9 @@ enum class Periodicity {
 
 struct HarmonicModes {
   Periodicity periodicity = Periodicity::constant;
-  int harmonics = 0;  ///< h
-  /// Largest share of the size of a mode that harmonics beyond h have, as a sum of energies of single unknowns. The
-  /// exponents change by about this share of themselves, as it is of second order in the amplitudes.
-  double change = 0;
-  LinearisedEquations equations;       ///< equations of the harmonics
+  int harmonics = 0;                   ///< h
+  double change = 0;                   ///< largest change of an exponent by one more harmonic, relative to the rates
+  LinearisedEquations equations;       ///< of the harmonics
   Modes found;                         ///< shapes of the harmonics
   std::vector<Eigen::MatrixXcd> u, w;  ///< amplitudes of each mode at harmonics -h .. h (columns)
   /// Sense of the motion of the turning part around the axis for each mode: 1 if its pattern runs forwards, -1
@@ -54,12 +48,7 @@ class HarmonicSearch {
   bool is_principal(const Sizes& sizes) const;
   double whirl_of(const Sizes& sizes) const;
   bool take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const;
-  double share_beyond(int h, const Eigen::MatrixXcd& u, std::complex<double> s) const;
-  double defect(const HarmonicModes& modes) const;
-  bool recentre(Mode& mode, Eigen::MatrixXcd& u, Eigen::MatrixXcd& w) const;
-  void iterate(const LinearisedEquations& equations, Mode& mode) const;
-  bool continue_with(int harmonics, const ModeOptions& options, const HarmonicModes& from, HarmonicModes& result) const;
-  bool is_known(const HarmonicModes& modes, const Mode& mode, const Eigen::MatrixXcd& u) const;
+  double change_by_next(const HarmonicModes& modes) const;
 
   const PeriodicEquations& equations_;
   std::vector<char> turning_;

@@ -60,13 +60,13 @@ void ShiftedOperator::build() {
   for (int j = 0; j < m; ++j)
     for (LinearisedEquations::Sparse::InnerIterator it(e.F, j); it; ++it)
       add(static_cast<int>(it.row()), n + j, it.value());
-  whole_.resize(parts * size, parts * size);
-  whole_.setFromTriplets(entries.begin(), entries.end());
-  whole_.makeCompressed();
+  Eigen::SparseMatrix<double> whole(parts * size, parts * size);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  whole.makeCompressed();
   pattern_ = std::make_unique<const SparsePattern>(
-      std::vector<int>(whole_.outerIndexPtr(), whole_.outerIndexPtr() + whole_.outerSize() + 1),
-      std::vector<int>(whole_.innerIndexPtr(), whole_.innerIndexPtr() + whole_.nonZeros()));
-  const std::vector<double> values(whole_.valuePtr(), whole_.valuePtr() + whole_.nonZeros());
+      std::vector<int>(whole.outerIndexPtr(), whole.outerIndexPtr() + whole.outerSize() + 1),
+      std::vector<int>(whole.innerIndexPtr(), whole.innerIndexPtr() + whole.nonZeros()));
+  const std::vector<double> values(whole.valuePtr(), whole.valuePtr() + whole.nonZeros());
 
   set_scale(D);
   VectorX diagonal(parts * size);
@@ -127,27 +127,19 @@ void ShiftedOperator::set_scale(const SparseC& D) {
   scale_.tail(dofs) = rate * scale_.head(dofs);
 }
 
-void ShiftedOperator::solve_refined(VectorX& right) const {
-  VectorX solution = right;
-  factors_->solve(solution);
-  VectorX rest = right - whole_ * solution;
-  factors_->solve(rest);
-  right = solution + rest;
-}
-
 VectorXc ShiftedOperator::solve(const VectorXc& right) const {
   const auto size = right.size();
   if (!is_real()) {
     VectorX both(2 * size);
     for (Eigen::Index k = 0; k < size; ++k) both.segment<2>(2 * k) << right[k].real(), right[k].imag();
-    solve_refined(both);
+    factors_->solve(both);
     VectorXc x(size);
     for (Eigen::Index k = 0; k < size; ++k) x[k] = {both[2 * k], both[2 * k + 1]};
     return x;
   }
   VectorX real = right.real(), imag = right.imag();
-  solve_refined(real);
-  if (!imag.isZero(0)) solve_refined(imag);
+  factors_->solve(real);
+  if (!imag.isZero(0)) factors_->solve(imag);
   VectorXc x(size);
   x.real() = real;
   x.imag() = imag;
@@ -188,7 +180,7 @@ Vector ShiftedOperator::apply_with(const Vector& x, const Matrix& rates, typenam
 VectorX ShiftedOperator::multipliers(const VectorX& x) const {
   if (!is_real()) throw std::logic_error("a complex shift makes complex vectors");
   VectorX solution = right_side(VectorX(scale_.cwiseProduct(x)), real_rates_);
-  solve_refined(solution);
+  factors_->solve(solution);
   return solution.tail(equations_.constraints());
 }
 
@@ -206,7 +198,7 @@ VectorX ShiftedOperator::apply(const VectorX& x) const {
   if (!is_real()) throw std::logic_error("a complex shift makes complex vectors");
   return apply_with(x, real_rates_, shift_.real(), [&](const VectorX& right) {
     VectorX solution = right;
-    solve_refined(solution);
+    factors_->solve(solution);
     return solution;
   });
 }

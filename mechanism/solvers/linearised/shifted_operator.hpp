@@ -7,8 +7,6 @@
 // One sparse factorisation of the size of the equations of motion is sufficient: with a = (sigma + W) u + u_in,
 //     [(sigma M + C)(sigma + W) + K] u + (B^T + F) lambda = -(sigma M + C) u_in - M w_in,
 //     B u = 0,   B a + S u = 0  (non-holonomic),        w = a of the dofs.
-// Each solution is refined once with the residual of the equations: the pivots of the factorisation, which are chosen
-// sparsely, would otherwise leave errors that ARPACK cannot tell from slow eigenvalues.
 // A complex shift doubles the size of the real equations. States are scaled: such that M has a diagonal of ones, rates
 // by the shift, first-order unknowns such that they respond to motions as motions respond to them.
 #pragma once
@@ -56,7 +54,6 @@ class ShiftedOperator {
   using SparseC = Eigen::SparseMatrix<Complex>;
   void build();
   void set_scale(const SparseC& D);
-  void solve_refined(VectorX& right) const;
   template <class Vector, class Matrix>
   Vector right_side(const Vector& in, const Matrix& rates) const;
   template <class Vector, class Matrix, class Solve>
@@ -74,7 +71,6 @@ class ShiftedOperator {
   int singular_ = -1;
   std::unique_ptr<const SparsePattern> pattern_;
   std::unique_ptr<SparseLU> factors_;
-  Eigen::SparseMatrix<double> whole_;  ///< the factorised matrix
 };
 
 }  // namespace bielle::mechanism
