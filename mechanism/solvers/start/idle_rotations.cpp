@@ -43,8 +43,7 @@ Eigen::MatrixXd massless(const SparsePattern& pattern, const std::vector<double>
     for (int column = 0; column < count; ++column)
       if (const int place = pattern.find(begin + row, begin + column); place >= 0)
         M(row, column) = mass[static_cast<std::size_t>(place)];
-  const Eigen::VectorXd scale =
-      M.diagonal().unaryExpr([](double m) { return m > 0 ? 1 / std::sqrt(m) : 1.0; });  // NOLINT: dimensions
+  const Eigen::VectorXd scale = M.diagonal().unaryExpr([](double m) { return m > 0 ? 1 / std::sqrt(m) : 1.0; });
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * M * scale.asDiagonal());
   Eigen::Index without = 0;
   while (without < count && eigen.eigenvalues()[without] <= rounding) ++without;
@@ -101,9 +100,9 @@ bool is_pushed(const Candidate& candidate, const VectorX& residual) {
 
 std::vector<IdleRotations> idle_rotations(const System& system, const Environment& environment,
                                           const std::vector<int>& nodes) {
-  const State start = closed(system, environment, system.start(0));
+  const State drawn = system.start(0);
   std::vector<double> values;
-  system.tangent(start, environment, {0, 0, 1, 0, 0}, nullptr, values);
+  system.tangent(drawn, environment, {0, 0, 1, 0, 0}, nullptr, values);
   std::vector<Candidate> candidates;
   for (const int node : nodes) {
     const NodeFreedom& freedom = system.kinematics().freedom(node);
@@ -112,6 +111,8 @@ std::vector<IdleRotations> idle_rotations(const System& system, const Environmen
                         massless(system.pattern(), values, freedom.begin, freedom.count)};
     if (candidate.motions.cols() > 0) candidates.push_back(std::move(candidate));
   }
+  if (candidates.empty()) return {};
+  const State start = closed(system, environment, drawn);
   for (State state : {start, moved(system, environment, start)}) {
     system.tangent(state, environment, {1, 1, 1, 1, 1}, nullptr, values);
     for (Candidate& candidate : candidates)

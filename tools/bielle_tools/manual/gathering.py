@@ -102,8 +102,8 @@ def _digest(repository, group, pages, common):
                 digest.update(f"{block.language}\n{block.text}\0".encode())
         digest.update(repr([(example.chosen, example.ended) for example in examples_of(path)] + images_of(path)).encode())
         for name in repository_files(path):  # a body file names geometries next to it
-            beside = glob.glob(os.path.join(repository, os.path.dirname(name), "*")) if name.startswith("meshes/") else []
-            for used in sorted(beside or [os.path.join(repository, name)]):
+            neighbours = glob.glob(os.path.join(repository, os.path.dirname(name), "*")) if name.startswith("meshes/") else []
+            for used in sorted(neighbours or [os.path.join(repository, name)]):
                 _add(digest, used)
     return digest.hexdigest()[:24]
 
