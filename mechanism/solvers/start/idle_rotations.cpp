@@ -21,19 +21,34 @@ struct Candidate {
   Eigen::MatrixXd motions;
 };
 
-/// Rows of a node in a matrix, and the columns that they have entries in: (unknowns of the node, columns).
-Eigen::MatrixXd rows_of(const SparsePattern& pattern, const std::vector<double>& values, int begin, int count) {
-  std::vector<Eigen::VectorXd> columns;
-  int last = -1;
+/// Rows of the nodes of all candidates in a matrix, in one pass over it. Each: (unknowns of the node, columns that they
+/// have entries in).
+std::vector<Eigen::MatrixXd> rows_of(const std::vector<Candidate>& candidates, const SparsePattern& pattern,
+                                     const std::vector<double>& values) {
+  struct Rows {
+    std::vector<Eigen::VectorXd> columns;
+    int last = -1;
+  };
+  std::vector<Rows> found(candidates.size());
+  std::vector<int> owner(static_cast<std::size_t>(pattern.size()), -1);
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    std::fill_n(owner.begin() + candidates[k].begin, candidates[k].count, static_cast<int>(k));
   pattern.for_each([&](int place, int row, int column) {
-    if (row < begin || row >= begin + count) return;
-    if (column != last) columns.emplace_back(Eigen::VectorXd::Zero(count));
-    last = column;
-    columns.back()[row - begin] = values[static_cast<std::size_t>(place)];
+    const int k = owner[static_cast<std::size_t>(row)];
+    if (k < 0) return;
+    const Candidate& candidate = candidates[static_cast<std::size_t>(k)];
+    Rows& rows = found[static_cast<std::size_t>(k)];
+    if (column != rows.last) rows.columns.emplace_back(Eigen::VectorXd::Zero(candidate.count));
+    rows.last = column;
+    rows.columns.back()[row - candidate.begin] = values[static_cast<std::size_t>(place)];
   });
-  Eigen::MatrixXd rows(count, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) rows.col(static_cast<Eigen::Index>(k)) = columns[k];
-  return rows;
+  std::vector<Eigen::MatrixXd> all;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const auto& columns = found[k].columns;
+    all.emplace_back(candidates[k].count, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t c = 0; c < columns.size(); ++c) all.back().col(static_cast<Eigen::Index>(c)) = columns[c];
+  }
+  return all;
 }
 
 /// Motions of a node without mass, from its block of the mass matrix.
@@ -115,9 +130,9 @@ std::vector<IdleRotations> idle_rotations(const System& system, const Environmen
   const State start = closed(system, environment, drawn);
   for (State state : {start, moved(system, environment, start)}) {
     system.tangent(state, environment, {1, 1, 1, 1, 1}, nullptr, values);
-    for (Candidate& candidate : candidates)
-      if (candidate.motions.cols() > 0)
-        reduce(candidate, rows_of(system.pattern(), values, candidate.begin, candidate.count));
+    const std::vector<Eigen::MatrixXd> rows = rows_of(candidates, system.pattern(), values);
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+      if (candidates[k].motions.cols() > 0) reduce(candidates[k], rows[k]);
     for (const double time : {0.0, 0.37, 1.91, 17.3}) {
       state.time = time;
       VectorX residual = VectorX::Zero(system.size());
