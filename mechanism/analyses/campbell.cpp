@@ -120,6 +120,12 @@ class CampbellStates {
     whole.periodicity = std::max(whole.periodicity, turning.periodicity);
     whole.harmonics = std::max(whole.harmonics, turning.harmonics);
     whole.change = std::max(whole.change, turning.change);
+    if (turning.displacement > whole.displacement) {
+      whole.displacement = turning.displacement;
+      whole.moved = turning.moved;
+    }
+    whole.rotation = std::max(whole.rotation, turning.rotation);
+    whole.orbit_harmonics = std::max(whole.orbit_harmonics, turning.orbit_harmonics);
   }
 
   /// @returns lines of the components of another model; empty for that of the session, which collects its own
@@ -160,6 +166,7 @@ class CampbellStates {
       options.rotation = SteadyRotation{};
       options.rotation->joint = model.members_of({Section::joints, options_.joint}).front();
       options.rotation->rate = rate;
+      options.rotation->mean = options_.mean;
       return;
     }
     if (rate != 0) options.rotation = SteadyRotation{rate * options_.axis, options_.through};

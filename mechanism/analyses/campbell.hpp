@@ -19,6 +19,7 @@ struct CampbellOptions {
   ModelMaker maker;                   ///< creates these models
   bool rotation = false;              ///< whether everything is brought into steady rotation; true without a parameter
   std::string joint;                  ///< joint behind which a part turns; empty: everything turns
+  bool mean = false;                  ///< behind a joint: modes about the mean state (SteadyRotation::mean)
   Vector3 axis = Vector3::Zero();     ///< unit vector; zero: axis of the fastest node at the last value
   Vector3 through = Vector3::Zero();  ///< a point of the axis [m]
   std::string rate;                   ///< rate of rotation [rad/s], a formula of the parameters; empty: the parameter

@@ -42,7 +42,7 @@ Key swept_rate_key() {
 const KeyTable& swept_joint_keys() {
   static const KeyTable table{"`rotation` of a sweep behind a joint",
                               "Steady rotation of the part behind a joint at each value; the rest stands still.",
-                              {turning_joint_key(), swept_rate_key()}};
+                              {turning_joint_key(), swept_rate_key(), turning_state_key()}};
   return table;
 }
 
@@ -115,6 +115,7 @@ void read_swept_rotation(const YamlValue& entry, const Model& model, CampbellOpt
   options.rotation = true;
   if (const auto joint = entry.find("joint")) {
     options.joint = read_turning_joint(*joint, model);
+    options.mean = read_mean(entry);
   } else {
     options.axis = Vector3(entry.at("axis").direction());
     options.through = entry.at("position").vector3();

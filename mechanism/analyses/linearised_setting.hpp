@@ -23,6 +23,12 @@ struct LinearisedSetting {
     Periodicity periodicity = Periodicity::constant;
     int harmonics = 0;
     double change = 0;  ///< relative change of the exponents by one more harmonic
+    bool mean = false;  ///< whether motions are about the mean state, without alternating forces
+    /// Vibration by gravity across the axis and unbalance: largest displacement [m] and its node, largest rotation
+    /// [rad], harmonics of the rotation; 0 without one.
+    double displacement = 0, rotation = 0;
+    std::string moved = {};
+    int orbit_harmonics = 0;
   };
   std::optional<Turning> turning;
   /// Delays that are taken as none (describe_delays).

@@ -9,9 +9,10 @@ namespace {
 Key rate_key(const char* about) { return {"rate", keys::number("rad/s"), keys::required, about}; }
 
 const KeyTable& joint_rotation_keys() {
-  static const KeyTable table{"`rotation` behind a joint",
-                              "Steady rotation of the part behind a joint; the rest stands still.",
-                              {turning_joint_key(), rate_key("Rate of the joint's angle, other than 0.")}};
+  static const KeyTable table{
+      "`rotation` behind a joint",
+      "Steady rotation of the part behind a joint; the rest stands still.",
+      {turning_joint_key(), rate_key("Rate of the joint's angle, other than 0."), turning_state_key()}};
   return table;
 }
 
@@ -38,6 +39,16 @@ Key turning_joint_key() {
   return {"joint", keys::name_of("joint"), keys::required, "Joint with one angle, behind which a part turns."};
 }
 
+Key turning_state_key() {
+  using namespace keys;
+  return {
+      "state", word({"periodic", "mean"}, "a state"), otherwise("periodic"),
+      "State that small motions are about: with the vibrations that gravity across the axis and unbalance excite, or "
+      "their mean over a turn."};
+}
+
+bool read_mean(const YamlValue& rotation) { return rotation.at("state").word() == "mean"; }
+
 std::string read_turning_joint(const YamlValue& name, const Model& model) {
   component_named_by(Section::joints, name, model);  // refuses other names
   const std::size_t joint = model.members_of({Section::joints, name.text()}).front();
@@ -52,6 +63,7 @@ SteadyRotation read_rotation(const YamlValue& entry, const Model& model) {
   if (const auto joint = entry.find("joint")) {
     rotation.joint = model.members_of({Section::joints, read_turning_joint(*joint, model)}).front();
     rotation.rate = rate;
+    rotation.mean = read_mean(entry);
     return rotation;
   }
   rotation.omega = rate * Vector3(entry.at("axis").direction());

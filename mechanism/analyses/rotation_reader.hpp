@@ -13,6 +13,10 @@ namespace bielle::mechanism {
 Key rotation_key();
 /// Returns the key `joint` of a rotation: the joint behind which a part turns.
 Key turning_joint_key();
+/// Returns the key `state` of such a rotation: `periodic` or `mean`.
+Key turning_state_key();
+/// Tells whether the state of a rotation behind a joint is the mean one.
+bool read_mean(const YamlValue& rotation);
 /// Reads its value. @throws InputError
 SteadyRotation read_rotation(const YamlValue& entry, const Model& model);
 /// Reads the name of a joint of two nodes. @throws InputError

@@ -185,10 +185,22 @@ std::string format_steps(long steps, long iterations, long records) {
 
 namespace {
 
+std::string format_vibration(const LinearisedSetting::Turning& turning) {
+  if (turning.mean)
+    return "  motions are about the mean state: vibrations by gravity across the axis and by unbalance are left out\n";
+  if (turning.orbit_harmonics == 0) return "";
+  return fmt::format(
+      "  gravity across the axis and unbalance shake the mechanism periodically: node '{}' moves up to {:.3g} m from "
+      "its "
+      "place in the mean state, nodes turn up to {:.3g} rad ({} harmonics); motions are about this periodic motion\n",
+      turning.moved, turning.displacement, turning.rotation, turning.orbit_harmonics);
+}
+
 std::string format_turning(const LinearisedSetting::Turning& turning) {
   std::string text =
       fmt::format("  what is behind {} turns at {:.6g} rad/s, the rest stands still\n", turning.joint, turning.rate);
   if (turning.rate == 0) return text;
+  text += format_vibration(turning);
   switch (turning.periodicity) {
     case Periodicity::negligible:
       return text + "  the rate is negligible compared with all frequencies: they are those at rest, as drawn\n";

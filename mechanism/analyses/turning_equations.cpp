@@ -5,12 +5,14 @@
 
 #include "mechanism/solvers/linearised/azimuth_equations.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
+#include "mechanism/solvers/linearised/orbit_equations.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-constexpr int azimuths = 8;  // coefficients have up to three harmonics
+constexpr int least_azimuths = 8;  // coefficients about the mean state have up to three harmonics
 
 /// Exponents s and s + i rate of a slow rotation are nearly the same: harmonics of one motion cannot be told apart.
 bool is_negligible(const System& system, const StandingState& about, const TurningPart& part, double rate) {
@@ -29,21 +31,65 @@ bool is_negligible(const System& system, const StandingState& about, const Turni
   });
 }
 
+std::optional<PeriodicOrbit> orbit_of(const System& system, const StandingState& about, const TurningPart& part,
+                                      const SteadyRotation& rotation, bool negligible) {
+  if (negligible || rotation.mean) return std::nullopt;
+  return find_periodic_orbit(system, about.environment, about.state, part, rotation.rate);
+}
+
+std::vector<LinearisedEquations> equations_of(std::vector<Azimuth> azimuths) {
+  std::vector<LinearisedEquations> equations;
+  for (Azimuth& each : azimuths) equations.push_back(std::move(each.equations));
+  return equations;
+}
+
+PeriodicEquations periodic_equations(const System& system, const StandingState& about, const TurningEquations& turning,
+                                     double rate) {
+  constexpr int most = 64;
+  int count = turning.negligible ? 1 : least_azimuths;
+  if (turning.orbit) count = std::max(count, 2 * (turning.orbit->deviation.harmonics + 2));
+  for (;; count *= 2) {
+    PeriodicEquations periodic(equations_of(turning.azimuths(system, about, count)), rate, model_length(about.state));
+    if (turning.negligible || periodic.resolved()) return periodic;
+    if (!turning.orbit || 2 * count > most)
+      throw ComputationError("the equations change too rapidly with the azimuth of the turning part");
+  }
+}
+
 }  // namespace
 
 TurningEquations::TurningEquations(const System& system, const StandingState& about, const SteadyRotation& rotation)
     : part(system, about.environment, about.state, *rotation.joint),
       negligible(is_negligible(system, about, part, rotation.rate)),
-      periodic(equations_over_turn(system, about.environment, about.state, part, negligible ? 1 : azimuths),
-               rotation.rate, model_length(about.state)),
+      orbit(orbit_of(system, about, part, rotation, negligible)),
+      periodic(periodic_equations(system, about, *this, rotation.rate)),
       turning(part.turning_unknowns(system)),
-      joint(describe(system.model().members()[*rotation.joint])) {}
+      joint(describe(system.model().members()[*rotation.joint])),
+      moved(orbit ? system.model().node(orbit->moved).name : ""),
+      mean(rotation.mean) {}
+
+std::vector<Azimuth> TurningEquations::azimuths(const System& system, const StandingState& about, int count) const {
+  std::vector<Azimuth> mean = azimuths_over_turn(system, about.environment, about.state, part, count);
+  if (!orbit) return mean;
+  const OrbitEquations equations(system, about.environment, part, std::move(mean));
+  std::vector<Azimuth> list;
+  for (int k = 0; k < count; ++k) list.push_back(equations.linearised(k, orbit->deviation));
+  return list;
+}
 
 LinearisedSetting TurningEquations::setting(const HarmonicModes& modes) const {
   LinearisedSetting setting;
   setting.axes = ModeAxes::turning;
-  setting.turning = {joint, periodic.rate(), negligible ? Periodicity::negligible : modes.periodicity, modes.harmonics,
-                     modes.change};
+  LinearisedSetting::Turning turned{
+      joint,           periodic.rate(), negligible ? Periodicity::negligible : modes.periodicity,
+      modes.harmonics, modes.change,    mean};
+  if (orbit) {
+    turned.displacement = orbit->displacement;
+    turned.rotation = orbit->rotation;
+    turned.moved = moved;
+    turned.orbit_harmonics = orbit->deviation.harmonics;
+  }
+  setting.turning = turned;
   return setting;
 }
 

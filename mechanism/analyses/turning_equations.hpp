@@ -1,9 +1,15 @@
 // The linearised equations about a steady rotation behind a joint, as analyses of small motions use them.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "mechanism/analyses/linearised_setting.hpp"
 #include "mechanism/analyses/standing_state.hpp"
+#include "mechanism/solvers/linearised/azimuth_equations.hpp"
 #include "mechanism/solvers/linearised/harmonic_modes.hpp"
+#include "mechanism/solvers/linearised/periodic_orbit.hpp"
 #include "mechanism/solvers/linearised/turning_part.hpp"
 
 namespace bielle::mechanism {
@@ -12,16 +18,23 @@ struct TurningEquations {
   /// @param about  state in this rotation @throws ComputationError if it is not steady
   TurningEquations(const System& system, const StandingState& about, const SteadyRotation& rotation);
 
-  HarmonicSearch search() const { return {periodic, turning}; }
+  /// Returns the mechanism at equidistant azimuths of a turn, along the periodic motion if there is one.
+  std::vector<Azimuth> azimuths(const System& system, const StandingState& about, int count) const;
+  HarmonicSearch search() const { return {periodic, turning, orbit ? orbit->shift : MatrixX()}; }
   LinearisedSetting setting(const HarmonicModes& modes) const;
 
   TurningPart part;
   /// Whether the rate is negligible compared with all frequencies: modes are those of the mechanism at rest, with the
   /// part at its present azimuth.
   bool negligible;
+  /// Vibrations about the mean state by gravity across the axis and unbalance; empty if there are none, or if the
+  /// equations are those about the mean state.
+  std::optional<PeriodicOrbit> orbit;
   PeriodicEquations periodic;  ///< at a negligible rate those of the present azimuth alone
   std::vector<char> turning;   ///< for each unknown, whether it belongs to the part
   std::string joint;           ///< its description
+  std::string moved;           ///< name of the node that the orbit moves farthest
+  bool mean;                   ///< whether vibrations are left out on request
 };
 
 }  // namespace bielle::mechanism

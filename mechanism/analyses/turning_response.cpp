@@ -5,9 +5,11 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Inputs and outputs have up to three harmonics, as coefficients have: the means of their products with the functions
-/// e_p and the unknowns are exact.
-int azimuths_for(int harmonics) { return 2 * (harmonics + 4); }
+/// Inputs and outputs have up to three harmonics, as coefficients have, and those of the motion: the means of their
+/// products with the functions e_p and the unknowns are exact.
+int azimuths_for(int harmonics, const TurningEquations& turning) {
+  return 2 * (harmonics + 4 + (turning.orbit ? turning.orbit->deviation.harmonics : 0));
+}
 
 }  // namespace
 
@@ -16,7 +18,7 @@ TurningResponse::TurningResponse(const System& system, const StandingState& abou
     : periodic_(turning.periodic),
       equations_(equations),
       harmonics_(harmonics),
-      azimuths_(azimuths_over_turn(system, about.environment, about.state, turning.part, azimuths_for(harmonics))) {
+      azimuths_(turning.azimuths(system, about, azimuths_for(harmonics, turning))) {
   for (const Azimuth& each : azimuths_) responses_.emplace_back(system, each.state, about.environment, each.equations);
 }
 

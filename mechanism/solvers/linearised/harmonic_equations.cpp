@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "reduce/common/error.hpp"
-
 namespace bielle::mechanism {
 namespace {
 
@@ -82,8 +80,9 @@ std::vector<const Sparse*> list_of(const std::vector<LinearisedEquations>& azimu
   return list;
 }
 
-/// Computes the coefficients; those that rounding alone makes are left out.
-HarmonicMatrix decompose(const std::vector<const Sparse*>& A, const EntrySizes& sizes) {
+/// Computes the coefficients; those that rounding alone makes are left out. @param resolved  set to false if the last
+/// of them is not negligible
+HarmonicMatrix decompose(const std::vector<const Sparse*>& A, const EntrySizes& sizes, bool& resolved) {
   const auto count = static_cast<int>(A.size());
   constexpr double rounding = 1e-12, rapid = 1e-8;
   HarmonicMatrix result;
@@ -97,8 +96,7 @@ HarmonicMatrix decompose(const std::vector<const Sparse*>& A, const EntrySizes& 
     sum.prune([&](Eigen::Index i, Eigen::Index j, double value) {
       return p == 0 ? value != 0 : std::abs(value) > sizes.share(last ? rapid : rounding, i, j);
     });
-    if (last && sum.nonZeros() > 0)
-      throw ComputationError("the equations change too rapidly with the azimuth of the turning part");
+    if (last && sum.nonZeros() > 0) resolved = false;
     result.push_back(sum);
   }
   return result;
@@ -126,12 +124,12 @@ PeriodicEquations::PeriodicEquations(const std::vector<LinearisedEquations>& azi
   for (EntrySizes* each : {&of_M, &of_C, &of_K}) each->calc_rounding(of_motion, of_motion);
   for (EntrySizes* each : {&of_B, &of_S}) each->calc_rounding(of_rows, of_motion);
   of_F.calc_rounding(of_motion, of_rows);
-  M_ = decompose(M, of_M);
-  C_ = decompose(C, of_C);
-  K_ = decompose(K, of_K);
-  B_ = decompose(B, of_B);
-  S_ = decompose(S, of_S);
-  F_ = decompose(F, of_F);
+  M_ = decompose(M, of_M, resolved_);
+  C_ = decompose(C, of_C, resolved_);
+  K_ = decompose(K, of_K, resolved_);
+  B_ = decompose(B, of_B, resolved_);
+  S_ = decompose(S, of_S, resolved_);
+  F_ = decompose(F, of_F, resolved_);
   for (const HarmonicMatrix* each : {&M_, &C_, &K_, &B_, &S_, &F_}) constant_ = constant_ && !varies(*each);
 }
 

@@ -26,10 +26,11 @@ class PeriodicEquations {
  public:
   /// @param azimuths  equations at equidistant azimuths (azimuth_equations.hpp), an even number
   /// @param rate  rate of the azimuth [rad/s] @param length  the mechanism's size [m], over which forces are rounded
-  /// @throws ComputationError if more azimuths are necessary
   PeriodicEquations(const std::vector<LinearisedEquations>& azimuths, double rate, double length);
 
   double rate() const { return rate_; }
+  /// Whether there are enough azimuths for the harmonics of the coefficients.
+  bool resolved() const { return resolved_; }
   /// Whether the coefficients do not depend on the azimuth.
   bool constant() const { return constant_; }
   const LinearisedEquations& first() const { return first_; }  ///< the equations at azimuth 0
@@ -45,7 +46,7 @@ class PeriodicEquations {
 
  private:
   double rate_;
-  bool constant_ = true;
+  bool resolved_ = true, constant_ = true;
   LinearisedEquations first_;
   HarmonicMatrix M_, C_, K_, B_, S_, F_;
 };

@@ -33,9 +33,10 @@ struct HarmonicModes {
 
 class HarmonicSearch {
  public:
-  /// @param turning  for each unknown, whether it belongs to the turning part
-  HarmonicSearch(const PeriodicEquations& equations, std::vector<char> turning)
-      : equations_(equations), turning_(std::move(turning)) {}
+  /// @param turning  for each unknown, whether it belongs to the turning part @param shift  coefficients of the shift
+  /// of a periodic motion in time (periodic_orbit.hpp), which is a rigid mode; empty: there is none
+  HarmonicSearch(const PeriodicEquations& equations, std::vector<char> turning, MatrixX shift = {})
+      : equations_(equations), turning_(std::move(turning)), shift_(std::move(shift)) {}
 
   /// Finds the modes with as many harmonics as they need, at least with the given number.
   /// @throws ComputationError if they need too many
@@ -45,6 +46,10 @@ class HarmonicSearch {
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
   struct Sizes;
   Sizes sizes_of(const Eigen::MatrixXcd& u, std::complex<double> s) const;
+  bool is_shift(const Eigen::MatrixXcd& u, std::complex<double> s) const;
+  VectorX weights(double rate) const;
+  VectorX of_harmonics(const MatrixX& coefficients, int h) const;
+  void add_shift(HarmonicModes& result) const;
   bool is_principal(const Sizes& sizes) const;
   double whirl_of(const Sizes& sizes) const;
   bool take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const;
@@ -52,6 +57,7 @@ class HarmonicSearch {
 
   const PeriodicEquations& equations_;
   std::vector<char> turning_;
+  MatrixX shift_;
 };
 
 }  // namespace bielle::mechanism

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
+#include "mechanism/solvers/linearised/loose_motions.hpp"
 #include "mechanism/solvers/linearised/mean_forces.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
 #include "mechanism/solvers/linearised/shifted_operator.hpp"
@@ -59,24 +60,6 @@ void turn(const System& system, const RotationMotion& rotation, State& state) {
   system.get_rates(turning, v, a);
   system.set_rates(state, v, a);
   state.first_order_rate.setZero();
-}
-
-/// Indifferent motions (a free shaft) are held in place: a small inertia resists displacements. Rates must not be
-/// included, or the Coriolis forces of an eccentric rotor that moves outwards would rotate its free shaft far. Unknowns
-/// without inertia are held as strongly as the others.
-void hold_loose(double rate, LinearisedEquations& equations) {
-  constexpr double little = 1e-6;  // fraction of centrifugal forces
-  VectorX sum = VectorX::Zero(2), count = sum;
-  const VectorX inertia = equations.M.diagonal();
-  const auto kind = [&](int i) { return equations.turns[static_cast<std::size_t>(i)] != 0 ? 1 : 0; };
-  for (int i = 0; i < equations.dofs; ++i) {
-    sum[kind(i)] += inertia[i];
-    count[kind(i)] += inertia[i] > 0 ? 1 : 0;
-  }
-  VectorX missing = VectorX::Zero(equations.unknowns());
-  for (int i = 0; i < equations.dofs; ++i)
-    if (!(inertia[i] > 0) && count[kind(i)] > 0) missing[i] = sum[kind(i)] / count[kind(i)];
-  equations.K += little * rate * rate * (equations.M + LinearisedEquations::Sparse(missing.asDiagonal()));
 }
 
 /// Newton's method for the equilibrium at one angular velocity, with the safeguards of statics (equilibrium.hpp): the

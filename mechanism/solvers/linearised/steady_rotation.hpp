@@ -19,6 +19,9 @@ struct SteadyRotation {
   /// Member of the model behind which a part turns; empty: everything turns.
   std::optional<std::size_t> joint = {};
   double rate = 0;  ///< rate of the joint's angle [rad/s]; `omega` and `through` are not used then
+  /// Behind a joint: whether small motions are about the mean state, without the vibrations that gravity across the
+  /// axis and unbalance excite.
+  bool mean = false;
 };
 
 /// Moves a state to this equilibrium, with its rates, accelerations and multipliers; first with the whole speed,

@@ -76,7 +76,8 @@ analysis: [{type: eigen}]
         self.expect_refusal(2, "model.yaml", says=("cannot turn as a whole", "joint 'pivot'"))
 
     def test_a_rotation_behind_a_joint_is_told_with_its_axes(self):
-        text = self.summary(PENDULUM.format(x=0, z=-1, analysis="[{type: eigen, rotation: {joint: pivot, rate: 3}}]"))
+        analysis = "[{type: eigen, rotation: {joint: pivot, rate: 3, state: mean}}]"
+        text = self.summary(PENDULUM.format(x=0, z=-1, analysis=analysis))
         self.assertIn("what is behind joint 'pivot' turns at 3 rad/s, the rest stands still", text)
         self.assertIn("constant in axes that turn with it", text)
         with h5py.File(os.path.join(self.folder, "model.h5")) as file:
@@ -90,6 +91,8 @@ analysis: [{type: eigen}]
                                ("{type: eigen, rotation: {joint: pivto, rate: 3}}", ("'pivto'", "did you mean 'pivot'")),
                                ("{type: eigen, rotation: {joint: pivot}}", ("rate",)),
                                ("{type: eigen, rotation: {joint: pivot, rate: 0}}", ("other than 0",)),
+                               ("{type: eigen, rotation: {joint: pivot, rate: 3, state: means}}", ("'means'",)),
+                               ("{type: eigen, rotation: {joint: pivot, rate: 3, state: 2}}", ("periodic",)),
                                ("{type: eigen, rotation: {joint: pivot, rate: .nan}}", ("rate",)),
                                ("{type: eigen, rotation: {joint: pivot, rate: 3, axis: [0, 0, 1]}}", ("'axis'",)),
                                ("{type: campbell, rotation: {joint: pivot}, speeds: {to: 3}, node: rod}",

@@ -1,0 +1,246 @@
+// Small motions about periodic motions of rotors under gravity and out of balance (tests/references/turning_orbits.py).
+#include <optional>
+
+#include "mechanism/solvers/linearised/periodic_orbit.hpp"
+#include "tests/benchmarks/linearised/turning_models.hpp"
+#include "tests/support/reference_table.hpp"
+
+using namespace bielle::mechanism;
+using namespace bielle::test;
+
+namespace test_turning_orbits {
+namespace {
+
+using Complex = std::complex<double>;
+
+struct Hub {
+  double mass, ky, kz, cy, cz;
+};
+
+/// Blades of 2 kg with lag hinges at 0.2 m, in a vertical plane, at 6 rad/s.
+std::string blades(int count, double spring, const std::optional<Hub>& hub, const std::string& drive = "rate: 6") {
+  constexpr double mass = 2, arm = 0.4, own = 0.06, hinge = 0.2;
+  std::string nodes, bodies, hinges;
+  for (int b = 0; b < count; ++b) {
+    const double at = two_pi * b / count, c = std::cos(at), s = std::sin(at);
+    nodes += fmt::format("  b{}: {{position: [0, {:.17g}, {:.17g}], rotation_vector: [{:.17g}, 0, 0]}}\n", b,
+                         (hinge + arm) * c, (hinge + arm) * s, at);
+    bodies +=
+        fmt::format("  b{0}: {{type: rigid_body, node: b{0}, mass: {1}, inertia: [{2}, 0, {2}]}}\n", b, mass, own);
+    hinges += fmt::format(
+        "  l{0}: {{type: hinge, nodes: [rotor, b{0}], position: [0, {1:.17g}, {2:.17g}], axis: [1, 0, 0], stiffness: "
+        "{3}, damping: 0.3}}\n",
+        b, hinge * c, hinge * s, spring);
+  }
+  std::string text = "gravity: [0, 0, -9.81]\nnodes:\n  rotor: {}\n" + nodes;
+  if (hub) text += "  hub: {fixed: [x, rx, ry, rz]}\n";
+  text += "elements:\n  rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [1, 1, 1]}\n" + bodies;
+  if (hub) text += fmt::format("  hub: {{type: rigid_body, node: hub, mass: {}, inertia: [1, 1, 1]}}\n", hub->mass - 1);
+  text += fmt::format("joints:\n  shaft: {{type: hinge, nodes: [{}, rotor], position: [0, 0, 0], axis: [1, 0, 0]}}\n",
+                      hub ? "hub" : "ground");
+  if (hub)
+    text += fmt::format(
+        "  mount: {{type: bushing, nodes: [ground, hub], stiffness: [0, {}, {}, 0, 0, 0], damping: [0, {}, {}, 0, 0, "
+        "0]}}\n",
+        hub->ky, hub->kz, hub->cy, hub->cz);
+  text += hinges;
+  if (!drive.empty()) text += "drives: {motor: {joint: shaft, " + drive + "}}\n";
+  return text;
+}
+
+constexpr Hub springs{20, 9000, 14000, 30, 50};
+
+/// A mass of 1 kg at 0.5 m on a rotor that turns freely in a hub on springs.
+std::string unbalanced(const std::string& damping = "", const std::string& drive = "") {
+  std::string text =
+      "nodes: {hub: {fixed: [z, rx, ry, rz]}, rotor: {}, p: {position: [0.5, 0, 0]}}\n"
+      "elements:\n  hub: {type: rigid_body, node: hub, mass: 9, inertia: [1, 1, 1]}\n"
+      "  rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.3, 0.3, 0.3]}\n"
+      "  p: {type: point_mass, node: p, mass: 1}\n"
+      "joints:\n  mount: {type: bushing, nodes: [ground, hub], stiffness: [1000, 1500, 0, 0, 0, 0]" +
+      damping +
+      "}\n  shaft: {type: hinge, nodes: [hub, rotor], position: [0, 0, 0], axis: [0, 0, 1]}\n"
+      "  arm: {type: rigid, nodes: [rotor, p]}\n";
+  if (!drive.empty()) text += "drives: {motor: {joint: shaft, " + drive + "}}\n";
+  return text;
+}
+
+struct Turning {
+  ModesOf model;
+  ModesReport report;
+  Turning(const std::string& text, double rate, bool mean = false, int harmonics = 1)
+      : model(text), report(compute_modes(model.session, options(model, rate, mean, harmonics))) {}
+  static ModesOptions options(const ModesOf& model, double rate, bool mean, int harmonics) {
+    ModesOptions options;
+    SteadyRotation rotation;
+    rotation.joint = model.file.model.members_of({Section::joints, "shaft"}).front();
+    rotation.rate = rate;
+    rotation.mean = mean;
+    options.rotation = rotation;
+    options.harmonics = harmonics;
+    return options;
+  }
+  std::vector<Complex> exponents() const {
+    std::vector<Complex> list;
+    for (const Mode& mode : report.found.modes)
+      if (mode.kind != ModeKind::rigid) list.push_back(mode.s);
+    return list;
+  }
+  /// The periodic motion.
+  PeriodicOrbit orbit() const {
+    const StandingState& about = report.about;
+    const System& system = model.session.system();
+    const TurningPart part(system, about.environment, about.state,
+                           model.file.model.members_of({Section::joints, "shaft"}).front());
+    const auto found = find_periodic_orbit(system, about.environment, about.state, part, report.turning->rate);
+    REQUIRE(found);
+    return *found;
+  }
+  int first_unknown(const char* node) const {
+    return model.session.system().kinematics().freedom(*model.file.model.find_node(node)).begin;
+  }
+};
+
+/// Distance of an exponent, or its conjugate, from another one modulo i rate.
+double distance(Complex s, Complex exact, double rate) {
+  const auto apart = [&](Complex a) { return Complex(a.real(), std::remainder(a.imag(), rate)); };
+  return std::min(std::abs(apart(s - exact)), std::abs(apart(std::conj(s) - exact)));
+}
+
+/// Checks that the exponents are those of the table, each once.
+void check_table(const std::vector<Complex>& found, const ReferenceTable& table, const std::string& name, double rate,
+                 double within) {
+  std::vector<Complex> left = found;
+  for (std::size_t k = 1; k <= found.size(); ++k) {
+    const Complex exact(table(fmt::format("{}.real_{}", name, k)), table(fmt::format("{}.imaginary_{}", name, k)));
+    CAPTURE(name, k, exact);
+    REQUIRE_FALSE(left.empty());
+    const auto nearest = std::min_element(left.begin(), left.end(), [&](Complex a, Complex b) {
+      return distance(a, exact, rate) < distance(b, exact, rate);
+    });
+    CHECK(distance(*nearest, exact, rate) < within);
+    left.erase(nearest);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("blades under gravity have the Floquet exponents of their nonlinear equations", "[linearised]") {
+  const ReferenceTable table("turning_orbits");
+  struct Case {
+    const char* name;
+    std::string text;
+    std::size_t modes;
+  };
+  const Case cases[] = {{"blade", blades(1, 60, std::nullopt), 1},
+                        {"soft_blade", blades(1, 20, std::nullopt), 1},
+                        {"two_blades", blades(2, 60, springs), 4}};
+  for (const Case& each : cases) {
+    const Turning turning(each.text, 6);
+    CAPTURE(each.name);
+    CHECK(turning.report.turning->periodicity == Periodicity::periodic);
+    CHECK(count_rigid(turning.report) == 1);  // the drive gives the rate, not the angle
+    REQUIRE(turning.exponents().size() == each.modes);
+    check_table(turning.exponents(), table, each.name, 6, 3e-6);  // 1e-7 of the largest exponent
+  }
+}
+
+TEST_CASE("more harmonics of the rotation than a blade under gravity needs change nothing", "[linearised]") {
+  const ReferenceTable table("turning_orbits");
+  const Turning turning(blades(1, 60, std::nullopt), 6, false, 6);
+  REQUIRE(turning.exponents().size() == 1);
+  check_table(turning.exponents(), table, "blade", 6, 2e-8);
+}
+
+TEST_CASE("blades swing under gravity as their nonlinear equations say", "[linearised]") {
+  const ReferenceTable table("turning_orbits");
+  for (const char* name : {"blade", "soft_blade"}) {
+    const Turning turning(blades(1, std::string(name) == "blade" ? 60 : 20, std::nullopt, "angle: 6*t"), 6);
+    CAPTURE(name);
+    CHECK(count_rigid(turning.report) == 0);
+    REQUIRE(turning.exponents().size() == 1);
+    check_table(turning.exponents(), table, name, 6, 3e-6);
+    const PeriodicOrbit orbit = turning.orbit();
+    const VectorX q = orbit.deviation.at(0), v = orbit.deviation.rate_at(0);
+    const int rotation = turning.first_unknown("b0") + 3;
+    CHECK(q[rotation] == Approx(table(std::string(name) + ".start_1")).margin(1e-7));
+    CHECK(v[rotation] == Approx(table(std::string(name) + ".rate_1")).margin(1e-6));
+    CHECK(orbit.displacement > 0.4 * std::abs(q[rotation]) * 0.9);
+  }
+}
+
+TEST_CASE("an unbalanced rotor that turns freely below its critical speed does not grow", "[linearised]") {
+  const ReferenceTable table("turning_orbits");
+  const Turning turning(unbalanced(), 7);
+  CHECK(count_rigid(turning.report) == 1);
+  REQUIRE(turning.exponents().size() == 2);
+  for (int k = 1; k <= 2; ++k) {
+    const Complex exact(0, table(fmt::format("unbalance.imaginary_{}", k)));
+    const std::vector<Complex> found = turning.exponents();
+    CHECK(std::min(distance(found[0], exact, 7), distance(found[1], exact, 7)) < 1e-8);
+  }
+  for (const Mode& mode : turning.report.found.modes) CHECK(mode.kind != ModeKind::growing);
+}
+
+TEST_CASE("the mean state of a rotor out of balance has no vibration", "[linearised]") {
+  const Turning turning(unbalanced(), 7), mean(unbalanced(), 7, true);
+  CHECK(mean.report.turning->mean);
+  CHECK(mean.report.turning->orbit_harmonics == 0);
+  CHECK(turning.report.turning->orbit_harmonics > 0);
+  CHECK(turning.report.turning->displacement == Approx(24.5 / (1000 - 11 * 49)).epsilon(0.05));
+  // The hub's reaction, which keeps the rotor at its rate, is missing: exponents are wrong by more than rounding.
+  const ReferenceTable table("turning_orbits");
+  const Complex exact(0, table("unbalance.imaginary_1"));
+  for (const Complex s : mean.exponents()) CHECK(distance(s, exact, 7) > 1e-3);
+}
+
+TEST_CASE("a driven unbalanced rotor deflects its hub by m e Om^2/(k - M Om^2), and turns at any phase",
+          "[linearised]") {
+  const Turning turning(unbalanced("", "rate: 7"), 7);
+  CHECK(count_rigid(turning.report) == 1);
+  const std::vector<Complex> found = turning.exponents();
+  REQUIRE(found.size() == 2);
+  // At a given rate the equations of the hub are linear.
+  CHECK(found[0].imag() == Approx(std::sqrt(1000.0 / 11)).epsilon(1e-9));
+  CHECK(found[1].imag() == Approx(std::sqrt(1500.0 / 11)).epsilon(1e-9));
+  const PeriodicOrbit orbit = turning.orbit();
+  const int hub = turning.first_unknown("hub");
+  constexpr double force = 1 * 0.5 * 49;
+  CHECK(orbit.deviation.sizes(hub)[1] == Approx(force / (1000 - 11 * 49)).epsilon(1e-9));
+  CHECK(orbit.deviation.sizes(hub + 1)[1] == Approx(force / (1500 - 11 * 49)).epsilon(1e-9));
+}
+
+TEST_CASE("a pendulum that turns over keeps its energy", "[linearised]") {
+  constexpr double rate = 9, g = 9.81, r = 0.5, inertia = 0.26;
+  const Turning turning(
+      "gravity: [0, -9.81, 0]\nnodes: {p: {position: [0.5, 0, 0]}}\n"
+      "elements: {p: {type: rigid_body, node: p, mass: 1, inertia: [0.01, 0.01, 0.01]}}\n"
+      "joints: {shaft: {type: hinge, nodes: [ground, p], position: [0, 0, 0], axis: [0, 0, 1]}}\n",
+      rate);
+  CHECK(count_rigid(turning.report) == 1);
+  CHECK(turning.exponents().empty());
+  const PeriodicOrbit orbit = turning.orbit();
+  const int rotation = turning.first_unknown("p") + 5;
+  const auto energy = [&](double psi) {
+    const double omega = rate + orbit.deviation.rate_at(psi)[rotation];
+    return 0.5 * inertia * omega * omega + g * r * std::sin(psi + orbit.deviation.at(psi)[rotation]);
+  };
+  for (const double psi : {1.0, 2.0, 4.0, 5.5}) CHECK(energy(psi) == Approx(energy(0)).epsilon(1e-9));
+  CHECK(orbit.deviation.rate_at(0.25 * two_pi)[rotation] < -1);  // slow at the top
+}
+
+TEST_CASE("rotors without a periodic motion near their mean state are refused", "[linearised]") {
+  CHECK_THROWS_WITH(Turning(unbalanced(", damping: [20, 20, 0, 0, 0, 0]"), 7),
+                    Catch::Contains("no periodic motion at 7 rad/s") && Catch::Contains("a drive with a `rate`"));
+  // Nothing centres the blade but its rotation, which is slow: it tumbles.
+  CHECK_THROWS_WITH(Turning(blades(1, 0, std::nullopt, "rate: 0.5"), 0.5), Catch::Contains("no periodic motion"));
+}
+
+TEST_CASE("a balanced rotor without gravity across its axis has no vibration", "[linearised]") {
+  LagRotor rotor;
+  const Turning turning(rotor.model(), rotor.rate);
+  CHECK(turning.report.turning->orbit_harmonics == 0);
+  CHECK(turning.report.turning->displacement == 0);
+}
+
+}  // namespace test_turning_orbits
