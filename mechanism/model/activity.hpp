@@ -68,8 +68,8 @@ class Activities {
   std::vector<std::size_t> governor_;  ///< members that are activities
 };
 
-/// Whether values in these units are those of forces, or follow from them (stresses, powers, energies): a released
-/// entry has none.
+/// Whether values in these units are those of forces, or follow from them (stresses, powers, energies), or of flows: a
+/// released entry has none.
 bool are_units_of_forces(const std::string& units);
 
 }  // namespace bielle::mechanism

@@ -1,6 +1,8 @@
 #include "mechanism/reading/read_activity.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,23 +13,30 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr std::array releasable_sections = {Section::joints, Section::elements, Section::drives, Section::loads};
+constexpr std::array releasable_sections = {Section::joints, Section::elements, Section::drives, Section::loads,
+                                            Section::hydraulics};
+
+/// Types of the hydraulics that store no fluid and have no inertia.
+constexpr std::array<std::string_view, 8> releasable_lines = {"orifice",        "laminar",    "check", "relief",
+                                                              "counterbalance", "flow_valve", "valve", "servo_valve"};
+
+bool is_releasable_line(const Component& component) {
+  if (dynamic_cast<const Activity*>(&component)) return true;  // belongs to any entry
+  return std::find(releasable_lines.begin(), releasable_lines.end(), component.type()) != releasable_lines.end();
+}
 
 /// Checks that an entry joins or pushes, when everything has been read. @throws InputError
 void check_releasable(const YamlValue& value, const Entry& entry, const Model& model) {
   for (const Component* component : model.components_of(entry)) {
+    if (entry.section == Section::hydraulics && !is_releasable_line(*component))
+      value.fail(fmt::format("'{}' is no orifice or valve: of the hydraulics only these are released, and then closed",
+                             entry.name));
     Declaration declaration;
     component->declare(declaration);
     if (declaration.mass || !declaration.amplitudes.empty())
       value.fail(fmt::format("'{}' has inertia and is always active; release what joins it", entry.name));
     if (dynamic_cast<const SoughtEffort*>(component))
       value.fail(fmt::format("the effort of '{}' is sought by inverse dynamics, which knows no release", entry.name));
-    for (const Declaration::Scalar& unknown : declaration.first_order)
-      if (unknown.algebraic)
-        value.fail(
-            fmt::format("'{}' has the unknown '{}' without a rate, which could not stay as it is: it is always "
-                        "active",
-                        entry.name, unknown.name));
   }
 }
 
@@ -57,12 +66,15 @@ const Activity& activity_named_by(const YamlValue& value, Model& model) {
   for (const Section section : releasable_sections) {
     const std::vector<std::string>& all = model.names_in(section);
     names.insert(names.end(), all.begin(), all.end());
-    if (model.members_of({section, name}).empty()) continue;
+    const std::vector<Component*> components = model.components_of({section, name});
+    if (components.empty()) continue;
+    // A place of the hydraulics may have the name of what is meant.
+    if (section == Section::hydraulics && !found.empty() && !is_releasable_line(*components.front())) continue;
     found.push_back({section, name});
     sections.emplace_back(section_name(section));
   }
   if (found.empty())
-    value.fail(fmt::format("there is no joint, element, drive or load '{}'{}", name, did_you_mean(name, names)));
+    value.fail(fmt::format("there is no joint, element, drive, load or valve '{}'{}", name, did_you_mean(name, names)));
   if (found.size() > 1)
     value.fail(fmt::format("'{}' stands in {}: give the one that is meant another name", name,
                            fmt::join(sections, " and in ")));

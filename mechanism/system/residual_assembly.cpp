@@ -90,7 +90,8 @@ void ResidualAssembly::evaluate(std::size_t member, const State& state, const En
   }
 }
 
-/// Adds the equations of the first-order unknowns of a released member, which keep their values.
+/// Adds the equations of the first-order unknowns of a released member, which keep their values. (Those of algebraic
+/// ones, whose rates are zero, are 0 = 0: their increments are zero by the tangent.)
 void ResidualAssembly::hold_first_order(const LocalState& state, Eigen::Ref<VectorX> local) {
   const Slots& slots = state.slots();
   if (slots.first_orders == 0 || state.environment().statics) return;

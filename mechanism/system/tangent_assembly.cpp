@@ -224,7 +224,8 @@ bool TangentAssembly::set_values(const State& state, const Environment& environm
   return again;
 }
 
-/// Adds the derivatives of the equations of first-order unknowns that released members keep.
+/// Adds the derivatives of the equations of first-order unknowns that released members keep. The residuals of algebraic
+/// unknowns and of statics are zero: any slope along the unknown itself makes its increment zero.
 void TangentAssembly::add_held(const State& state, const Environment& environment, const TangentWeights& weights,
                                std::vector<double>& values) const {
   if (held_when_released_.empty()) return;
@@ -232,9 +233,13 @@ void TangentAssembly::add_held(const State& state, const Environment& environmen
     if (!unknowns_.activities().is_governed(m) || unknowns_.is_active(state, m)) continue;
     const Slots& slots = unknowns_.slots()[m];
     const int begin = unknowns_.first_first_order() + slots.first_order_begin;
-    for (int i = begin; i < begin + slots.first_orders; ++i)
+    for (int i = begin; i < begin + slots.first_orders; ++i) {
+      const std::vector<int>& algebraic = unknowns_.algebraic();
+      const bool has_no_rate = environment.statics || std::binary_search(algebraic.begin(), algebraic.end(),
+                                                                         i - unknowns_.first_first_order());
       values[static_cast<std::size_t>(pattern_->whole.find(i, i))] +=
-          environment.statics ? weights.stiffness : weights.first_order;
+          has_no_rate ? weights.stiffness : weights.first_order;
+    }
   }
 }
 

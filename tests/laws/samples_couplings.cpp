@@ -139,6 +139,12 @@ std::vector<Sample> coupling_samples() {
   list.push_back(wavy(
       "elastic, with a stiffness by formula", teeth + "stiffness: 5 + sin(2*phi)",
       {{"stiffness", "2*sin(phi)", "greater than 0"}, {"stiffness", "1/phi", "phi"}, {"stiffness", "5 + t", "t"}}));
+  list.push_back(wavy("elastic, with a stiffness and errors by both angles",
+                      "carrier: carrier, axes: [0, 0, 1], radii: [0.4, 0.6], damping: 0.25, helix_angle: 0.2, errors: "
+                      "0.1*sin(3*phi - 2*phi_2), stiffness: 5 + sin(2*phi)*cos(3*phi_2)",
+                      {{"stiffness", "1.5 + sin(phi) + cos(phi_2)", "of the second"},
+                       {"stiffness", "5 + sin(phi_3)", "phi_3"},
+                       {"errors", "{formula: phi_2, wheel: 2}", "phi_2"}}));
   list.push_back(wavy("elastic, by its size",
                       teeth + "stiffness: {iso: {width: 1e-9, teeth: [20, 30], shifts: [0.1, 0], young: 100e9}}",
                       {{"axes", "[[0, 0, 1], [0, 0.1, 1]]", ""}}));

@@ -278,9 +278,31 @@ elements:
     section: {EA: 4, GAy: 2, GAz: 3, GJ: 1, EIy: 2, EIz: 1}
     airfoil: {chord: "0.5 + 0.3*s", twist: "0.2 - 0.4*s", at: [0.1, -0.05], lift: "2*sin(2*alpha)", drag: "0.1 + sin(alpha)^2", moment: "-0.1*cos(alpha)", density: 0.8, wind: ["3 + s", "7*cos(t)", "5 - s*t"])yaml" +
                     std::string(pitch_rate ? "" : ", pitch_rate: false") + "}\n",
-                {{"airfoil.chord", "s", "chord greater than 0"}, {"airfoil.lift", "2*beta", "beta"}}};
+                {{"airfoil.chord", "s", "chord greater than 0"},
+                 {"airfoil.lift", "2*beta", "beta"},
+                 {"airfoil.lift", "", "needs `lift`, or `polars`"}}};
   sample.inertial = true;             // the wind
   sample.scales.smooth_within = 0.3;  // the angle of attack changes within the speed of the air
+  return sample;
+}
+
+/// Coefficients of stations along the beam, in place of those of one airfoil.
+Sample airfoil_with_polars() {
+  Sample sample = airfoil(true);
+  sample.variant = "airfoil with polars";
+  const std::string one = "lift: \"2*sin(2*alpha)\", drag: \"0.1 + sin(alpha)^2\", moment: \"-0.1*cos(alpha)\"";
+  sample.model.replace(sample.model.find(one), one.size(),
+                       "polars: [{at: 0.2, lift: \"2*sin(2*alpha)\", drag: \"0.1 + sin(alpha)^2\"}, {at: 0.6, lift: "
+                       "\"sin(alpha)\", moment: \"-0.1*cos(alpha)\"}, {at: 0.7, lift: 0.5}]");
+  sample.bad = {{"airfoil.lift", "1", "does not go with `polars`"},
+                {"airfoil.polars", "[{at: 0.5, lift: 1}, {at: 0.5, lift: 2}]", "after the one before it"},
+                {"airfoil.polars", "[{at: 0.5, lift: s}]", "s"},
+                {"airfoil.polars", "[{at: 0.5}]", "either a `table`, or `lift`"},
+                {"airfoil.polars", "[{at: 0.5, lift: 1, angles: deg}]", "belongs to a `table`"},
+                {"airfoil.polars", "[{at: 0.5, table: [[-180, 0, 1, 0], [180, 0, 1, 0]]}]", "angles: deg"},
+                {"airfoil.polars", "[{at: 0.5, table: [[1, 0, 1, 0], [1, 0, 1, 0]]}]", "ascend"},
+                {"airfoil.polars", "[{at: 0.5, table: [[-3, 0, 1, 0], [3, 0, 1, 0]], drag: 1}]", "is a column"},
+                {"airfoil.polars", "[{at: 0.5, table: none.csv}]", "no such file"}};
   return sample;
 }
 
@@ -296,6 +318,25 @@ Sample follower_line_load() {
       "follower line load",
       R"yaml({force: ["1 + s*t", "2*cos(3*s)", "if(s < 0.3, -1, 0.5)"], moment: ["0.3 + s", "s^2", "0.7"], at: [0.1, -0.2], follower: true})yaml",
       false);
+}
+
+/// Loads by the motion of the beam and by measures; smooth, because the laws compare differences.
+Sample dead_line_load_of_motion() {
+  Sample sample = loaded_beam(
+      "dead line load of the motion",
+      R"yaml({force: ["1 + s*vx*vy - 0.3*vz^2", "-0.5*vy^3 + b.position.x", "section_vx + s*vy*t"], moment: ["0.1*section_vx*vz", "vx - 0.2*section_vz^2", "a.angular_velocity.y"], at: [0.1, -0.2]})yaml",
+      true);
+  sample.bad.push_back({"distributed.force", "[vx, section_vv, 1]", "section_vv"});
+  sample.bad.push_back({"distributed.force", "[b.position.w, 1, 1]", "'b' has no 'position.w'"});
+  return sample;
+}
+
+Sample follower_line_load_of_motion() {
+  // Inertial, because a velocity relative to the air at rest is not that relative to a frame in flight.
+  return loaded_beam(
+      "follower line load of the motion",
+      R"yaml({force: ["-section_vx", "2*section_vy*section_vz - s", "distance(a, b)*section_vz"], moment: ["-0.3*section_vz", "0.2*section_vx*section_vz^2", "section_vy^2 + s*distance(a, b)"], at: [0.1, -0.2], follower: true})yaml",
+      true);
 }
 
 Sample spring() {
@@ -509,8 +550,11 @@ std::vector<Sample> element_samples() {
       tapered_shape(),
       dead_line_load(),
       follower_line_load(),
+      dead_line_load_of_motion(),
+      follower_line_load_of_motion(),
       airfoil(true),
       airfoil(false),
+      airfoil_with_polars(),
       spring(),
       spring_by_formula(),
       timed_spring(),

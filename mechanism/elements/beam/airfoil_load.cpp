@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/elements/beam/load_pieces.hpp"
 #include "mechanism/math/so3.hpp"
 #include "mechanism/model/description.hpp"
 #include "mechanism/reading/read_numbers.hpp"
@@ -16,21 +17,19 @@ namespace {
 
 constexpr std::size_t wind_along = 0, wind_in_time = 1;  // argument numbers of the wind's formulas
 
-/// A coefficient with its derivative by the angle of attack.
-struct Coefficient {
-  double value, slope;
-};
-
-Coefficient coefficient(const Expression& formula, double alpha) {
-  double slope = 0;
-  const double value = formula.value_and_gradient({&alpha, 1}, {&slope, 1});
-  return {value, slope};
+/// Pieces of the integral between the places along the beam at which coefficients, chord or twist have a kink.
+std::vector<double> airfoil_pieces(const Airfoil& airfoil, const BeamSpan& span) {
+  std::vector<double> places = airfoil.polars.break_points();
+  for (const Expression* formula : {&airfoil.chord, &airfoil.twist})
+    for (const double s : formula->break_points(wind_along)) places.push_back(s);
+  add_break_points(airfoil.wind, wind_along, places);
+  return pieces_between(places, span.s_A, span.s_B);
 }
 
 }  // namespace
 
 AirfoilLoad::AirfoilLoad(std::string name, const BeamSpan& span, Airfoil airfoil)
-    : SpanLoad(std::move(name), span, {0, 1}), airfoil_(std::move(airfoil)) {}
+    : SpanLoad(std::move(name), span, airfoil_pieces(airfoil, span)), airfoil_(std::move(airfoil)) {}
 
 void AirfoilLoad::declare(Declaration& declaration) const {
   declaration.nodes = {span().node_a, span().node_b};
@@ -58,8 +57,7 @@ AirfoilLoad::Strip AirfoilLoad::strip(const LocalState& state, const SpanPoint& 
   const double U = u.norm();
   if (U == 0) return strip;
   const double alpha = std::atan2(u.dot(e_n), u.dot(e_c));
-  const Coefficient cl = coefficient(airfoil_.lift, alpha), cd = coefficient(airfoil_.drag, alpha),
-                    cm = coefficient(airfoil_.pitch, alpha);
+  const auto [cl, cd, cm] = airfoil_.polars(s, alpha);
   const double pressure = 0.5 * state.environment().load_factor * airfoil_.density * chord;
   const Vector3 across = e_x.cross(u), along = cd.value * u + cl.value * across;
   const Vector3 alpha_by_u = across / (U * U);  // a turn of u about x
@@ -136,21 +134,20 @@ const KeyTable& airfoil_keys() {
       "an airfoil",
       "Aerodynamic forces along a beam, by the angle of attack alpha in each section. Formulas of s go from 0 at its "
       "start to 1 at its end.",
-      {{"chord", formula("m", {"s"}), required, "Chord as a formula of s."},
-       {"twist", formula("rad", {"s"}).as_pseudoscalar(), otherwise("0"),
-        "Angle about the section's x axis from its y axis to the direction from the leading to the trailing edge, as a "
-        "formula of s."},
-       {"at", list_of(2, number("m")), otherwise("[0, 0]"),
-        "Point of the section at which lift and drag act, the quarter chord, from the node line along y and z."},
-       {"lift", formula("-", {"alpha"}), required, "Coefficient of lift as a formula of alpha [rad]."},
-       {"drag", formula("-", {"alpha"}), otherwise("0"), "Coefficient of drag, likewise."},
-       {"moment", formula("-", {"alpha"}), otherwise("0"),
-        "Coefficient of the moment, likewise; positive towards larger alpha."},
-       {"pitch_rate", boolean(), otherwise("true"),
-        "Whether turning about the beam counts: alpha at the three-quarter chord, and damping of the moment."},
-       {"density", number("kg/m^3").non_negative(), otherwise("1.225"), "Density of the air."},
-       {"wind", list_of(3, formula("m/s", {"s", "t"})).as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),
-        "Velocity of the air as formulas of s and the time t."}}};
+      joined(
+          {{{"chord", formula("m", {"s"}), required, "Chord as a formula of s."},
+            {"twist", formula("rad", {"s"}).as_pseudoscalar(), otherwise("0"),
+             "Angle about the section's x axis from its y axis to the direction from the leading to the trailing edge, "
+             "as a "
+             "formula of s."},
+            {"at", list_of(2, number("m")), otherwise("[0, 0]"),
+             "Point of the section at which lift and drag act, the quarter chord, from the node line along y and z."}},
+           airfoil_polar_keys(),
+           {{"pitch_rate", boolean(), otherwise("true"),
+             "Whether turning about the beam counts: alpha at the three-quarter chord, and damping of the moment."},
+            {"density", number("kg/m^3").non_negative(), otherwise("1.225"), "Density of the air."},
+            {"wind", list_of(3, formula("m/s", {"s", "t"})).as_vector().in_inertial_axes(), otherwise("[0, 0, 0]"),
+             "Velocity of the air as formulas of s and the time t."}}})};
   return table;
 }
 
@@ -160,9 +157,7 @@ Airfoil read_airfoil(const YamlValue& value) {
   airfoil.wind = read_formula_vector(value.at("wind"), "three components, numbers or expressions of s and t");
   airfoil.chord = value.at("chord").expression();
   airfoil.twist = value.at("twist").expression();
-  airfoil.lift = value.at("lift").expression();
-  airfoil.drag = value.at("drag").expression();
-  airfoil.pitch = value.at("moment").expression();
+  airfoil.polars = read_airfoil_polars(value);
   const Vector2 point = read_numbers(value.at("at"), 2, "the point [y, z] of the section, from the node line");
   airfoil.at = {0, point[0], point[1]};
   airfoil.pitch_rate = value.at("pitch_rate").boolean();

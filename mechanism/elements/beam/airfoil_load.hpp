@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/elements/beam/airfoil_polars.hpp"
 #include "mechanism/elements/beam/formula_vector.hpp"
 #include "mechanism/elements/beam/span_load.hpp"
 #include "reduce/common/input/yaml_file.hpp"
@@ -33,7 +34,7 @@ struct Airfoil {
   double density = 1.225;        ///< rho [kg/m^3]
   FormulaVector wind;            ///< velocity of the air, inertial, of s and t [m/s]
   Expression chord, twist;       ///< c [m], twist [rad], of s
-  Expression lift, drag, pitch;  ///< cl, cd, cm of alpha [rad]
+  AirfoilPolars polars;          ///< cl, cd, cm of alpha and s
   Vector3 at = Vector3::Zero();  ///< (0, y, z): p [m]
   bool pitch_rate = true;        ///< with the terms of Omega
 };

@@ -90,8 +90,6 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
   const BeamBending law = entry.at("bending").word() == "constant" ? BeamBending::constant : BeamBending::residual;
   const double damping_time = entry.at("damping").number(), total_twist = entry.at("twist").number();
   const SectionLaw section(entry.at("section"));
-  const auto distributed = entry.find("distributed");
-  const std::vector<LineLoad> loads = distributed ? read_line_loads(*distributed, count) : std::vector<LineLoad>{};
   std::optional<Airfoil> airfoil;
   if (const auto given = entry.find("airfoil")) airfoil = read_airfoil(*given);
   const BeamLine line = read_beam_line(entry, model.node(ends[0]).frame.x, model.node(ends[1]).frame.x);
@@ -115,6 +113,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
 
   const std::vector<int> nodes = make_nodes(name, entry, ends, sections, model);
   const Entry own{Section::elements, name};
+  std::vector<BeamSpan> spans;
   for (int k = 0; k < count; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const Vector6 d0 = log_se3(inverse(sections[i]) * sections[i + 1]);
@@ -131,9 +130,10 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
                                             section.over(s_A, s_B), damping_time, law),
               own, Recorded::stacked);
     const BeamSpan span{nodes[i], nodes[i + 1], R_A, R_B, {line.length() / count, 0, 0}, s_A, s_B};
-    for (const LineLoad& load : loads) model.add(std::make_unique<DistributedLoad>(name, span, load), own);
+    spans.push_back(span);
     if (airfoil) model.add(std::make_unique<AirfoilLoad>(name, span, *airfoil), own, Recorded::no);
   }
+  if (const auto distributed = entry.find("distributed")) add_line_loads(name, *distributed, spans, own, model);
   model.add_chain(own, nodes);
   std::vector<std::vector<double>> turns;  // from the axes of the end nodes to those of the sections
   for (const auto& [node, at] :

@@ -78,14 +78,16 @@ Vector3 span_angular_velocity(const BeamSpan& span, const SpanSection& at, const
   return Omega;
 }
 
-void add_span_residual(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const SpanForce& load,
-                       const LocalState& state, Eigen::Ref<VectorX> r) {
+Vector12 span_rows(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const SpanForce& load,
+                   const LocalState& state) {
+  Vector12 rows;
   for (std::size_t k = 0; k < 2; ++k) {
     const auto x = static_cast<Eigen::Index>(6 * k);
-    r.segment<3>(x) -= point.w * point.N[k] * load.f;
-    r.segment<3>(x + 3) -= point.w * (point.a[k].cross(state.node(static_cast<int>(k)).R.transpose() * load.f) +
-                                      span.section_frame(k) * at.W[k].transpose() * load.n);
+    rows.segment<3>(x) = -point.w * point.N[k] * load.f;
+    rows.segment<3>(x + 3) = -point.w * (point.a[k].cross(state.node(static_cast<int>(k)).R.transpose() * load.f) +
+                                         span.section_frame(k) * at.W[k].transpose() * load.n);
   }
+  return rows;
 }
 
 void add_span_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const SpanForce& load,
@@ -150,13 +152,7 @@ SpanTwistRate span_twist_rate(const BeamSpan& span, const SpanPoint& point, cons
 void add_span_twist_tangent(const BeamSpan& span, const SpanPoint& point, const SpanSection& at,
                             const SpanTwistRate& twist, const SpanForce& by_twist, const LocalState& state,
                             LocalTangent& tangent) {
-  Eigen::Matrix<double, 12, 1> rows = Eigen::Matrix<double, 12, 1>::Zero();
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto x = static_cast<Eigen::Index>(6 * k);
-    rows.segment<3>(x) = -point.w * point.N[k] * by_twist.f;
-    rows.segment<3>(x + 3) = -point.w * (point.a[k].cross(state.node(static_cast<int>(k)).R.transpose() * by_twist.f) +
-                                         span.section_frame(k) * at.W[k].transpose() * by_twist.n);
-  }
+  const Vector12 rows = span_rows(span, point, at, by_twist, state);
   for (std::size_t j = 0; j < 2; ++j) {
     const auto Theta_j = static_cast<Eigen::Index>(6 * j + 3);
     if (tangent.wants_K) tangent.K.dense().block<12, 3>(0, Theta_j) += rows * twist.by_turn[j];
@@ -170,7 +166,7 @@ SpanLoad::SpanLoad(std::string beam, const BeamSpan& span, const std::vector<dou
 void SpanLoad::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   for (const SpanPoint& point : points_) {
     const SpanSection at = span_section(span_, point, state);
-    add_span_residual(span_, point, at, load(state, point, at), state, r);
+    r.head<12>() += span_rows(span_, point, at, load(state, point, at), state);
   }
 }
 

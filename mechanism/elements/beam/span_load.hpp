@@ -20,6 +20,8 @@
 
 namespace bielle::mechanism {
 
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
 /// One element of a beam: its nodes and position.
 struct BeamSpan {
   int node_a = 0, node_b = 0;
@@ -60,8 +62,9 @@ Vector3 span_angular_velocity(const BeamSpan& span, const SpanSection& at, const
 struct SpanForce {
   Vector3 f, n;
 };
-void add_span_residual(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const SpanForce& load,
-                       const LocalState& state, Eigen::Ref<VectorX> r);
+/// Returns the part of the residual of both nodes that a load at one point makes.
+Vector12 span_rows(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const SpanForce& load,
+                   const LocalState& state);
 
 // clang-format off
 /// Adds the derivatives of the residual for  df = f_turn dTheta(z),  dn = n_turn dTheta(z).
@@ -98,6 +101,8 @@ class SpanLoad : public Component, public TimeDependent {
  protected:
   /// @param beam  name of the beam @param ends  ends of the pieces of the integral, from 0 to 1
   SpanLoad(std::string beam, const BeamSpan& span, const std::vector<double>& ends);
+  /// Divides the integral anew. @param ends  as for the constructor
+  void divide(const std::vector<double>& ends) { points_ = span_points(span_, ends); }
   /// Returns force and moment per length at a point, multiplied by the load factor.
   virtual SpanForce load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const = 0;
   const BeamSpan& span() const { return span_; }

@@ -67,8 +67,10 @@ SampleClock read_clock(const YamlValue& entry) {
   clock.first = entry.at("first").number();
   clock.delay = entry.at("delay").number();
   if (clock.delay > clock.period)
-    entry.at("delay").fail(
-        fmt::format("exceeds the period, {:.6g} s: a longer delay is a chain of sampled states", clock.period));
+    entry.at("delay").fail(fmt::format(
+        "exceeds the period, {:.6g} s: one sample waits at a time; a longer delay is a chain of sampled states, "
+        "or a `delayed` state of this one",
+        clock.period));
   return clock;
 }
 

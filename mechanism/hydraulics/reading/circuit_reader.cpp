@@ -15,6 +15,7 @@
 #include "mechanism/hydraulics/reading/line_reader.hpp"
 #include "mechanism/joints/couplings/coordinate_named_by.hpp"
 #include "mechanism/reading/names.hpp"
+#include "mechanism/reading/read_activity.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -87,7 +88,10 @@ class CircuitReader {
     if (const auto supplies = section_.find("supplies"))
       for (const auto& [name, entry] : supplies->entries())
         if (entry.has("flow")) read_supply(name, entry);
-    each("lines", [&](const std::string& name, const YamlValue& entry) { read_line(name, entry, fluid_, model_); });
+    each("lines", [&](const std::string& name, const YamlValue& entry) {
+      read_line(name, entry, fluid_, model_);
+      read_activity(entry, own(name), model_);
+    });
     each("accumulators", [&](const std::string& name, const YamlValue& entry) {
       read_accumulator(name, entry, {Section::hydraulics, name}, model_);
     });

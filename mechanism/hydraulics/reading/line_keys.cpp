@@ -135,7 +135,9 @@ std::vector<Key> line_end_keys() {
            "Place from which the line leads; required but for a servo_valve."},
           {"to", name_of("place of the hydraulics"), optional,
            "Place to which the line leads; required but for a servo_valve."},
-          {"ports", nested(port_keys), optional, "Places of the four ports of a `servo_valve`, which requires them."}};
+          {"ports", nested(port_keys), optional, "Places of the four ports of a `servo_valve`, which requires them."},
+          {"active", boolean(), otherwise("true"),
+           "`false`: nothing flows through the orifice or valve until an action of an event activates it."}};
 }
 
 }  // namespace bielle::mechanism

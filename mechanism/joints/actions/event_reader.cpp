@@ -120,11 +120,13 @@ const KeyTable& event_action_keys() {
        {"unlock", name_of("joint"), optional, "Joint, or coordinate of a joint, whose lock is opened."},
        {"release", name_of("entry"), optional,
         "Joint, element, drive or load that acts no more: its constraints vanish, its forces are zero. A joint takes "
-        "along its springs, friction, locks and drives. The energy that it stored is dissipated."},
+        "along its springs, friction, locks and drives. The energy that it stored is dissipated. An orifice or valve "
+        "that is released is closed."},
        {"activate", name_of("entry"), optional,
-        "Joint, element, drive or load that acts again, or from now on. Its constraints have to fit the position; "
-        "rates "
-        "that contradict them are stopped by an inelastic impulse. Energy that appears in a spring is supplied."},
+        "Joint, element, drive, load, orifice or valve that acts again, or from now on. Its constraints have to fit "
+        "the "
+        "position; rates that contradict them are stopped by an inelastic impulse. Energy that appears in a spring is "
+        "supplied."},
        {"set", entries("input", {state_formula("any", {"t"})}), optional,
         "Inputs with their new values: numbers, or formulas of t and measures at the event."},
        {"stop", boolean(), optional, "`true`: the analysis ends, after the other actions."}}};

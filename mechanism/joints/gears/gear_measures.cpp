@@ -1,4 +1,4 @@
-// Measures of a gear mesh: "teeth.transmission_error", "teeth.force", "teeth.deformation" and so on.
+// Measures of a gear mesh: "teeth.approach", "teeth.transmission_error", "teeth.force", "teeth.deformation" and so on.
 #include <functional>
 
 #include "mechanism/joints/gears/gear_mesh.hpp"
@@ -41,7 +41,7 @@ class ToothForceMeasure final : public OwnMeasure {
 }  // namespace
 
 std::vector<std::string> GearMesh::measure_names() const {
-  return {"transmission_error", "force", "angle_1", "angle_2"};
+  return {"approach", "transmission_error", "force", "angle_1", "angle_2"};
 }
 
 std::vector<std::string> ElasticGearMesh::measure_names() const {
@@ -55,6 +55,8 @@ std::unique_ptr<Measure> GearMesh::make_measure(const std::string& name, const s
     return std::make_unique<MeshPositionMeasure>(name, *this, units, std::move(function));
   };
   if (measure == "force") return std::make_unique<ToothForceMeasure>(name, *this);
+  if (measure == "approach")
+    return of_position("m", [this](const LocalState& own) { return contact_.approach(contact_.geometry().t, own); });
   if (measure == "transmission_error")
     return of_position("m", [this](const LocalState& own) { return transmission_error(own); });
   for (const int wheel : {0, 1})

@@ -9,8 +9,8 @@
 //   elastic                  a flank of normal n is in contact if p = u_1(n) - u_2(n) +- e - backlash/2 > 0 and pushes
 //                            with N = max(0, k p + d pdot): spring and damper of the teeth, with free play between the
 //                            flanks. The error moves both flanks of a tooth alike (+ for n_+, - for n_-)
-// The stiffness k may depend on the angle phi of a wheel. The elastic force derives from the potential V = k(phi)
-// p^2/2: besides k p along the gradient of p it has the parametric torque k'(phi) p^2/2 on that wheel, against the
+// The stiffness k may depend on the angles phi of the wheels. The elastic force derives from the potential V = k(phi)
+// p^2/2: besides k p along the gradient of p it has the parametric torque k'(phi) p^2/2 on each such wheel, against the
 // carrier. Energy is conserved at any motion; the torque is smaller than k p times the radius by about the deformation
 // over the pitch of the teeth. The transmission error is the lead of wheel 2,
 //     TE = cos(alpha) (u_2(t) - u_1(t))   [m, along the normal of the teeth];
@@ -44,7 +44,8 @@ class GearMesh : public Component {
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   void draw(Drawing& drawing) const override;
-  /// The names are "transmission_error", "force", "angle_1", "angle_2"; of elastic teeth "deformation", "stiffness".
+  /// The names are "approach", "transmission_error", "force", "angle_1", "angle_2"; of elastic teeth "deformation",
+  /// "stiffness".
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 

@@ -110,14 +110,13 @@ const KeyTable& gear_mesh_keys() {
        {"helix_angle", number("rad"), otherwise("0"),
         "Helix angle of the first wheel, between -pi/2 and pi/2; right-handed teeth have a positive one."},
        {"stiffness", tooth_stiffness_forms(), optional,
-        "Stiffness of the teeth along their normal, also as a formula of the angle phi of the first wheel; without it "
-        "the "
-        "pitch surfaces roll on each other exactly."},
+        "Stiffness of the teeth along their normal, also as a formula of the angles phi of the first and phi_2 of the "
+        "second wheel; without it the pitch surfaces roll on each other exactly."},
        {"damping", number("N s/m").non_negative(), otherwise("0"), "Damping of elastic teeth along their normal."},
        {"backlash", number("m").non_negative(), otherwise("0"), "Free play of elastic teeth along their normal."},
        {"errors", tooth_error_forms(), optional,
         "Errors of the teeth along their normal, by which the second wheel is ahead when it is not loaded; also as a "
-        "formula of the angle phi of the first wheel."}}};
+        "formula of the angles phi of the first and phi_2 of the second wheel."}}};
   return table;
 }
 

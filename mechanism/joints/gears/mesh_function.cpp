@@ -2,7 +2,23 @@
 
 #include <cmath>
 
+#include "reduce/common/formula/formula_tree.hpp"
+
 namespace bielle::mechanism {
+namespace {
+
+/// Returns a formula of two measures, with the mixed second derivative from that along both together, f_aa + 2 f_ab +
+/// f_bb.
+MeshMeasure composed(const Expression& formula, const MeshMeasure& a, const MeshMeasure& b) {
+  const std::array<double, 2> values{a.value, b.value};
+  std::array<double, 2> slopes{};
+  const double f = formula.value_and_gradient(values, slopes), f_aa = formula.derivative(values, 0, 2),
+               f_bb = formula.derivative(values, 1, 2),
+               along_both = formula_number::second(formula.tree().jet(values, 0, 2));
+  return compose(a, b, f, slopes[0], slopes[1], f_aa, 0.5 * (along_both - f_aa - f_bb), f_bb);
+}
+
+}  // namespace
 
 Interpolation::Values MeshFunction::Term::at(double angle) const {
   if (!curve) return {formula(angle), formula.derivative(angle, 1), formula.derivative(angle, 2)};
@@ -20,12 +36,16 @@ MeshMeasure MeshFunction::operator()(const ToothContact& contact, const LocalSta
     const Interpolation::Values f = term.at(angle.value);
     sum += compose(angle, f.value, f.slope, f.curvature);
   }
+  if (of_both_.empty()) return sum;
+  const MeshMeasure first = contact.turned(0, state), second = contact.turned(1, state);
+  for (const Expression& formula : of_both_) sum += composed(formula, first, second);
   return sum;
 }
 
 double MeshFunction::value(const std::array<double, 2>& angle) const {
   double sum = constant_;
   for (const Term& term : terms_) sum += term.at(angle[static_cast<std::size_t>(term.wheel)]).value;
+  for (const Expression& formula : of_both_) sum += formula(angle);
   return sum;
 }
 

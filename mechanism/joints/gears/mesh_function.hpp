@@ -1,13 +1,16 @@
 // A quantity of a gear mesh that depends on the position of its wheels: stiffness of the teeth, error of their flanks.
 //
 // It is a sum of terms f(phi), each a function of the angle phi of one wheel relative to the carrier [rad, zero as
-// drawn]: a formula, or a table over one of `teeth` equal parts of a turn, which a periodic cubic spline joins,
-//     f(phi) = spline(teeth phi/(2 pi) + phase),   of period 1.
+// drawn, counted over turns]: a formula, or a table over one of `teeth` equal parts of a turn, which a periodic cubic
+// spline joins,
+//     f(phi) = spline(teeth phi/(2 pi) + phase),   of period 1;
+// and of terms f(phi_1, phi_2), formulas of the angles of both wheels.
 // The spline has a continuous second derivative: forces derived from a potential that contains f are smooth.
 #pragma once
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mechanism/joints/gears/tooth_contact.hpp"
@@ -24,14 +27,16 @@ class MeshFunction {
   explicit MeshFunction(double constant) : constant_(constant) {}
   /// @param wheel  0 or 1
   void add(Expression formula, int wheel) { terms_.push_back({wheel, std::move(formula), {}, 1, 0}); }
+  /// @param formula  formula of the angles of both wheels
+  void add_of_both(Expression formula) { of_both_.push_back(std::move(formula)); }
   /// @param curve  periodic, with the period 1
   void add(Interpolation curve, int wheel, double teeth, double phase) {
     terms_.push_back({wheel, {}, std::move(curve), teeth, phase});
   }
 
   /// Whether it depends on the angles.
-  bool varies() const { return !terms_.empty(); }
-  bool is_zero() const { return terms_.empty() && constant_ == 0; }
+  bool varies() const { return !terms_.empty() || !of_both_.empty(); }
+  bool is_zero() const { return !varies() && constant_ == 0; }
   /// Computes the function with its derivatives. @param contact,state  of the mesh, which give the angles
   MeshMeasure operator()(const ToothContact& contact, const LocalState& state) const;
   /// Computes the value at given angles.
@@ -48,16 +53,18 @@ class MeshFunction {
   };
   double constant_ = 0;
   std::vector<Term> terms_;
+  std::vector<Expression> of_both_;
 };
 
 /// Returns the forms of `errors`.
 KeyForms tooth_error_forms();
-/// Reads `errors`: a formula of phi, or one or several of {table or formula, wheel, teeth, phase}. @throws InputError
+/// Reads `errors`: a formula of phi and phi_2, or one or several of {table or formula, wheel, teeth, phase}. @throws
+/// InputError
 MeshFunction read_tooth_errors(const YamlValue& value);
 
 /// Returns the forms of `stiffness`.
 KeyForms tooth_stiffness_forms();
-/// Reads `stiffness`: a number, a formula of phi, {table, wheel, teeth, phase} or {iso: {..}}.
+/// Reads `stiffness`: a number, a formula of phi and phi_2, {table, wheel, teeth, phase} or {iso: {..}}.
 /// @param geometry  geometry of the mesh  @param helix  angle of the first wheel [rad]
 /// @param internal  whether one wheel is a ring
 /// @throws InputError also if it is not positive everywhere

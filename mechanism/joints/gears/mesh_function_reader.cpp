@@ -1,6 +1,8 @@
 // Readers of `stiffness` and `errors` of a gear mesh.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -14,7 +16,8 @@
 namespace bielle::mechanism {
 namespace {
 
-const std::vector<std::string> mesh_variables{"phi"};
+const std::vector<std::string> wheel_variables{"phi"};
+const std::vector<std::string> mesh_variables{"phi", "phi_2"};  ///< angles of the first and the second wheel
 
 /// Returns the keys of a function of the angle of one wheel. @param teeth  whether `teeth` is required
 std::vector<Key> periodic_keys(const std::string& unit, const Presence& teeth, const std::string& quantity) {
@@ -34,7 +37,7 @@ const KeyTable& error_keys() {
   using namespace keys;
   static const KeyTable table{"an error of the teeth", "A periodic error of the flanks of two wheels.",
                               joined({periodic_keys("m", otherwise("1"), "errors"),
-                                      {{"formula", formula("m", mesh_variables), optional,
+                                      {{"formula", formula("m", wheel_variables), optional,
                                         "Formula of the angle phi [rad] of the wheel, in place of `table`."}}})};
   return table;
 }
@@ -134,19 +137,37 @@ MeshFunction read_iso(const YamlValue& given, const ToothGeometry& geometry, dou
   return MeshFunction(k);
 }
 
-/// @throws InputError if the function is not positive somewhere in a turn
+/// @param where  the angles in words @throws InputError if the function is not positive at the angles of the wheels
+void check_positive_at(const MeshFunction& stiffness, const std::array<double, 2>& angles, const std::string& where,
+                       const YamlValue& value) {
+  try {
+    if (const double found = stiffness.value(angles); !(found > 0))
+      value.fail(fmt::format("expected a stiffness greater than 0; it is {:.4g} N/m at {}", found, where));
+  } catch (const ComputationError& error) {
+    value.fail(error.what());
+  }
+}
+
+/// Examines a period of a table, or a turn of the first wheel. @param teeth  periods in a turn
 void check_positive(const MeshFunction& stiffness, const YamlValue& value, double teeth) {
-  const int samples = 16384;  // in a period of the table, or in a turn of the formula
+  const int samples = 16384;
   for (int k = 0; k < samples; ++k) {
     const double angle = 2 * M_PI * k / (samples * teeth);
-    try {
-      if (const double found = stiffness.value({angle, angle}); !(found > 0))
-        value.fail(
-            fmt::format("expected a stiffness greater than 0; it is {:.4g} N/m at the angle {:.6g} rad", found, angle));
-    } catch (const ComputationError& error) {
-      value.fail(error.what());
-    }
+    check_positive_at(stiffness, {angle, angle}, fmt::format("the angle {:.6g} rad", angle), value);
   }
+}
+
+/// Examines a turn of both wheels, each at any angle of the other one.
+void check_positive_of_both(const MeshFunction& stiffness, const YamlValue& value) {
+  const int samples = 180;
+  for (int k = 0; k < samples; ++k)
+    for (int j = 0; j < samples; ++j) {
+      const std::array<double, 2> angles{2 * M_PI * k / samples, 2 * M_PI * j / samples};
+      check_positive_at(
+          stiffness, angles,
+          fmt::format("the angles {:.6g} rad of the first wheel and {:.6g} rad of the second", angles[0], angles[1]),
+          value);
+    }
 }
 
 }  // namespace
@@ -162,7 +183,7 @@ MeshFunction read_tooth_errors(const YamlValue& value) {
   else if (value.is_map())
     add_error(value, errors);
   else
-    errors.add(value.expression(), 0);
+    errors.add_of_both(value.expression());
   return errors;
 }
 
@@ -175,8 +196,12 @@ MeshFunction read_tooth_stiffness(const YamlValue& value, const ToothGeometry& g
     Expression formula = value.expression();
     if (formula.is_constant()) return MeshFunction(value.number());
     MeshFunction stiffness;
-    stiffness.add(std::move(formula), 0);
-    check_positive(stiffness, value, 1);
+    const bool of_both = formula.uses(1);
+    stiffness.add_of_both(std::move(formula));
+    if (of_both)
+      check_positive_of_both(stiffness, value);
+    else
+      check_positive(stiffness, value, 1);
     return stiffness;
   }
   const YamlValue entry = value.keyed(stiffness_keys());

@@ -1750,14 +1750,14 @@ class Entries:
         pressure_angle: Pressure angle, less than pi/2. (number [rad] of at least 0; default: pi/9)
         helix_angle: Helix angle of the first wheel, between -pi/2 and pi/2; right-handed teeth have a positive one.
         (number [rad]; default: 0)
-        stiffness: Stiffness of the teeth along their normal, also as a formula of the angle phi of the first wheel;
-        without it the pitch surfaces roll on each other exactly. (formula of phi [N/m] greater than 0; or keys of a
-        stiffness of teeth)
+        stiffness: Stiffness of the teeth along their normal, also as a formula of the angles phi of the first and
+        phi_2 of the second wheel; without it the pitch surfaces roll on each other exactly. (formula of phi and
+        phi_2 [N/m] greater than 0; or keys of a stiffness of teeth)
         damping: Damping of elastic teeth along their normal. (number [N s/m] of at least 0; default: 0)
         backlash: Free play of elastic teeth along their normal. (number [m] of at least 0; default: 0)
         errors: Errors of the teeth along their normal, by which the second wheel is ahead when it is not loaded;
-        also as a formula of the angle phi of the first wheel. (formula of phi [m]; or keys of an error of the teeth;
-        or list: keys of an error of the teeth)
+        also as a formula of the angles phi of the first and phi_2 of the second wheel. (formula of phi and phi_2
+        [m]; or keys of an error of the teeth; or list: keys of an error of the teeth)
         active: `false`: the entry adds nothing until an action of an event activates it. (true or false; default:
         true)
         """

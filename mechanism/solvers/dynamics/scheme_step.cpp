@@ -1,5 +1,7 @@
 #include "mechanism/solvers/dynamics/scheme_step.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
@@ -53,6 +55,17 @@ void SchemeStep::calc_end(const VectorX& a, const VectorX& rate, VectorX& dq, Ve
   y = state_.first_order + h * ((1 - gamma) * rates_.Y + gamma * Y);
 }
 
+/// Undoes the extrapolation of algebraic unknowns whose entries are released: they keep their values.
+static void keep_released(const System& system, const State& before, State& trial) {
+  const std::vector<int>& algebraic = system.algebraic();
+  for (std::size_t m = 0; m < system.slots().size(); ++m) {
+    const Slots& slots = system.slots()[m];
+    if (slots.first_orders == 0 || system.is_active(before, m)) continue;
+    for (int k = slots.first_order_begin; k < slots.first_order_begin + slots.first_orders; ++k)
+      if (std::binary_search(algebraic.begin(), algebraic.end(), k)) trial.first_order[k] = before.first_order[k];
+  }
+}
+
 void SchemeStep::begin(double h, double end, const VectorX& highest) {
   const auto& [alpha_m, alpha_f, gamma, beta] = scheme_;
   const int n = system_.dofs();
@@ -65,6 +78,7 @@ void SchemeStep::begin(double h, double end, const VectorX& highest) {
   still_algebraic();
   calc_end(a_, trial_.first_order_rate, dq_, v_, trial_.first_order);
   for (const int k : system_.algebraic()) trial_.first_order[k] = highest[n + k];
+  if (!system_.algebraic().empty() && system_.activities().any()) keep_released(system_, state_, trial_);
   trial_.multiplier = highest.tail(system_.multipliers());
   trial_.time = end;
   trial_.memory = state_.memory;

@@ -148,8 +148,8 @@ template <class Number>
 struct FormulaTree::Evaluation {
   const FormulaTree& tree;
   std::span<const double> arguments;
-  std::size_t along = 0;         ///< the argument that a Jet follows, or the first one that Slopes do
-  std::size_t count = 0;         ///< how many arguments Slopes follow
+  std::size_t along = 0;         ///< the first argument that is followed
+  std::size_t count = 0;         ///< how many: a Jet follows all of them as one, Slopes each by itself
   mutable bool at_kink = false;  ///< of Slopes
 
   Number of(int index) const {
@@ -166,13 +166,15 @@ struct FormulaTree::Evaluation {
 
   Number argument(std::size_t index) const {
     const double value = arguments[index];
-    if constexpr (std::is_same_v<Number, double>)
+    if constexpr (std::is_same_v<Number, double>) {
       return value;
-    else if constexpr (has_slopes)
-      return index >= along && index < along + count ? argument_with_slopes(value, index - along, count)
-                                                     : Slopes(value);
-    else
-      return formula_number::jet(value, index == along ? 1 : 0, 0);
+    } else {
+      const bool is_followed = index >= along && index < along + count;
+      if constexpr (has_slopes)
+        return is_followed ? argument_with_slopes(value, index - along, count) : Slopes(value);
+      else
+        return formula_number::jet(value, is_followed ? 1 : 0, 0);
+    }
   }
 
   /// Sign of x - border immediately to the right of the point of evaluation.
@@ -367,8 +369,8 @@ double FormulaTree::value(std::span<const double> arguments) const {
   return Evaluation<double>{*this, arguments}.of(root_);
 }
 
-Jet FormulaTree::jet(std::span<const double> arguments, std::size_t along) const {
-  return Evaluation<Jet>{*this, arguments, along}.of(root_);
+Jet FormulaTree::jet(std::span<const double> arguments, std::size_t along, std::size_t count) const {
+  return Evaluation<Jet>{*this, arguments, along, count}.of(root_);
 }
 
 double FormulaTree::value_and_gradient(std::span<const double> arguments, std::span<double> gradient) const {

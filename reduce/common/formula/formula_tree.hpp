@@ -95,7 +95,8 @@ class FormulaTree {
 
   /// @throws FormulaError
   double value(std::span<const double> arguments) const;
-  Jet jet(std::span<const double> arguments, std::size_t along) const;
+  /// @param count  how many arguments, from `along` on, grow together at the rate 1
+  Jet jet(std::span<const double> arguments, std::size_t along, std::size_t count = 1) const;
   /// Computes the value and its first derivatives along the first arguments, as many as `gradient` has entries; they
   /// equal those of `jet`.
   double value_and_gradient(std::span<const double> arguments, std::span<double> gradient) const;

@@ -174,6 +174,10 @@ std::string keys_of_named(const KeyTable& root, const std::string& name) {
       if (fmt::format(" {} ", in_words(names[k])).find(fmt::format(" {} ", in_words(name))) != std::string::npos)
         add(*tables[k]);
   if (text.empty())
+    for (const KeyTable* table : tables)
+      if (fmt::format(" {} ", in_words(table->about)).find(fmt::format(" {} ", in_words(name))) != std::string::npos)
+        add(*table);
+  if (text.empty())
     throw InputError(fmt::format("--keys {}: nothing has this name{}; `--keys all` prints all names with their keys",
                                  name, similar_names(name, names)));
   return text;

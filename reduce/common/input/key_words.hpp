@@ -22,7 +22,8 @@ std::string thing_named(const std::string& of);
 std::vector<const KeyTable*> tables_below(const KeyTable& root);
 
 /// Writes the keys of the thing that is named ("hinge", "point_mass"), or of everything ("all"), for a terminal; if
-/// nothing has the name, of all things whose names contain it as words ("sampled": a sampled state).
+/// nothing has the name, of all things whose names contain it as words ("sampled": a sampled state), or else whose
+/// sentences do ("tapered": a roller_bearing).
 /// @throws InputError if nothing below the root has the name
 std::string keys_of_named(const KeyTable& root, const std::string& name);
 

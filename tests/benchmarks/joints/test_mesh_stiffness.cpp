@@ -97,6 +97,36 @@ measures: {{force: teeth.force, error: teeth.transmission_error, turned: teeth.a
   }
 }
 
+TEST_CASE("a stiffness by the angles of both wheels has a parametric torque on each of them") {
+  // V = k(phi_1, phi_2) p^2/2, p = r_b1 phi_1 + r_b2 phi_2: the torques on both wheels are its derivatives.
+  for (const double angle : {0.1, 0.2, 0.37}) {
+    const std::string text = fmt::format(R"yaml(
+nodes: {{w1: {{}}, w2: {{position: [0.07, 0, 0]}}}}
+joints:
+  h1: {{type: hinge, nodes: [ground, w1], axis: [0, 0, 1]}}
+  h2: {{type: hinge, nodes: [ground, w2], axis: [0, 0, 1]}}
+  teeth: {{type: gear_mesh, nodes: [w1, w2], axes: [0, 0, 1], radii: [0.02, 0.05], stiffness: 1e7*(1 + 0.3*sin(20*phi)*cos(8*phi_2))}}
+drives: {{motor: {{joint: h1, torque: 40}}, hold: {{joint: h2, angle: {:.17g}}}}}
+measures: {{k: teeth.stiffness, p: teeth.deformation, lead: teeth.approach}}
+)yaml",
+                                         -0.4 * angle);
+    const auto file = bielle::mechanism::read_mechanism_text(text, "model.yaml");
+    Session session(file.model);
+    compute_statics(session);
+    const double phi = read(session, "h1/coordinate"), phi_2 = -0.4 * angle,
+                 k = 1e7 * (1 + 0.3 * std::sin(20 * phi) * std::cos(8 * phi_2)),
+                 by_1 = 6e7 * std::cos(20 * phi) * std::cos(8 * phi_2),
+                 by_2 = -2.4e7 * std::sin(20 * phi) * std::sin(8 * phi_2), p = base_1 * phi + base_2 * phi_2;
+    CHECK_THAT(session.measure("k"), WithinRel(k, 1e-12));
+    CHECK_THAT(session.measure("p"), WithinRel(p, 1e-9));
+    CHECK_THAT(session.measure("lead"), WithinRel(p / std::cos(alpha), 1e-9));
+    CHECK_THAT(session.measure("lead"), WithinRel(read(session, "teeth/approach"), 1e-12));
+    CHECK_THAT(k * p * base_1 + 0.5 * by_1 * p * p, WithinRel(40, 1e-9));
+    CHECK_THAT(read(session, "h2/drive_force"), WithinRel(k * p * base_2 + 0.5 * by_2 * p * p, 1e-9));
+    CHECK(std::abs(0.5 * by_2 * p * p) > 1e-4 * k * p * base_2);  // the parametric torque is seen
+  }
+}
+
 TEST_CASE("rigid teeth have the transmission error of their flanks, and the force that it takes") {
   // A wave for each pitch of wheel 1, by a table of 48 points, and one for a turn of wheel 2.
   const double rate = 3, wave = 2e-4, eccentric = 5e-4;

@@ -274,7 +274,8 @@ TEST_CASE("wrong actions are refused with the place and the nearest name") {
   CHECK_THAT(action("{lock: slid}"), Contains("no joint with coordinates 'slid'") && Contains("'slide'"));
   CHECK_THAT(action("{lock: slide.angle}"), Contains("has no coordinate 'angle'"));
   CHECK_THAT(action("{unlock: 3}"), Contains("no joint"));
-  CHECK_THAT(action("{release: slidee}"), Contains("there is no joint, element, drive or load 'slidee'; did you mean"));
+  CHECK_THAT(action("{release: slidee}"),
+             Contains("there is no joint, element, drive, load or valve 'slidee'; did you mean"));
   CHECK_THAT(action("{release: mass}"), Contains("'mass' has inertia and is always active"));
   CHECK_THAT(action("{activate: mass}"), Contains("has inertia"));
   CHECK_THAT(action("{set: {gian: 2}}"), Contains("there is no input 'gian'; did you mean 'gain'"));

@@ -337,9 +337,12 @@ TEST_CASE("Tables list their names, and groups of keys are joined in their order
 
 TEST_CASE("Keys of a thing are found by its name, with blanks or underscores, or by words of it") {
   using namespace keys;
-  const auto table_named = [](const char* of) { return KeyTable{of, "About.", {{"size", number("m"), required, ""}}}; };
-  static const KeyTable mass = table_named("a point_mass"), state = table_named("a sampled state"),
-                        delay = table_named("a delayed state");
+  const auto table_named = [](const char* of, const char* about) {
+    return KeyTable{of, about, {{"size", number("m"), required, ""}}};
+  };
+  static const KeyTable mass = table_named("a point_mass", "Mass without tapered edges, not a sampled one."),
+                        state = table_named("a sampled state", "About."),
+                        delay = table_named("a delayed state", "About.");
   static const auto mass_keys = []() -> const KeyTable& { return mass; };
   static const auto state_keys = []() -> const KeyTable& { return state; };
   static const auto delay_keys = []() -> const KeyTable& { return delay; };
@@ -359,6 +362,7 @@ TEST_CASE("Keys of a thing are found by its name, with blanks or underscores, or
   CHECK(headings("point_mass") == "point_mass");
   CHECK(headings("sampled") == "sampled state");
   CHECK(headings("state") == "sampled state, delayed state");
+  CHECK(headings("tapered") == "point_mass");  // by a word of its sentence, which counts if no name has it
   CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "sample"); }),
              Contains("; expected 'sampled state'; `--keys all`"));
   CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "tate"); }),
