@@ -213,7 +213,7 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
     default:
       return text + fmt::format(
                         "  the equations are periodic in any axes: Floquet exponents by {} harmonics of the rotation, "
-                        "one more changes them by {:.1g}; frequencies are those of the largest harmonic of "
+                        "further ones change them by {:.1g}; frequencies are those of the largest harmonic of "
                         "what stands still\n",
                         turning.harmonics, turning.change);
   }

@@ -19,6 +19,7 @@ bool is_negligible(const System& system, const StandingState& about, const Turni
   if (rate == 0) return true;
   constexpr double share = 1e-6, rounding = 1e-5;
   const LinearisedEquations present = equations_over_turn(system, about.environment, about.state, part, 1).front();
+  if (std::abs(rate) >= share * fastest_rate(present)) return false;  // no motion is faster
   ModeOptions slowest;
   slowest.count = 3;
   const Modes found = find_modes(present, slowest);

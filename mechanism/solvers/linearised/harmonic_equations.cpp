@@ -161,6 +161,21 @@ Eigen::MatrixXcd PeriodicEquations::amplitudes(const Eigen::VectorXcd& y, int h)
   return result;
 }
 
+Eigen::VectorXcd PeriodicEquations::coefficients(const Eigen::MatrixXcd& amplitudes) const {
+  const auto n = static_cast<int>(amplitudes.rows()), h = static_cast<int>(amplitudes.cols() / 2);
+  Eigen::VectorXcd y(amplitudes.size());
+  const auto set_function = [&](int p, const Eigen::VectorXcd& part) {
+    for (int i = 0; i < n; ++i) y[index(p, i, h)] = part[i];
+  };
+  set_function(0, amplitudes.col(h));
+  const std::complex<double> i(0, 1);
+  for (int m = 1; m <= h; ++m) {
+    set_function(2 * m - 1, (amplitudes.col(h + m) + amplitudes.col(h - m)) / std::numbers::sqrt2);
+    set_function(2 * m, i * (amplitudes.col(h + m) - amplitudes.col(h - m)) / std::numbers::sqrt2);
+  }
+  return y;
+}
+
 LinearisedEquations PeriodicEquations::of_harmonics(int h) const {
   const int functions = 2 * h + 1, n = first_.unknowns(), m = first_.constraints();
   const auto unknown = [&](int p, int i) { return index(p, i, h); };

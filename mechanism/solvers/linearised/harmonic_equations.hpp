@@ -43,6 +43,8 @@ class PeriodicEquations {
   /// Returns the complex amplitudes of exp((s + i k rate) t), k = -h .. h, in columns. @param y  (unknowns, or dofs, of
   /// the harmonics)
   Eigen::MatrixXcd amplitudes(const Eigen::VectorXcd& y, int h) const;
+  /// Returns the coefficients y of the functions e_p for such amplitudes.
+  Eigen::VectorXcd coefficients(const Eigen::MatrixXcd& amplitudes) const;
 
  private:
   double rate_;

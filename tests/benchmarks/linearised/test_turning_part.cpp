@@ -71,6 +71,18 @@ void check_multipliers(const std::vector<Complex>& exponents, const Eigen::Vecto
   CHECK(left.empty());
 }
 
+/// Two blades with lag springs, lightly damped, on supports that differ.
+LagRotor slow_rotor(double rate) {
+  LagRotor rotor;
+  rotor.blades = 2;
+  rotor.k = 2e5;
+  rotor.ky = 0.6 * rotor.kx;
+  rotor.cx = rotor.cy = 500;
+  rotor.c = {60, 60};
+  rotor.rate = rate;
+  return rotor;
+}
+
 }  // namespace
 
 TEST_CASE("a blade behind a joint has Wright's frequencies, as in rotation about the axis", "[linearised]") {
@@ -231,6 +243,31 @@ TEST_CASE("a damped radial slide behind a joint has the same modes by a drive of
         check_exponents(found, expected, 1e-8);
       }
   CHECK_THROWS_WITH(Turning(text("rate: 20", 3), "shaft", 20), Catch::Contains("static divergence"));
+}
+
+TEST_CASE("two blades that turn slowly on supports that differ have the exponents of Hill's equation", "[linearised]") {
+  // Frequencies change by several times the rate over a turn: the motion has many harmonics of the rotation.
+  int before = 0;
+  for (const double rate : {8.0, 2.0, 1.0, 0.3}) {
+    const LagRotor rotor = slow_rotor(rate);
+    const Turning turning(rotor.model(), "shaft", rate);
+    CAPTURE(rate);
+    CHECK(turning.report.turning->periodicity == Periodicity::periodic);
+    CHECK(turning.report.turning->harmonics >= before);
+    before = turning.report.turning->harmonics;
+    const auto steps = static_cast<int>(1e4 / rate);
+    // Exponents are accurate to about 1e-7: the phase of a turn is in proportion.
+    check_multipliers(turning.oscillating(), rotor.multipliers(steps), rate, 1e-7 * 14 * two_pi / rate);
+  }
+  CHECK(before > 8);
+}
+
+TEST_CASE("a rotation so slow that its harmonics are countless is refused, one below all frequencies is none",
+          "[linearised]") {
+  const double slow = 0.005, negligible = 1e-6;
+  CHECK_THROWS_WITH(Turning(slow_rotor(slow).model(), "shaft", slow), Catch::Contains("faster rotation"));
+  const Turning still(slow_rotor(negligible).model(), "shaft", negligible);
+  CHECK(still.report.turning->periodicity == Periodicity::negligible);
 }
 
 TEST_CASE("a rotation behind a joint that is none is refused", "[linearised]") {

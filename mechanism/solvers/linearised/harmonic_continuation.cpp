@@ -1,0 +1,120 @@
+#include "mechanism/solvers/linearised/harmonic_continuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mechanism/solvers/linearised/mode_judgement.hpp"
+#include "mechanism/solvers/linearised/shifted_operator.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Returns the amplitudes with zeros for further harmonics.
+Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h) {
+  Eigen::MatrixXcd wide = Eigen::MatrixXcd::Zero(amplitudes.rows(), 2 * h + 1);
+  wide.middleCols(h - amplitudes.cols() / 2, amplitudes.cols()) = amplitudes;
+  return wide;
+}
+
+/// Improves a mode of the equations by inverse iteration, with a shift next to its exponent, where they are regular.
+void iterate(const LinearisedEquations& equations, double rate, Mode& mode) {
+  const double size = std::max(std::abs(mode.s), std::abs(rate));
+  const Complex off(6e-6, 8e-6);
+  const ShiftedOperator T(equations, mode.s + size * off);
+  if (!T.regular()) return;
+  const auto scale = T.scale().cast<Complex>();
+  Eigen::VectorXcd x(equations.states());
+  x << mode.u, mode.w;
+  x = x.cwiseQuotient(scale).eval();
+  const bool real = mode.s.imag() == 0;
+  constexpr int most = 12;
+  constexpr double exact = 1e-11;
+  for (int k = 0; k < most; ++k) {
+    const Eigen::VectorXcd y = T.apply(x);
+    const Complex mu = x.dot(y) / x.squaredNorm(), s = T.shift() + 1.0 / mu, change = s - mode.s;
+    mode.residual = (y / mu - x).norm() / x.norm();
+    mode.s = s;
+    x = y / y.norm();
+    if (k > 1 && std::abs(change) < exact * size) break;
+  }
+  constexpr double rounding = 1e-9;
+  if (real && std::abs(mode.s.imag()) < rounding * size) mode.s = mode.s.real();
+  x = x.cwiseProduct(scale).eval();
+  mode.u = x.head(equations.unknowns());
+  mode.w = x.tail(equations.dofs);
+}
+
+/// Takes the copy of a motion whose exponent is larger by a multiple of i rate.
+void take_copy(int multiple, double rate, Complex& s, Eigen::MatrixXcd& u, Eigen::MatrixXcd& w) {
+  const Eigen::Index count = u.cols();
+  s += Complex(0, multiple * rate);
+  for (Eigen::MatrixXcd* each : {&u, &w}) {
+    Eigen::MatrixXcd moved = Eigen::MatrixXcd::Zero(each->rows(), count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      if (k + multiple >= 0 && k + multiple < count) moved.col(k) = each->col(k + multiple);
+    *each = s.imag() < 0 ? Eigen::MatrixXcd(moved.rowwise().reverse().conjugate()) : moved;
+  }
+  if (s.imag() < 0) s = std::conj(s);
+}
+
+bool contains(const HarmonicModes& modes, const Mode& mode, const Eigen::MatrixXcd& u) {
+  constexpr double same = 1e-6, parallel = 1 - 1e-6;  // equal exponents may have different shapes
+  for (std::size_t k = 0; k < modes.found.modes.size(); ++k) {
+    if (std::abs(modes.found.modes[k].s - mode.s) > same * std::abs(mode.s)) continue;
+    const double both = std::norm(modes.u[k].conjugate().cwiseProduct(u).sum());
+    if (both > parallel * modes.u[k].squaredNorm() * u.squaredNorm()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                                            const HarmonicModes& from, int harmonics) {
+  const double rate = equations.rate();
+  HarmonicModes modes;
+  modes.harmonics = harmonics;
+  modes.equations = equations.of_harmonics(harmonics);
+  modes.found.states = from.found.states;
+  modes.found.all = from.found.all;
+  modes.found.growing_besides = from.found.growing_besides;
+  for (std::size_t k = 0; k < from.found.modes.size(); ++k) {
+    Mode mode = from.found.modes[k];
+    Eigen::MatrixXcd u = widened(from.u[k], harmonics), w = widened(from.w[k], harmonics);
+    const auto improve = [&] {
+      mode.u = equations.coefficients(u);
+      mode.w = equations.coefficients(w);
+      if (mode.kind == ModeKind::rigid) return;
+      iterate(modes.equations, rate, mode);
+      u = equations.amplitudes(mode.u, harmonics);
+      w = equations.amplitudes(mode.w, harmonics);
+    };
+    improve();
+    if (mode.kind != ModeKind::rigid) {
+      const double size = std::max(std::abs(mode.s), std::abs(rate));
+      modes.change = std::max(modes.change, std::abs(mode.s - from.found.modes[k].s) / size);
+      if (const int multiple = shapes.sizes(u, mode.s).largest(); multiple != 0) {
+        take_copy(multiple, rate, mode.s, u, w);
+        improve();
+      }
+      if (shapes.is_shift(u, mode.s) || contains(modes, mode, u)) return std::nullopt;
+    }
+    modes.whirl.push_back(shapes.whirl(shapes.sizes(u, mode.s)));
+    modes.found.modes.push_back(std::move(mode));
+    modes.u.push_back(std::move(u));
+    modes.w.push_back(std::move(w));
+  }
+  return modes;
+}
+
+void judge_modes(HarmonicModes& modes, const ModeOptions& options) {
+  const EquationRounding rounding(modes.equations);
+  const ModeJudgement judgement(modes.equations, rounding, options);
+  for (Mode& mode : modes.found.modes)
+    if (mode.kind != ModeKind::rigid) judgement.judge(mode);
+}
+
+}  // namespace bielle::mechanism

@@ -1,0 +1,37 @@
+// Modes of periodic equations with more harmonics, from those with fewer, by inverse iteration.
+#pragma once
+
+#include <optional>
+
+#include "mechanism/solvers/linearised/harmonic_shapes.hpp"
+#include "mechanism/solvers/linearised/modes.hpp"
+
+namespace bielle::mechanism {
+
+/// Dependence of the coefficients on the azimuth of the turning part, the simplest first.
+enum class Periodicity {
+  negligible,  ///< the rate is negligible compared with all frequencies: the equations are those at rest
+  constant,    ///< constant in axes that turn with the part
+  multiblade,  ///< constant in multiblade coordinates: one harmonic is exact
+  periodic     ///< periodic in any coordinates
+};
+
+struct HarmonicModes {
+  Periodicity periodicity = Periodicity::constant;
+  int harmonics = 0;                   ///< h
+  double change = 0;                   ///< largest change of an exponent by further harmonics, relative to the rates
+  LinearisedEquations equations;       ///< equations of the harmonics
+  Modes found;                         ///< shapes of the harmonics
+  std::vector<Eigen::MatrixXcd> u, w;  ///< amplitudes of each mode at harmonics -h .. h (columns)
+  std::vector<double> whirl;           ///< sense of each mode (HarmonicShapes::whirl)
+};
+
+/// @param from  modes with fewer harmonics
+/// @returns modes with their changes by the further harmonics; nothing if two become the same one, or the shift in time
+std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                                            const HarmonicModes& from, int harmonics);
+
+/// Sets the kind and the uncertainty of modes that were continued. @param options  those of the search
+void judge_modes(HarmonicModes& modes, const ModeOptions& options);
+
+}  // namespace bielle::mechanism
