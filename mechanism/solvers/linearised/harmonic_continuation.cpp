@@ -110,6 +110,32 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
   return modes;
 }
 
+bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, double exact) {
+  const int more = modes.harmonics + 1;
+  const LinearisedEquations next = equations.of_harmonics(more);
+  double slowest = INFINITY;
+  for (const Mode& mode : modes.found.modes)
+    if (mode.kind != ModeKind::rigid) slowest = std::min(slowest, std::abs(mode.s));
+  if (!std::isfinite(slowest)) return true;
+  constexpr double beyond_copies = 1.37;  // a shift off the real eigenvalues of the modes and of their copies
+  const ShiftedOperator T(next, beyond_copies * std::max(slowest, std::abs(equations.rate())));
+  if (!T.regular()) return false;
+  const auto scale = T.scale().cast<Complex>();
+  for (std::size_t k = 0; k < modes.found.modes.size(); ++k) {
+    const Mode& mode = modes.found.modes[k];
+    if (mode.kind == ModeKind::rigid) continue;
+    Eigen::VectorXcd x(next.states());
+    x << equations.coefficients(widened(modes.u[k], more)), equations.coefficients(widened(modes.w[k], more));
+    x = x.cwiseQuotient(scale).eval();
+    const Eigen::VectorXcd y = T.apply(x);
+    const Complex mu = x.dot(y) / x.squaredNorm();
+    const double size = std::max(std::abs(mode.s), std::abs(equations.rate()));
+    if (!(std::abs(T.shift() + 1.0 / mu - mode.s) < exact * size && (y / mu - x).norm() < exact * x.norm()))
+      return false;
+  }
+  return true;
+}
+
 void judge_modes(HarmonicModes& modes, const ModeOptions& options) {
   const EquationRounding rounding(modes.equations);
   const ModeJudgement judgement(modes.equations, rounding, options);

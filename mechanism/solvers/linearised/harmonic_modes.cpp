@@ -93,6 +93,10 @@ HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const 
   HarmonicModes modes = find_with(options, std::max(1, least));
   for (bool continued = false;;) {
     const int h = modes.harmonics, more = h + std::max(1, h / 2);
+    if (h == 1 && are_exact(equations_, modes, exact)) {
+      modes.periodicity = Periodicity::multiblade;
+      return modes;
+    }
     std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more);
     if (next && next->change < exact) {
       modes.change = next->change;
