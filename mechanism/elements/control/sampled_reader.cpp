@@ -67,7 +67,7 @@ SampleClock read_clock(const YamlValue& entry) {
   clock.first = entry.at("first").number();
   clock.delay = entry.at("delay").number();
   constexpr double most = 1e5;
-  if (clock.most_waiting() > most)
+  if (clock.delay > most * clock.period)
     entry.at("delay").fail(fmt::format(
         "more than {:.6g} samples would wait for its end: expected at most {:.6g} s, so many periods of {:.6g} s", most,
         most * clock.period, clock.period));

@@ -157,6 +157,49 @@ TEST_CASE("the account of energy closes with second order while the speed of a f
   CHECK(balance[0] / balance[1] == Approx(4).epsilon(0.1));
 }
 
+// A hinge's reaction is computed from its own forces, those of the bushing meanwhile.
+TEST_CASE("the speed of a film may follow from the reactions of other joints, also of other bushings") {
+  const bielle::test::TemporaryFolder folder;
+  const std::string file = folder.path() + "/seal.csv";
+  std::ofstream(file) << "-100,2e3,-500,500,2e3,50,0,0,50\n100,3e3,500,-500,4e3,90,1,-1,90\n";
+  const auto model = [&](const std::string& speed) {
+    return fmt::format(R"yaml(
+nodes:
+  shaft: {{position: [0, 0, 0]}}
+  body: {{position: [0, 0, 0], fixed: [z, rx, ry, rz]}}
+  other: {{position: [0, 0, 0], fixed: [z, rx, ry, rz]}}
+elements:
+  shaft: {{type: rigid_body, node: shaft, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}}
+  body: {{type: point_mass, node: body, mass: 2}}
+  other: {{type: point_mass, node: other, mass: 2}}
+joints:
+  main: {{type: hinge, nodes: [ground, shaft], axis: [0, 0, 1]}}
+  seal: {{type: bushing, nodes: [ground, body], axis: [0, 0, 1], film: {{table: {0}, speed: "{1}"}}}}
+  next: {{type: bushing, nodes: [ground, other], axis: [0, 0, 1], film: {{table: {0}, speed: "seal.reaction.y + seal.force.x"}}}}
+loads:
+  on_shaft: {{node: shaft, force: [50, 0, 0]}}
+  on_body: {{node: body, force: [10, 0, 0]}}
+  on_other: {{node: other, force: [10, 0, 0]}}
+measures: {{x: body.position.x, y: body.position.y, reaction: next.reaction.x, x_2: other.position.x, y_2: other.position.y}}
+)yaml",
+                       file, speed);
+  };
+  Session session = session_of(model("-main.reaction.x"));
+  session.dynamics(steps_of(5, 0.01)).finish();
+  // At rest: the hinge holds the 50 N, the seal its 10 N, and the coefficients are those of 50 and of -10.
+  const auto displaced = [](double speed) {
+    const double s = (speed + 100) / 200;
+    Eigen::Matrix2d K;
+    K << 2e3 + 1e3 * s, -500 + 1e3 * s, 500 - 1e3 * s, 2e3 + 2e3 * s;
+    return Eigen::Vector2d(K.inverse() * Eigen::Vector2d(10, 0));
+  };
+  CHECK(session.measure("x") == Approx(displaced(50).x()).epsilon(1e-6));
+  CHECK(session.measure("y") == Approx(displaced(50).y()).epsilon(1e-6));
+  CHECK(session.measure("x_2") == Approx(displaced(-10).x()).epsilon(1e-6));
+  CHECK(session.measure("y_2") == Approx(displaced(-10).y()).epsilon(1e-6));
+  CHECK(session.measure("reaction") == Approx(-10).epsilon(1e-6));
+}
+
 TEST_CASE("wrong films of a bushing are refused with a sentence") {
   const bielle::test::TemporaryFolder folder;
   const auto path = [&](const char* name) { return folder.path() + "/" + name; };
