@@ -8,6 +8,7 @@
 
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/joints/joint_measures.hpp"
+#include "mechanism/measures/nested.hpp"
 #include "reduce/common/direction_words.hpp"
 
 namespace bielle::mechanism {
@@ -34,28 +35,46 @@ struct Wrench {
   }
 };
 
-/// Computes the joint's K, whose columns of multipliers contain B^T; or its C.
-Eigen::Map<MatrixX> tangent_of(const Joint& joint, const LocalState& state, bool by_rates = false) {
-  thread_local std::vector<double> buffer;
-  const int n = state.slots().size();
-  buffer.assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
-  Eigen::Map<MatrixX> A(buffer.data(), n, n);
-  MatrixX none(0, 0);
-  LocalTangent tangent{by_rates ? LocalMatrix(none) : LocalMatrix(A),
-                       by_rates ? LocalMatrix(A) : LocalMatrix(none),
-                       LocalMatrix(none),
-                       !by_rates,
-                       by_rates,
-                       false};
-  joint.add_tangent(state, tangent);
-  return A;
+/// The joint's K, whose columns of multipliers contain B^T; or its C. Each object has its own memory: the forces of a
+/// bushing with a film may depend on the reaction of another joint, which is computed meanwhile.
+class JointTangent {
+ public:
+  JointTangent(const Joint& joint, const LocalState& state, bool by_rates = false)
+      : A_(begin(state.slots().size()), state.slots().size(), state.slots().size()) {
+    MatrixX none(0, 0);
+    LocalTangent tangent{by_rates ? LocalMatrix(none) : LocalMatrix(A_),
+                         by_rates ? LocalMatrix(A_) : LocalMatrix(none),
+                         LocalMatrix(none),
+                         !by_rates,
+                         by_rates,
+                         false};
+    joint.add_tangent(state, tangent);
+  }
+  const Eigen::Map<MatrixX>& operator*() const { return A_; }
+
+ private:
+  double* begin(int n) {
+    buffer_->assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
+    return buffer_->data();
+  }
+  Nested<std::vector<double>, Joint> buffer_;
+  Eigen::Map<MatrixX> A_;
+};
+
+/// Computes the rows that the joint adds to the equations of its second node.
+Vector6 second_rows(const Joint& joint, const LocalState& state) {
+  Nested<VectorX, Joint> r;
+  r->setZero(state.slots().size());
+  joint.add_residual(state, *r);
+  return r->segment<6>(second_node);
 }
 
 }  // namespace
 
 MatrixX Joint::reaction_of_multipliers(const LocalState& state) const {
   const Slots& slots = state.slots();
-  const Eigen::Map<MatrixX> K = tangent_of(*this, state);
+  const JointTangent tangent(*this, state);
+  const auto& K = *tangent;
   const Wrench wrench(frames_, state.node(0), state.node(1));
   MatrixX result(6, slots.multipliers);
   for (int k = 0; k < slots.multipliers; ++k)
@@ -72,24 +91,19 @@ void Joint::add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<Ma
 Vector6 Joint::calc_reaction(const LocalState& state) const {
   if (state.global().reaction.size() > 0 && state.slots().multipliers > 0)
     return reaction_of_multipliers(state) * state.reaction();
-  thread_local VectorX r;
-  r.setZero(state.slots().size());
-  add_residual(state, r);
-  return Wrench(frames_, state.node(0), state.node(1)).of(r.segment<6>(second_node));
+  return Wrench(frames_, state.node(0), state.node(1)).of(second_rows(*this, state));
 }
 
 Vector6 Joint::calc_reaction(const LocalState& state, MatrixX& derivatives) const {
   const Slots& slots = state.slots();
-  const Eigen::Map<MatrixX> K = tangent_of(*this, state);
+  const JointTangent tangent(*this, state);
+  const auto& K = *tangent;
   const Wrench w(frames_, state.node(0), state.node(1));
   Vector6 rows;
   if (slots.multipliers > 0) {
     rows = K.block(second_node, slots.multiplier_row(), 6, slots.multipliers) * state.reaction();
   } else {
-    thread_local VectorX r;
-    r.setZero(slots.size());
-    add_residual(state, r);
-    rows = r.segment<6>(second_node);
+    rows = second_rows(*this, state);
   }
   const Vector3 f = rows.head<3>(), N = w.moment_on_second(f, rows.tail<3>());
   const Vector3 f_1 = w.R_1.transpose() * f, f_2 = w.R_2.transpose() * f;
@@ -112,7 +126,8 @@ Vector6 Joint::calc_reaction(const LocalState& state, MatrixX& derivatives) cons
 }
 
 void Joint::calc_reaction_by_rates(const LocalState& state, MatrixX& derivatives) const {
-  const Eigen::Map<MatrixX> C = tangent_of(*this, state, true);
+  const JointTangent tangent(*this, state, true);
+  const auto& C = *tangent;
   const Wrench wrench(frames_, state.node(0), state.node(1));
   derivatives.resize(6, state.slots().size());
   for (Eigen::Index k = 0; k < C.cols(); ++k) derivatives.col(k) = wrench.of(C.block<6, 1>(second_node, k));

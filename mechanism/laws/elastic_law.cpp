@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/measures/nested.hpp"
+
 namespace bielle::mechanism {
 namespace {
 
@@ -24,6 +26,11 @@ std::string in_words(const Matrix6& A, const std::vector<bool>& turning, const c
 
 }  // namespace
 
+double SpeedFilm::speed_at(const LocalState& state) const {
+  const double t = state.time();
+  return speed.value(state, {&t, 1});
+}
+
 ElasticLaw::ElasticLaw(std::vector<std::string> names, std::vector<bool> turning)
     : names_(std::move(names)), turning_(std::move(turning)) {}
 
@@ -37,6 +44,8 @@ void ElasticLaw::declare(Declaration& declaration) const {
   declaration.stiffness = true;
   declaration.damping = has_damping() || !unknowns_.empty();
   for (const auto& curve : curves) declaration.kinks |= curve.has_value();
+  declaration.kinks |= film.has_value();
+  declaration.reads_reactions |= film && film->speed.reads_reactions();
   for (const Unknown& unknown : unknowns_) {
     const auto k = static_cast<std::size_t>(unknown.direction);
     Declaration::Scalar scalar{fmt::format("{} of branch {}", names_[k], unknown.branch + 1),
@@ -72,7 +81,12 @@ Vector6 ElasticLaw::stretch(std::size_t branch, const LocalState& state, const V
 Vector6 ElasticLaw::force(const LocalState& state, const Measures& m) const {
   const Vector6 e = values(m);
   Vector6 N = preload + K * e;
-  if (has_damping()) N += D * rates(state, m);
+  if (film) {
+    const FilmCoefficients::At at = film->coefficients(film->speed_at(state));
+    N += at.K * e + (D + at.D) * rates(state, m);
+  } else if (has_damping()) {
+    N += D * rates(state, m);
+  }
   for (std::size_t k = 0; k < size(); ++k)
     if (const auto i = static_cast<Eigen::Index>(k); curves[k]) N[i] += (*curves[k])(e[i]).force;
   for (std::size_t b = 0; b < branches_.size(); ++b) N += branches_[b].K * stretch(b, state, e);
@@ -96,13 +110,22 @@ ElasticLaw::Slopes ElasticLaw::slopes(const LocalState& state, const Measures& m
   for (std::size_t k = 0; k < size(); ++k)
     if (const auto i = static_cast<Eigen::Index>(k); curves[k]) N_e(i, i) += (*curves[k])(e[i]).slope;
   for (const MaxwellBranch& branch : branches_) N_e += branch.K;
+  Matrix6 N_v = D;
+  Vector6 by_speed = Vector6::Zero();
+  if (film) {
+    const FilmCoefficients::At at = film->coefficients(film->speed_at(state));
+    N_e += at.K;
+    N_v += at.D;
+    by_speed = at.K_slope * e + at.D_slope * rates(state, m);
+  }
   const Eigen::Matrix<double, 6, 12> G = gradients(m);
-  Slopes slopes{force(state, m), N_e * G, D * G, MatrixX::Zero(6, static_cast<Eigen::Index>(unknowns_.size()))};
+  Slopes slopes{force(state, m), N_e * G, N_v * G, MatrixX::Zero(6, static_cast<Eigen::Index>(unknowns_.size())),
+                by_speed};
   if (has_damping()) {
     const Vector12 u = pair_rate(state.node(0), state.node(1));
     Eigen::Matrix<double, 6, 12> turned = Eigen::Matrix<double, 6, 12>::Zero();
     for (std::size_t k = 0; k < size(); ++k) turned.row(static_cast<Eigen::Index>(k)) = u.transpose() * m[k].second;
-    slopes.by_position += D * turned;
+    slopes.by_position += N_v * turned;
   }
   for (std::size_t i = 0; i < unknowns_.size(); ++i)
     slopes.by_unknown.col(static_cast<Eigen::Index>(i)) = -branches_[unknowns_[i].branch].K.col(unknowns_[i].direction);
@@ -142,6 +165,24 @@ void ElasticLaw::add_tangent(const LocalState& state, const Measures& m, LocalTa
       local(at, at) += 1;
     }
   }
+  if (film && film->speed.reads_state()) add_speed_tangent(state, G.transpose() * slope.by_speed, tangent);
+}
+
+void ElasticLaw::add_by_speed(const LocalState& state, double factor, MeasureGradient& gradient) const {
+  if (!film || !film->speed.reads_state()) return;
+  const double t = state.time();
+  Nested<FormulaGradient> speed;
+  film->speed.calc(state, {&t, 1}, *speed);
+  gradient.position() += factor * speed->by_state.position();
+  gradient.rate() += factor * speed->by_state.rate();
+}
+
+void ElasticLaw::add_speed_tangent(const LocalState& state, const Vector12& column, LocalTangent& tangent) const {
+  const double t = state.time();
+  Nested<FormulaGradient> speed;
+  film->speed.calc(state, {&t, 1}, *speed);
+  if (tangent.wants_K) tangent.K.dense().topRows<12>() += column * speed->by_state.position().transpose();
+  if (tangent.wants_C) tangent.C.dense().topRows<12>() += column * speed->by_state.rate().transpose();
 }
 
 void ElasticLaw::add_energy(const LocalState& state, const Measures& m, Energy& energy) const {
@@ -151,6 +192,11 @@ void ElasticLaw::add_energy(const LocalState& state, const Measures& m, Energy& 
   if (has_damping()) {
     const Vector6 v = rates(state, m);
     energy.dissipation += v.dot(D * v);
+    if (film) {
+      const FilmCoefficients::At at = film->coefficients(film->speed_at(state));
+      energy.input -= v.dot(at.K * e);
+      energy.dissipation += v.dot(at.D * v);
+    }
   }
   for (std::size_t k = 0; k < size(); ++k)
     if (curves[k]) energy.elastic += curves[k]->energy(e[static_cast<Eigen::Index>(k)]);
@@ -174,6 +220,7 @@ std::vector<std::string> ElasticLaw::describe() const {
       facts.push_back(fmt::format("curve along {} from {:.6g} to {:.6g} {}, straight on beyond", names_[k],
                                   curves[k]->first(), curves[k]->last(), units));
   }
+  if (film) facts.push_back(fmt::format("{} of {}", film->coefficients.describe(), film->speed.text()));
   for (const MaxwellBranch& branch : branches_)
     facts.push_back(fmt::format("branch of {:.6g} s: {}", branch.time, in_words(branch.K, turning_, "N/m", "N m/rad")));
   return facts;

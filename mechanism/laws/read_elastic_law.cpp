@@ -47,6 +47,24 @@ const KeyTable& curve_keys() {
   return table;
 }
 
+const KeyTable& bushing_film_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a film of a bushing",
+      "Coefficients of a seal, a film or a magnetic bearing over a speed.",
+      {{"speed", state_formula("rad/s", {"t"}), required,
+        "Speed over which the coefficients are given: a measure of something else than the bushing, such as the rate "
+        "of "
+        "the shaft's angle, or a formula of t and measures."},
+       {"table", file("table of nine columns"), optional,
+        "Ascending speeds [rad/s]; stiffness xx, xy, yx, yy [N/m]; damping xx, xy, yx, yy [N s/m]. Straight lines "
+        "between the speeds, constant beyond them."},
+       {"matrices", file("table of 73 columns"), optional,
+        "The same for all six directions: speeds, 36 numbers of the stiffness along and about x, y, z by rows, 36 of "
+        "the damping."}}};
+  return table;
+}
+
 const KeyTable& curves_keys() {
   using namespace keys;
   const auto along = [](const char* name, const char* unit, const char* about) {
@@ -195,15 +213,18 @@ std::vector<Key> keys_of_elastic_law() {
           {"curves", nested(curves_keys), optional,
            "Forces that are added to the rest, by directions: tables of displacement and force, or formulas of the "
            "displacement q, its rate v, the time t and measures."},
+          {"film", nested(bushing_film_keys), optional,
+           "Stiffness and damping over a speed that a measure gives, in addition to the others; they may be "
+           "unsymmetric."},
           {"maxwell", list_of(nested(branch_keys)).items_at_least(1), optional,
            "Branches of a spring and a damper in series, for hysteresis and relaxation. As drawn, and in statics, they "
            "carry no force."}};
 }
 
-std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& law) {
-  std::vector<CurveFormula> formulas;
+ElasticFormulas read_elastic_law(const YamlValue& entry, ElasticLaw& law) {
+  ElasticFormulas formulas;
   const auto stiffness = entry.find("stiffness"), damping = entry.find("damping"), preload = entry.find("preload"),
-             curves = entry.find("curves"), maxwell = entry.find("maxwell");
+             curves = entry.find("curves"), film = entry.find("film"), maxwell = entry.find("maxwell");
   if (const auto unsymmetric = entry.find("unsymmetric"); unsymmetric && !stiffness)
     unsymmetric->fail("says something about the `stiffness`, which is missing");
   if (stiffness) law.K = read_stiffness(*stiffness, !entry.at("unsymmetric").boolean());
@@ -217,7 +238,12 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
     const YamlValue named = curves->keyed(curves_keys());
     for (std::size_t k = 0; k < law.size(); ++k)
       if (const auto curve = named.find(law.measure_name(k)); curve && !read_curve(*curve, k, law))
-        formulas.push_back({k, *curve});
+        formulas.curves.push_back({k, *curve});
+  }
+  if (film) {
+    const YamlValue given = film->keyed(bushing_film_keys());
+    formulas.film_speed = given.at("speed");
+    law.film = SpeedFilm{read_film_coefficients(given, static_cast<Eigen::Index>(law.size())), {}};
   }
   if (maxwell) {
     const auto branches = maxwell->items();
@@ -226,13 +252,13 @@ std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& l
     for (const YamlValue& each : branches)
       if (const MaxwellBranch branch = read_branch(each, law.K); branch.time > 0) law.add(branch);
   }
-  if (!stiffness && !damping && !curves && !maxwell)
-    entry.fail("expected `stiffness`, `damping`, `curves` or `maxwell`: nothing else joins the nodes");
-  const bool curved = !formulas.empty() || std::any_of(law.curves.begin(), law.curves.end(),
-                                                       [](const auto& curve) { return curve.has_value(); });
+  if (!stiffness && !damping && !curves && !film && !maxwell)
+    entry.fail("expected `stiffness`, `damping`, `curves`, `film` or `maxwell`: nothing else joins the nodes");
+  const bool curved = !formulas.curves.empty() || std::any_of(law.curves.begin(), law.curves.end(),
+                                                              [](const auto& curve) { return curve.has_value(); });
   const bool branched = std::any_of(law.branches().begin(), law.branches().end(),
                                     [](const MaxwellBranch& branch) { return !branch.K.isZero(0); });
-  if (law.K.isZero(0) && law.D.isZero(0) && !curved && !branched)
+  if (law.K.isZero(0) && law.D.isZero(0) && !curved && !film && !branched)
     (stiffness ? *stiffness
      : damping ? *damping
                : entry)

@@ -1,6 +1,7 @@
 // Readers of the keys of an ElasticLaw in input files.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,8 @@ void make_symmetric(const YamlValue& value, MatrixX& A);
 /// @param what  a clause for the message: "a spring that gives energy away"
 void check_semidefinite(const YamlValue& value, const MatrixX& A, const char* what);
 
-/// Returns the keys `stiffness`, `damping`, `preload`, `curves`, `maxwell` of a law of the measures x, y, z, rx, ry,
-/// rz.
+/// Returns the keys `stiffness`, `damping`, `preload`, `curves`, `film`, `maxwell` of a law of the measures x, y, z,
+/// rx, ry, rz.
 std::vector<Key> keys_of_elastic_law();
 
 /// A formula of q, v, t and the state in `curves`: for a measure, by its number.
@@ -33,7 +34,13 @@ struct CurveFormula {
   YamlValue formula;
 };
 
+/// The formulas of a law, which are read after the model.
+struct ElasticFormulas {
+  std::vector<CurveFormula> curves;
+  std::optional<YamlValue> film_speed;  ///< formula of t and the state; the film of the law lacks it
+};
+
 /// Reads the keys into a law of six measures. @returns the formulas, for the caller @throws InputError
-std::vector<CurveFormula> read_elastic_law(const YamlValue& entry, ElasticLaw& law);
+ElasticFormulas read_elastic_law(const YamlValue& entry, ElasticLaw& law);
 
 }  // namespace bielle::mechanism

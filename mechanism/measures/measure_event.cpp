@@ -59,7 +59,8 @@ void MeasureEvent::act(const LocalState& state, std::span<const int> /*crossed*/
   EventRecord::happen(state.time(), memory.of(of_record_));
   const double t = state.time();
   for (const Write& write : writes_) {
-    const double value = write.value.value(state, {&t, 1});
+    const double value =
+        write.locks ? write.locks->present_value(state.of(write.reference)) : write.value.value(state, {&t, 1});
     if (!std::isfinite(value))
       throw ComputationError(
           fmt::format("t = {:.6g} s: event '{}' {}, which has no finite value", t, name(), write.description));
@@ -73,7 +74,8 @@ bool MeasureEvent::switches_parts() const {
 
 std::string MeasureEvent::effects() const {
   std::string text;
-  for (const Write& write : writes_) text += (text.empty() ? "" : ", ") + write.description;
+  for (const Write& write : writes_)
+    if (!write.description.empty()) text += (text.empty() ? "" : ", ") + write.description;
   if (!writes_.empty() && action_ == Action::stop) text += ", stops the run";
   return text;
 }

@@ -15,6 +15,7 @@
 #include "mechanism/measures/event_record.hpp"
 #include "mechanism/measures/state_formula.hpp"
 #include "mechanism/model/event_actions.hpp"
+#include "mechanism/model/lockable.hpp"
 #include "mechanism/model/measure.hpp"
 #include "mechanism/model/references.hpp"
 #include "reduce/common/input/yaml_file.hpp"
@@ -29,8 +30,9 @@ class MeasureEvent final : public Component, public EventActions {
     int reference = 0;        ///< number of the component among those referred to
     int place = 0;            ///< index in its memory
     StateFormula value;       ///< formula of t and measures
+    const Lockable* locks{};  ///< the component, if its present value is written in place of the formula's
     bool switches = false;    ///< it switches constraints or forces on or off
-    std::string description;  ///< "releases 'sling'"
+    std::string description;  ///< "releases 'sling'"; empty: another write says it
   };
   /// @param record  memory of the event; it is used if anything depends on it
   MeasureEvent(const EventRecord& record, const Measure& measure, double value, EventFunction::Direction direction,

@@ -128,6 +128,43 @@ Sample bushing_unsymmetric() {
             "not positive semidefinite"}}};
 }
 
+/// The speed is the rate of a spring between the nodes.
+std::vector<Sample> bushing_films() {
+  const auto joint = [](const std::string& keys) {
+    return flexible_joint("type: bushing, axis: [1, 2, 3], " + keys) +
+           "elements:\n  s: {type: spring_damper, nodes: [a, b], stiffness: 1}\n";
+  };
+  Sample radial{Section::joints,
+                "bushing",
+                "film, radial",
+                joint("stiffness: [1, 2, 1, 0.5, 0, 1], damping: 0.2, maxwell: [{factor: 0.4, time: 0.7}], film: "
+                      "{table: oil.csv, speed: 5 + 4*s.elongation.rate + t}"),
+                {{"film", "{speed: 1}", "either `table` or `matrices`"},
+                 {"film.speed", "it.x.rate", "depends on the bushing 'it' itself"},
+                 {"film.speed", "s.elongatio", "did you mean"},
+                 {"film.table", "none.csv", "no such file"},
+                 {"film.table", "falling.csv", "ascend"}}};
+  radial.files = [](const std::string& folder) {
+    std::ofstream(folder + "/oil.csv") << "-40 1 0.3 -0.4 2 0.3 0.1 0.05 0.4\n40 3 1 -1.5 2.5 0.5 0.2 0.1 0.6\n";
+    std::ofstream(folder + "/falling.csv") << "3 1 1 1 1 1 1 1 1\n2 1 1 1 1 1 1 1 1\n";
+  };
+  Sample all{Section::joints,
+             "bushing",
+             "film of all directions",
+             joint("film: {matrices: seal.csv, speed: 9*s.elongation.rate - s.elongation}"),
+             {{"film.matrices", "narrow.csv", "expected 73 numbers"}}};
+  all.files = [](const std::string& folder) {
+    std::ofstream file(folder + "/seal.csv");
+    for (const double speed : {-40.0, 40.0}) {
+      file << speed;
+      for (int k = 0; k < 72; ++k) file << ' ' << std::cos(k + 0.01 * speed) + (k % 36 % 7 == 0 ? 6 : 0);
+      file << '\n';
+    }
+    std::ofstream(folder + "/narrow.csv") << "0 1 1 1 1 1 1 1 1\n";
+  };
+  return {radial, all};
+}
+
 std::vector<Sample> coupled_bearings() {
   Sample film{
       Section::joints,
@@ -316,7 +353,15 @@ std::vector<Sample> measures_of_joints() {
                "0.3*j.normal_force + 2*j.gap", {"force", "j.gapp", "did you mean 'gap'"}),
       measured("stops", "type: hinge, axis: [1, 2, 3], stops: {range: [-0.01, 0.01], stiffness: 3, damping: 0.2}",
                "0.7*j.angle.stop_force + 2*j.angle.stop_gap", {"force", "j.angle.stop", "did you mean"})};
+  Sample film =
+      measured("a bushing with a film", "type: bushing, film: {table: oil.csv, speed: 8*b.velocity.x + 3*b.position.y}",
+               "0.4*j.force.x - 0.3*j.force.y*j.reaction.x", {"force", "j.force.q", "did you mean"});
+  film.inertial = true;  // velocity of a node
+  film.files = [](const std::string& folder) {
+    std::ofstream(folder + "/oil.csv") << "-40 1 0.3 -0.4 2 0.3 0.1 0.05 0.4\n40 3 1 -1.5 2.5 0.5 0.2 0.1 0.6\n";
+  };
   list[1].scales.smooth_within = 0.1;  // the normal of the bore turns within the radial displacement
+  list.push_back(std::move(film));
   return list;
 }
 
@@ -402,7 +447,7 @@ std::vector<Sample> flexible_samples() {
                               plain_bearing(),       field(),         field_of_files()};
   for (Sample& sample : clearances()) list.push_back(std::move(sample));
   list.push_back(bushing_unsymmetric());
-  for (const auto& more : {coupled_bearings(), rolling_bearings(), journal_bearings()})
+  for (const auto& more : {bushing_films(), coupled_bearings(), rolling_bearings(), journal_bearings()})
     list.insert(list.end(), more.begin(), more.end());
   for (Sample& sample : measures_of_joints()) list.push_back(std::move(sample));
   return list;

@@ -91,7 +91,7 @@ Sample state_space() {
 }
 
 Sample sampled(const std::string& variant, const std::string& keys, std::vector<BadValue> bad) {
-  bad.push_back({"delay", "0.3", "exceeds the period"});
+  bad.push_back({"delay", "1e9", "samples would wait"});
   bad.push_back({"limit", "[2, 1]", "lower limit first"});
   return {Section::states, "state", variant, states("  it: {period: 0.2, " + keys + "}\n"), std::move(bad)};
 }

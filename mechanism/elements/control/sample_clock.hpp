@@ -13,7 +13,7 @@ namespace bielle::mechanism {
 struct SampleClock {
   double first = 0;   ///< first instant [s] >= 0
   double period = 1;  ///< [s] > 0
-  double delay = 0;   ///< from an instant to the change of the outputs [s], 0 to `period`
+  double delay = 0;   ///< from an instant to the change of the outputs [s] >= 0, also longer than `period`
 
   /// Whether a time has come, up to rounding of the ends of steps.
   bool has_come(double time, double now) const {
@@ -26,8 +26,11 @@ struct SampleClock {
     while (has_come(instant(k), now)) ++k;
     return k;
   }
+  /// The largest number of samples that wait for the end of the delay at one time.
+  double most_waiting() const { return delay > 0 ? std::floor(delay / period) + 1 : 0; }
   std::vector<Sampler::Instants> instants() const {
-    if (delay == 0 || delay == period) return {{first, period}};
+    constexpr double rounding = 5e-10;  // less than that of has_come
+    if (std::abs(std::remainder(delay, period)) <= rounding * period) return {{first, period}};
     return {{first, period}, {first + delay, period}};
   }
 };

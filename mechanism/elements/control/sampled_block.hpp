@@ -1,5 +1,6 @@
 // A sampled controller: at the instants of its clock it computes outputs from formulas of the state, which keep their
-// values until the next instant, or until `delay` after it.
+// values until the next instant, or until `delay` after it. Samples whose outputs are still delayed wait in a ring,
+// which is part of the memory.
 //
 // Samplers of one instant act in the order of the file, as the statements of a program: a formula sees the outputs of
 // the blocks above it as they are at this instant, and its own and those of the blocks below as they were before.
@@ -21,6 +22,8 @@ class SampledBlock final : public Component, public Sampler {
  public:
   SampledBlock(const std::string& name, const SampleClock& clock, const OutputStage& stage,
                std::unique_ptr<SampledLaw> law);
+  /// Returns the number of values in the memory of a block.
+  static Eigen::Index memories(const SampleClock& clock, const SampledLaw& law);
   /// Adds the next output, before the inputs.
   void add_output(const Measure& output);
   /// Reads one more input, after the model has been read.
@@ -37,10 +40,13 @@ class SampledBlock final : public Component, public Sampler {
  private:
   VectorX input(const LocalState& state) const;
   bool put_out(const LocalState& state, const Eigen::Ref<const VectorX>& y, Eigen::Ref<VectorX> memory) const;
+  bool put_out_waiting(const LocalState& state, Eigen::Ref<VectorX> own, Eigen::Ref<VectorX> memory) const;
+  Eigen::Index place_of(double oldest, Eigen::Index k) const;
 
   SampleClock clock_;
   OutputStage stage_;
   std::unique_ptr<SampledLaw> law_;
+  Eigen::Index places_;    ///< places of the ring
   References references_;  ///< the outputs are the first
   std::vector<StateFormula> inputs_;
 };

@@ -66,11 +66,11 @@ SampleClock read_clock(const YamlValue& entry) {
   clock.period = entry.at("period").number();
   clock.first = entry.at("first").number();
   clock.delay = entry.at("delay").number();
-  if (clock.delay > clock.period)
+  constexpr double most = 1e5;
+  if (clock.delay > most * clock.period)
     entry.at("delay").fail(fmt::format(
-        "exceeds the period, {:.6g} s: one sample waits at a time; a longer delay is a chain of sampled states, "
-        "or a `delayed` state of this one",
-        clock.period));
+        "more than {:.6g} samples would wait for its end: expected at most {:.6g} s, so many periods of {:.6g} s", most,
+        most * clock.period, clock.period));
   return clock;
 }
 
@@ -126,7 +126,7 @@ const KeyTable& sampled_keys() {
               {"period", number("s").at_least(1e-9), required, "Time from one instant to the next."},
               {"first", number("s").non_negative(), otherwise("0"), "Time of the first instant."},
               {"delay", number("s").non_negative(), otherwise("0"),
-               "Time from an instant to the change of the outputs, at most the period."}},
+               "Time from an instant to the change of the outputs; it may be longer than the period."}},
              std::move(laws),
              {{"quantum", number("any").non_negative(), otherwise("0"),
                "Outputs are rounded to whole multiples of it (before the limits); 0: they are not."},

@@ -23,10 +23,10 @@ PoppetValve::PoppetValve(std::string type, std::string name, const PressureNode&
 
 void PoppetValve::declare(Declaration& declaration) const {
   Line::declare(declaration);
+  declaration.memory = OpeningLock::start_memory();
   if (!follows()) return;
   declaration.damping = true;
   declaration.starts_by_state = true;
-  declaration.memory = {0};  // whether it has begun
   Declaration::Scalar opening{"opening", "-", 0};
   opening.scale = 1;
   opening.equation_units = "1/s";
@@ -50,7 +50,9 @@ double PoppetValve::wanted(const LocalState& state, MeasureGradient& gradient) c
 // At the start of a motion and in statics, which both determine pressures and opening together, a valve with a time
 // constant has the opening that corresponds to its pressures.
 double PoppetValve::opening(const LocalState& state, MeasureGradient& gradient) const {
-  if (!follows() || state.environment().statics || state.memory()[0] == 0) return wanted(state, gradient);
+  if (OpeningLock::is_locked(state)) return OpeningLock::kept_opening(state);
+  if (!follows() || state.environment().statics || state.memory()[OpeningLock::begun] == 0)
+    return wanted(state, gradient);
   gradient.position()[state.slots().first_order_row()] += 1;
   return state.first_order()[0];
 }
@@ -78,11 +80,12 @@ void PoppetValve::calc_flow(const LocalState& state, std::size_t /*path*/, FlowD
 void PoppetValve::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   Line::add_residual(state, r);
   if (!follows()) return;
+  double& rate = r[state.slots().first_order_row()];
+  rate += state.first_order_rate()[0];
+  if (OpeningLock::is_locked(state)) return;
   thread_local MeasureGradient unused;
   unused.prepare(state.slots().size());
-  const double y = state.first_order()[0];
-  r[state.slots().first_order_row()] +=
-      state.first_order_rate()[0] - (wanted(state, unused) - y) / setting_.time_constant;
+  rate -= (wanted(state, unused) - state.first_order()[0]) / setting_.time_constant;
 }
 
 void PoppetValve::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -91,6 +94,10 @@ void PoppetValve::add_tangent(const LocalState& state, LocalTangent& tangent) co
   const int row = state.slots().first_order_row();
   if (tangent.wants_C) tangent.C.dense()(row, row) += 1;
   if (!tangent.wants_K) return;
+  if (OpeningLock::is_locked(state)) {
+    if (state.environment().statics) tangent.K.dense()(row, row) += 1;  // the increment is zero
+    return;
+  }
   thread_local MeasureGradient of_wanted;
   of_wanted.prepare(state.slots().size());
   wanted(state, of_wanted);
@@ -105,21 +112,30 @@ void PoppetValve::add_pattern(const Slots& slots, LocalPattern& pattern) const {
 }
 
 void PoppetValve::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
-  if (!follows() || state.memory()[0] != 0) return;
+  if (!follows() || state.memory()[OpeningLock::begun] != 0) return;
   Nested<MeasureGradient> unused;
   unused->prepare(state.slots().size());
   change[state.slots().first_order_row()] += wanted(state, *unused) - state.first_order()[0];
 }
 
-void PoppetValve::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const { memory[0] = 1; }
+void PoppetValve::accept(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const {
+  memory[OpeningLock::begun] = 1;
+}
+
+void PoppetValve::begin_branch(const LocalState& /*state*/, std::span<const int> /*crossed*/,
+                               Eigen::Ref<VectorX> memory) const {
+  OpeningLock::follow(0, memory);
+}
+
+double PoppetValve::present_value(const LocalState& state) const {
+  Nested<MeasureGradient> unused;
+  unused->prepare(state.slots().size());
+  return opening(state, *unused);
+}
 
 std::vector<OutputField> PoppetValve::own_fields() const { return {{"opening", {}, "-", "share of the full opening"}}; }
 
-void PoppetValve::write_own(const LocalState& state, double* values) const {
-  Nested<MeasureGradient> unused;
-  unused->prepare(state.slots().size());
-  values[0] = opening(state, *unused);
-}
+void PoppetValve::write_own(const LocalState& state, double* values) const { values[0] = present_value(state); }
 
 double PoppetValve::calc_own_measure(const LocalState& state, const std::string& /*measure*/,
                                      MeasureGradient& gradient) const {

@@ -7,6 +7,7 @@
 // relief valve:          s = 1 (or 0, if its spring chamber is vented), r = 0
 // counterbalance valve:  a is the load, x the pilot, r its ratio; a check valve lets the fluid back from b to a
 // With a time constant T the opening follows T ydot = y(x) - y. A motion begins with y = y(x), which statics find too.
+// Events may lock the opening y (opening_lock.hpp); the check valve of a counterbalance valve still opens.
 //
 // A flow valve with compensator passes Q_set if D = p_a - p_b is larger than D_min; below it is an orifice. The reverse
 // flow is through an orifice of the same area:
@@ -15,12 +16,14 @@
 #pragma once
 
 #include "mechanism/hydraulics/lines/line.hpp"
+#include "mechanism/hydraulics/lines/opening_lock.hpp"
 #include "mechanism/hydraulics/lines/orifice_law.hpp"
 #include "mechanism/measures/time_formula.hpp"
+#include "mechanism/model/lockable.hpp"
 
 namespace bielle::mechanism {
 
-class PoppetValve final : public Line {
+class PoppetValve final : public Line, public Lockable {
  public:
   struct Setting {
     double pressure = 0;         ///< pressure p_set [Pa], at which it begins to open
@@ -42,6 +45,11 @@ class PoppetValve final : public Line {
   void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+  bool knows_memory(const LocalState& state) const override { return OpeningLock::knows(state.memory()); }
+  int lock_command_place() const override { return OpeningLock::command; }
+  int locked_value_place() const override { return OpeningLock::opening; }
+  double present_value(const LocalState& state) const override;
 
  private:
   /// Returns the opening that corresponds to the pressures, with its derivatives.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/hydraulics/lines/opening_lock.hpp"
 #include "mechanism/measures/nested.hpp"
 #include "mechanism/measures/read_measure.hpp"
 #include "reduce/common/error.hpp"
@@ -39,7 +40,7 @@ void Spool::read_command(const YamlValue& command, Model& model, References& ref
 }
 
 void Spool::declare(Declaration& declaration) const {
-  declaration.memory = {0};  // whether it has begun
+  declaration.memory = OpeningLock::start_memory();
   declaration.reads_reactions = declaration.reads_reactions || reads_reactions();
   if (reads_state() || order_ > 0) declaration.damping = true;
   if (order_ == 0) return;
@@ -60,9 +61,13 @@ double Spool::command(const LocalState& state) const {
   return command_.value(state, {&t, 1});
 }
 
-double Spool::opening(const LocalState& state) const { return order_ == 0 ? command(state) : state.first_order()[0]; }
+double Spool::opening(const LocalState& state) const {
+  if (OpeningLock::is_locked(state)) return OpeningLock::kept_opening(state);
+  return order_ == 0 ? command(state) : state.first_order()[0];
+}
 
 double Spool::opening(const LocalState& state, MeasureGradient& gradient) const {
+  if (OpeningLock::is_locked(state)) return OpeningLock::kept_opening(state);
   if (order_ > 0) {
     gradient.position()[state.slots().first_order_row()] = 1;
     return state.first_order()[0];
@@ -80,13 +85,16 @@ void Spool::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   if (order_ == 0) return;
   const int row = state.slots().first_order_row();
   const auto y = state.first_order(), rate = state.first_order_rate();
+  for (int k = 0; k < order_; ++k) r[row + k] += rate[k];
+  if (OpeningLock::is_locked(state)) return;
   const double u = command(state);
   if (order_ == 1) {
-    r[row] += rate[0] - (u - y[0]) / time_constant_;
+    r[row] -= (u - y[0]) / time_constant_;
     return;
   }
-  r[row] += rate[0] - y[1];
-  r[row + 1] += rate[1] - omega_ * omega_ * (u - y[0]) + 2 * damping_ * omega_ * y[1];
+  const double w = y[1] - OpeningLock::kept_speed(state);
+  r[row] -= w;
+  r[row + 1] -= omega_ * omega_ * (u - y[0]) - 2 * damping_ * omega_ * w;
 }
 
 void Spool::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -95,6 +103,12 @@ void Spool::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const double gain = order_ == 1 ? 1 / time_constant_ : omega_ * omega_;
   if (tangent.wants_C)
     for (int k = 0; k < order_; ++k) tangent.C.dense()(row + k, row + k) += 1;
+  if (OpeningLock::is_locked(state)) {
+    // Residuals of statics are zero: any slope along the unknowns makes their increments zero.
+    if (tangent.wants_K && state.environment().statics)
+      for (int k = 0; k < order_; ++k) tangent.K.dense()(row + k, row + k) += 1;
+    return;
+  }
   if (tangent.wants_K) {
     auto K = tangent.K.dense();
     K(driven, row) += gain;
@@ -116,13 +130,14 @@ void Spool::add_pattern(const Slots& slots, LocalPattern& pattern) const {
 }
 
 void Spool::add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const {
-  if (order_ == 0 || state.memory()[0] != 0) return;
+  if (order_ == 0 || state.memory()[OpeningLock::begun] != 0) return;
   const int row = state.slots().first_order_row();
   change[row] += command(state) - state.first_order()[0];
   if (order_ == 2) change[row + 1] -= state.first_order()[1];
 }
 
 void Spool::check(const LocalState& state, const std::string& name) const {
+  if (OpeningLock::is_locked(state)) return;
   const double u = command(state);
   constexpr double rounding = 1e-9;
   if (u >= least_ - rounding && u <= most_opening + rounding) return;

@@ -4,7 +4,7 @@
 //   first order:    T ydot = u - y
 //   second order:   ydot = w,   wdot = omega^2 (u - y) - 2 zeta omega w
 // y and w are first-order unknowns of the valve of the spool, beginning with its first one. The spool starts at its
-// command; in a static analysis it is at its command, too.
+// command; in a static analysis it is at its command, too. Events may lock the opening (opening_lock.hpp).
 #pragma once
 
 #include "mechanism/measures/state_formula.hpp"
@@ -31,11 +31,13 @@ class Spool {
   /// Returns the opening, with its derivatives over the owner's local layout. @param gradient  prepared, zero on entry
   double opening(const LocalState& state, MeasureGradient& gradient) const;
   double opening(const LocalState& state) const;
+  /// Returns the speed of a spool of second order, otherwise zero [1/s].
+  double speed(const LocalState& state) const { return order_ == 2 ? state.first_order()[1] : 0; }
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const;
-  /// @throws ComputationError if the command is beyond the spool's ends. @param name  name of the valve
+  /// @throws ComputationError if the command that the spool follows is beyond its ends. @param name  name of the valve
   void check(const LocalState& state, const std::string& name) const;
   void add_break_points(std::vector<double>& times) const { command_.add_break_points(0, times); }
   const StateFormula& command_formula() const { return command_; }

@@ -79,7 +79,17 @@ void SpoolValve::add_start_values(const LocalState& state, Eigen::Ref<VectorX> c
 
 void SpoolValve::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   spool_.check(state, name());
-  memory[0] = 1;
+  memory[OpeningLock::begun] = 1;
+}
+
+void SpoolValve::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
+                              Eigen::Ref<VectorX> memory) const {
+  OpeningLock::follow(spool_.speed(state), memory);
+}
+
+void SpoolValve::calc_time_formulas(const LocalState& state, std::span<double> values) const {
+  calc_time_formula(spool_.command_formula(), state, values);
+  if (OpeningLock::is_locked(state)) values[0] = 0;  // it has no effect
 }
 
 std::vector<OutputField> SpoolValve::own_fields() const { return {{"opening", {}, "-", "share of the full opening"}}; }

@@ -10,13 +10,15 @@
 #include <array>
 
 #include "mechanism/hydraulics/lines/line.hpp"
+#include "mechanism/hydraulics/lines/opening_lock.hpp"
 #include "mechanism/hydraulics/lines/orifice_law.hpp"
 #include "mechanism/hydraulics/lines/spool.hpp"
 #include "mechanism/measures/time_formula.hpp"
+#include "mechanism/model/lockable.hpp"
 
 namespace bielle::mechanism {
 
-class SpoolValve final : public Line, public TimeDependent {
+class SpoolValve final : public Line, public TimeDependent, public Lockable {
  public:
   static constexpr double smoothing = 1e-3;  ///< fraction of the full opening
   struct Edge {
@@ -42,13 +44,16 @@ class SpoolValve final : public Line, public TimeDependent {
   void calc_flow(const LocalState& state, std::size_t path, FlowDerivatives& flow) const override;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
+  void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+  bool knows_memory(const LocalState& state) const override { return OpeningLock::knows(state.memory()); }
+  int lock_command_place() const override { return OpeningLock::command; }
+  int locked_value_place() const override { return OpeningLock::opening; }
+  double present_value(const LocalState& state) const override { return spool_.opening(state); }
   void add_break_points(std::vector<double>& times) const override { spool_.add_break_points(times); }
   std::vector<Formula> time_formulas() const override {
     return time_formulas_of(spool_.command_formula(), "command", "");
   }
-  void calc_time_formulas(const LocalState& state, std::span<double> values) const override {
-    calc_time_formula(spool_.command_formula(), state, values);
-  }
+  void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
 
  private:

@@ -20,8 +20,9 @@ struct PlannedWrite {
   int place;
   double constant;
   std::optional<YamlValue> formula;  ///< in place of the constant
+  const Lockable* locks = nullptr;   ///< its present value takes the place of the constant
   bool switches;
-  std::string description;  ///< empty: the one before says it
+  std::string description;  ///< empty: another write of the action says it
 };
 
 struct PlannedEvent {
@@ -30,14 +31,16 @@ struct PlannedEvent {
 };
 
 void plan_lock(const YamlValue& value, bool closes, Model& model, PlannedEvent& event) {
+  const std::string description = fmt::format("{} '{}'", closes ? "locks" : "unlocks", value.text());
+  if (const auto [valve, lock] = valve_named_by(value, model); lock) {
+    if (closes) event.writes.push_back({valve, lock->locked_value_place(), 0, {}, lock, true, ""});
+    event.writes.push_back({valve, lock->lock_command_place(), closes ? 1.0 : -1.0, {}, nullptr, true, description});
+    return;
+  }
   bool first = true;
   for (const JointLock* lock : locks_named_by(value, model)) {
-    event.writes.push_back({lock,
-                            JointLock::command_place,
-                            closes ? 1.0 : -1.0,
-                            {},
-                            true,
-                            first ? fmt::format("{} '{}'", closes ? "locks" : "unlocks", value.text()) : ""});
+    event.writes.push_back(
+        {lock, JointLock::command_place, closes ? 1.0 : -1.0, {}, nullptr, true, first ? description : ""});
     first = false;
   }
 }
@@ -48,6 +51,7 @@ void plan_activity(const YamlValue& value, bool acts, Model& model, PlannedEvent
                           0,
                           acts ? 1.0 : 0.0,
                           {},
+                          nullptr,
                           true,
                           fmt::format("{} '{}'", acts ? "activates" : "releases", value.text())});
 }
@@ -56,7 +60,7 @@ void plan_set(const YamlValue& value, Model& model, PlannedEvent& event) {
   const auto inputs = value.entries();
   if (inputs.empty()) value.fail("expected the name of an input with its new value");
   for (const auto& [name, formula] : inputs)
-    event.writes.push_back({&input_named_by(name, formula, model), 0, 0, formula, false,
+    event.writes.push_back({&input_named_by(name, formula, model), 0, 0, formula, nullptr, false,
                             fmt::format("sets '{}' to {}", name, formula.text())});
 }
 
@@ -85,6 +89,7 @@ void add_writes(const std::vector<PlannedWrite>& planned, MeasureEvent& event, M
     write.reference = event.references().add(*each.component);
     write.place = each.place;
     write.switches = each.switches;
+    write.locks = each.locks;
     write.description = each.description;
     write.value = each.formula ? read_state_formula(*each.formula, {"t"}, model, event.references())
                                : StateFormula(each.constant);
@@ -114,10 +119,12 @@ const KeyTable& event_action_keys() {
   static const KeyTable table{
       "an action of an event",
       "A change of the mechanism at an event; each item of `do` has one key.",
-      {{"lock", name_of("joint"), optional,
+      {{"lock", name_of("joint or valve"), optional,
         "Joint whose coordinates are locked at their present values, or one coordinate of it (`knee.angle`). An "
-        "inelastic impulse stops their rates; the energy that it takes is dissipated."},
-       {"unlock", name_of("joint"), optional, "Joint, or coordinate of a joint, whose lock is opened."},
+        "inelastic impulse stops their rates; the energy that it takes is dissipated. Or a valve, which keeps its "
+        "present opening whatever its command."},
+       {"unlock", name_of("joint or valve"), optional,
+        "Joint, or coordinate of a joint, whose lock is opened; or a valve, which follows its command again."},
        {"release", name_of("entry"), optional,
         "Joint, element, drive or load that acts no more: its constraints vanish, its forces are zero. A joint takes "
         "along its springs, friction, locks and drives. The energy that it stored is dissipated. An orifice or valve "

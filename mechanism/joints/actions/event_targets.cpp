@@ -49,7 +49,10 @@ std::vector<const JointLock*> locks_named_by(const YamlValue& value, Model& mode
     std::vector<std::string> names;
     for (const std::string& each : model.names_in(Section::joints))
       if (const Joint* other = find_joint(model, each); other && !other->coordinates().empty()) names.push_back(each);
-    value.fail(fmt::format("there is no joint with coordinates '{}'{}", joint ? name : text,
+    for (const std::string& each : model.names_in(Section::hydraulics))
+      for (const Component* component : model.components_of({Section::hydraulics, each}))
+        if (dynamic_cast<const Lockable*>(component)) names.push_back(each);
+    value.fail(fmt::format("there is no joint with coordinates, or valve, '{}'{}", joint ? name : text,
                            did_you_mean(joint ? name : text, names)));
   }
   std::vector<std::string> coordinates;
@@ -61,6 +64,23 @@ std::vector<const JointLock*> locks_named_by(const YamlValue& value, Model& mode
   for (std::size_t k = 0; k < coordinates.size(); ++k)
     if (coordinate.empty() || coordinates[k] == coordinate) locks.push_back(&lock_of(*joint, k, model));
   return locks;
+}
+
+LockableValve valve_named_by(const YamlValue& value, const Model& model) {
+  const std::string name = value.text();
+  const std::vector<Component*> components = model.components_of({Section::hydraulics, name});
+  LockableValve found;
+  for (const Component* component : components)
+    if (const auto* lock = dynamic_cast<const Lockable*>(component)) found = {component, lock};
+  if (components.empty() || (!found.lock && find_joint(model, name))) return {};
+  if (!found.lock)
+    value.fail(
+        fmt::format("'{}' has no opening that could be locked: expected a joint, or a valve of type `valve`, "
+                    "`servo_valve`, `check`, `relief` or `counterbalance`",
+                    name));
+  if (find_joint(model, name))
+    value.fail(fmt::format("'{}' is a joint and a valve: give the one that is meant another name", name));
+  return found;
 }
 
 const InputMeasure& input_named_by(const std::string& name, const YamlValue& value, Model& model) {

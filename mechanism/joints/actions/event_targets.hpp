@@ -1,10 +1,11 @@
-// The things that actions of events command: locks of joints and inputs.
+// The things that actions of events command: locks of joints and valves, inputs.
 #pragma once
 
 #include <vector>
 
 #include "mechanism/joints/actions/joint_lock.hpp"
 #include "mechanism/measures/input_measure.hpp"
+#include "mechanism/model/lockable.hpp"
 #include "mechanism/model/model.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
@@ -13,6 +14,14 @@ namespace bielle::mechanism {
 /// Returns the locks of the coordinates that a value names: "knee" or "knee.angle". Coordinates without a lock get one
 /// that events alone close. @throws InputError naming the nearest name
 std::vector<const JointLock*> locks_named_by(const YamlValue& value, Model& model);
+
+/// Returns the component of the hydraulics that a value names and whose opening can be locked; nullptr if the value
+/// names a joint, or nothing of the hydraulics. @throws InputError if both have the name, or if it has no such opening
+struct LockableValve {
+  const Component* component = nullptr;
+  const Lockable* lock = nullptr;
+};
+LockableValve valve_named_by(const YamlValue& value, const Model& model);
 
 /// Returns the input with a name. @throws InputError naming the nearest name
 const InputMeasure& input_named_by(const std::string& name, const YamlValue& value, Model& model);

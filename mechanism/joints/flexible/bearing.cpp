@@ -7,8 +7,6 @@
 #include "mechanism/joints/actions/joint_actions.hpp"
 #include "mechanism/joints/flexible/linear_bearing_law.hpp"
 #include "mechanism/laws/read_elastic_law.hpp"
-#include "mechanism/reading/read_file.hpp"
-#include "reduce/common/files/table_file.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -116,16 +114,6 @@ void read_matrices(const YamlValue& value, LinearBearingLaw& law) {
   if (damping) check_damping(*damping, law.D);
 }
 
-FilmCoefficients read_film(const YamlValue& value) {
-  const YamlValue given = value.keyed(film_keys());
-  const auto radial = given.find("table"), all = given.find("matrices");
-  if (radial.has_value() == all.has_value()) given.fail("expected either `table` or `matrices`");
-  const Eigen::Index measures = radial ? 2 : 5;
-  return read_named_file(radial ? *radial : *all, [&](const std::string& path) {
-    return FilmCoefficients(measures, read_table(path, FilmCoefficients::columns(measures)), path);
-  });
-}
-
 }  // namespace
 
 const KeyTable& bearing_keys() {
@@ -171,7 +159,7 @@ void read_bearing(const std::string& name, const YamlValue& entry, Model& model)
     read_bearing_part(entry, "axial", axial, *law);
     read_bearing_part(entry, "tilting", tilting, *law);
   }
-  if (film) law->film = read_film(*film);
+  if (film) law->film = read_film_coefficients(film->keyed(film_keys()), 5);
   auto made = std::make_unique<ShaftBearing>("bearing", name, read_joint_frames(entry, model, AxisNeed::required),
                                              std::move(law), model);
   ShaftBearing& bearing = *made;

@@ -1,11 +1,15 @@
 #include "mechanism/joints/flexible/bushing.hpp"
 
+#include <algorithm>
+#include <set>
+
 #include <fmt/format.h>
 
 #include "mechanism/joints/actions/joint_actions.hpp"
 #include "mechanism/joints/actions/joint_spring.hpp"
 #include "mechanism/laws/read_elastic_law.hpp"
 #include "mechanism/measures/middle_frame.hpp"
+#include "mechanism/measures/read_measure.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -28,6 +32,40 @@ Bushing::Bushing(std::string name, JointFrames frames, const Model& model)
 
 void Bushing::calc_measures(const LocalState& state, ElasticLaw::Measures& measures, bool second) const {
   MiddleFrame(state.node(0), state.node(1), frames().on_first, frames().on_second).calc(measures, second);
+}
+
+namespace {
+
+/// Whether a component refers to another, directly or through those that it refers to.
+bool depends_on(const Component& component, const Component& other, std::set<const Component*>& seen) {
+  Declaration declaration;
+  component.declare(declaration);
+  return std::any_of(declaration.references.begin(), declaration.references.end(), [&](const Component* each) {
+    return each == &other || (seen.insert(each).second && depends_on(*each, other, seen));
+  });
+}
+
+}  // namespace
+
+void Bushing::read_film_speed(const YamlValue& formula, Model& model) {
+  law().film->speed = read_state_formula(formula, {"t"}, model, references_);
+  if (std::set<const Component*> seen; depends_on(*this, *this, seen))
+    formula.fail(fmt::format("depends on the bushing '{}' itself: expected the speed of something else", name()));
+}
+
+void Bushing::declare(Declaration& declaration) const {
+  ElasticPair::declare(declaration);
+  references_.declare(declaration);
+}
+
+void Bushing::add_break_points(std::vector<double>& times) const {
+  ElasticPair::add_break_points(times);
+  if (law().film) law().film->speed.add_break_points(0, times);
+}
+
+std::vector<TimeDependent::Formula> Bushing::time_formulas() const {
+  if (!law().film) return {};
+  return time_formulas_of(law().film->speed, "speed of the film", "rad/s");
 }
 
 void Bushing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
@@ -54,7 +92,8 @@ std::vector<std::string> own_keys() {
 
 const KeyTable& bushing_keys() {
   static const KeyTable table{"a bushing",
-                              "An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.",
+                              "An elastic connection of two nodes by six stiffnesses, damping, curves, coefficients "
+                              "over a speed, and hysteresis.",
                               keys::joined({joint_frame_keys(AxisNeed::optional), keys_of_elastic_law(),
                                             joint_action_keys(Moves::both, own_keys())})};
   return table;
@@ -62,12 +101,15 @@ const KeyTable& bushing_keys() {
 
 void read_bushing(const std::string& name, const YamlValue& entry, Model& model) {
   auto made = std::make_unique<Bushing>(name, read_joint_frames(entry, model, AxisNeed::optional), model);
-  const std::vector<CurveFormula> formulas = read_elastic_law(entry, made->law());
+  const ElasticFormulas formulas = read_elastic_law(entry, made->law());
   Bushing& bushing = *made;
   const Entry of_bushing{Section::joints, name};
   model.add(std::move(made), of_bushing);
+  if (formulas.film_speed)
+    model.when_read(Model::Stage::formulas,
+                    [&bushing, speed = *formulas.film_speed, &model] { bushing.read_film_speed(speed, model); });
   // Formulas may read the bushing itself: they act on its coordinates.
-  for (const auto& [k, formula] : formulas) {
+  for (const auto& [k, formula] : formulas.curves) {
     auto spring = std::make_unique<JointSpring>(name, bushing, k, 0, 0);
     model.when_read(Model::Stage::formulas,
                     [added = spring.get(), formula, &model] { added->read(formula, false, model); });

@@ -67,6 +67,7 @@ double ElasticPair::calc_force(const LocalState& state, std::size_t k, MeasureGr
   gradient.position().segment(state.slots().first_order_row(), slopes.by_unknown.cols()) =
       -slopes.by_unknown.row(i).transpose();
   gradient.rate().head<12>() = -slopes.by_rate.row(i).transpose();
+  law_.add_by_speed(state, -slopes.by_speed[i], gradient);
   return -slopes.N[i];
 }
 

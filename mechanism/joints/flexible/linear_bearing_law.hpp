@@ -2,35 +2,14 @@
 // of the shaft: radial ones or all.
 #pragma once
 
-#include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "mechanism/joints/flexible/bearing_law.hpp"
-#include "reduce/common/formula/interpolation.hpp"
+#include "mechanism/laws/film_coefficients.hpp"
 
 namespace bielle::mechanism {
-
-/// Coefficients of the first n measures over the speed of the shaft: straight lines between its points, constant beyond
-/// them.
-class FilmCoefficients {
- public:
-  /// Columns of a table of n measures.
-  static constexpr Eigen::Index columns(Eigen::Index measures) { return 1 + 2 * measures * measures; }
-  /// @param measures  2 (radial) or 5   @param table  rows [speed [rad/s], stiffness by rows (n^2), damping (n^2)],
-  /// SI units, speeds ascending
-  FilmCoefficients(Eigen::Index measures, const Eigen::MatrixXd& table, const std::string& name);
-  struct At {
-    Matrix6 K = Matrix6::Zero(), D = Matrix6::Zero(), K_slope = Matrix6::Zero(), D_slope = Matrix6::Zero();
-  };
-  At operator()(double speed) const;
-  double first() const { return first_; }
-  double last() const { return last_; }
-
- private:
-  Eigen::Index measures_;
-  double first_, last_;
-  std::vector<Interpolation> coefficients_;
-};
 
 class LinearBearingLaw final : public BearingLaw {
  public:

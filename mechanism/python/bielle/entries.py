@@ -1196,12 +1196,14 @@ class Entries:
             stiffness: Mapping[str, Any] | Sequence[Any] | None = None, unsymmetric: bool | None = None,
             damping: Mapping[str, Any] | Sequence[Any] | float | str | None = None,
             preload: Sequence[Any] | None = None, curves: Mapping[str, Any] | None = None,
-            maxwell: Sequence[Any] | None = None, stops: Mapping[str, Any] | None = None,
-            locked: Mapping[str, Any] | bool | float | str | None = None, clutch: Mapping[str, Any] | None = None,
-            one_way: Mapping[str, Any] | None = None, start: Mapping[str, Any] | float | str | None = None,
+            film: Mapping[str, Any] | None = None, maxwell: Sequence[Any] | None = None,
+            stops: Mapping[str, Any] | None = None, locked: Mapping[str, Any] | bool | float | str | None = None,
+            clutch: Mapping[str, Any] | None = None, one_way: Mapping[str, Any] | None = None,
+            start: Mapping[str, Any] | float | str | None = None,
             start_rate: Mapping[str, Any] | float | str | None = None, carries: str | None = None,
             active: bool | None = None, **more: Any) -> None:
-        """An elastic connection of two nodes by six stiffnesses, damping, curves and hysteresis.
+        """An elastic connection of two nodes by six stiffnesses, damping, curves, coefficients over a speed, and
+        hysteresis.
 
         nodes: First and second node. (list of 2: name of a node)
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
@@ -1229,6 +1231,8 @@ class Entries:
         m], number [N m], number [N m]]; default: [0, 0, 0, 0, 0, 0])
         curves: Forces that are added to the rest, by directions: tables of displacement and force, or formulas of
         the displacement q, its rate v, the time t and measures. (keys of `curves`, which names directions)
+        film: Stiffness and damping over a speed that a measure gives, in addition to the others; they may be
+        unsymmetric. (keys of a film of a bushing)
         maxwell: Branches of a spring and a damper in series, for hysteresis and relaxation. As drawn, and in
         statics, they carry no force. (list of at least 1: keys of a branch)
         stops: Ends of the way of the coordinate. (keys of `stops`; or map by coordinate: keys of `stops`)
@@ -1250,7 +1254,7 @@ class Entries:
         """
         self.add("joints", name, {"type": "bushing", "nodes": nodes, "position": position, "at": at, "axis": axis,
             "second_axis": second_axis, "stiffness": stiffness, "unsymmetric": unsymmetric, "damping": damping,
-            "preload": preload, "curves": curves, "maxwell": maxwell, "stops": stops, "locked": locked,
+            "preload": preload, "curves": curves, "film": film, "maxwell": maxwell, "stops": stops, "locked": locked,
             "clutch": clutch, "one_way": one_way, "start": start, "start_rate": start_rate, "carries": carries,
             "active": active, **more})
 

@@ -271,7 +271,7 @@ TEST_CASE("wrong actions are refused with the place and the nearest name") {
   };
   CHECK(action("{lock: slide}, {release: slide}, {activate: slide}, {set: {gain: t}}, {stop: true}") ==
         "(nothing thrown)");
-  CHECK_THAT(action("{lock: slid}"), Contains("no joint with coordinates 'slid'") && Contains("'slide'"));
+  CHECK_THAT(action("{lock: slid}"), Contains("no joint with coordinates, or valve, 'slid'") && Contains("'slide'"));
   CHECK_THAT(action("{lock: slide.angle}"), Contains("has no coordinate 'angle'"));
   CHECK_THAT(action("{unlock: 3}"), Contains("no joint"));
   CHECK_THAT(action("{release: slidee}"),
