@@ -8,6 +8,8 @@ import re
 import sys
 import unittest
 
+import h5py
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 
@@ -59,6 +61,8 @@ class Making(InFolder):
         with open(self.path("out/index.html"), encoding="utf-8") as file:
             text = file.read()
         self.assertIn("Failed: crashing, empty, moved, refused, without_figure.", text)
+        with h5py.File(self.path("out/good/hht.h5")) as file:
+            self.assertIn(f"Computed by {file.attrs['created_by']}.", text)
         for link in re.findall(r"(?:href|src)='([^']+)'", text):  # all within the folder, and there
             self.assertTrue(link.startswith("#") or os.path.isfile(self.path("out/" + link)), link)
 
@@ -96,7 +100,8 @@ class Description(unittest.TestCase):
     def test_the_page_shows_machines_that_failed_before_they_had_a_picture(self):
         machine = Machine("A <machine>", "t", {"r": ["latch.yaml"]}, [Picture("r")], "r", lambda paths: [])
         text = page([Made("one", machine, [self.check(value=2)], pictures=["one/picture_1.png"], page="one/machine.html"),
-                     Made("two", machine, failure="it <failed>")])
+                     Made("two", machine, failure="it <failed>")], "bielle-mechanism 0.1.0 (commit <c>)")
+        self.assertIn("Computed by bielle-mechanism 0.1.0 (commit &lt;c&gt;).", text)
         self.assertIn("A &lt;machine&gt;", text)
         self.assertIn("it &lt;failed&gt;", text)
         self.assertIn("Failed: one, two.", text)
