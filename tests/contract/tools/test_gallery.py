@@ -25,6 +25,7 @@ from bielle_tools.gallery.page import page  # noqa: E402
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 MANUAL = os.path.join(REPOSITORY, "mechanism", "manual", "gallery.md")
+EXAMPLES = os.path.join(REPOSITORY, "mechanism", "manual", "examples.md")
 
 
 def gallery(*arguments):
@@ -115,6 +116,18 @@ class Description(unittest.TestCase):
             self.assertIn(model, [words[0] for words in machines[name].runs.values()])
             for body in machines[name].bodies:
                 self.assertTrue(glob.glob(os.path.join(REPOSITORY, "meshes", body + ".yaml")), body)
+
+    def test_all_examples_are_listed_with_their_checks(self):
+        with open(EXAMPLES, encoding="utf-8") as file:
+            lines = re.findall(r"(?m)^\| \[`(\w+)`\]\(\.\./examples/(\w+)\.yaml\) \| .+ \| \[.+\]\(\.\./\.\./(\S+\.py)\) \| (yes)? *\|$", file.read())
+        models = glob.glob(os.path.join(REPOSITORY, "mechanism", "examples", "*.yaml"))
+        self.assertEqual(sorted(model for _, model, _, _ in lines), sorted(os.path.basename(path)[:-5] for path in models))
+        drawn = {words[0] for machine in catalogue.chosen(catalogue.FOLDER, []).values() for words in machine.runs.values()}
+        for name, model, check, gallery_has_it in lines:
+            with self.subTest(name):
+                self.assertEqual(name, model)
+                self.assertTrue(os.path.isfile(os.path.join(REPOSITORY, check)), check)
+                self.assertEqual(bool(gallery_has_it), f"{model}.yaml" in drawn)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from .pages import BLOCK
 from .source_messages import explained, list_of_messages
 
 CONTENTS = {  # page that leads a part, and the pages of the part, in order
-    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/features.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md", "mechanism/manual/gallery.md",
+    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/features.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md", "mechanism/manual/examples.md", "mechanism/manual/gallery.md",
                     "mechanism/manual/messages/README.md", "mechanism/manual/messages/[a-z]*.md"],
     "Mechanisms": ["mechanism/README.md", "mechanism/manual/reference/*/*.md", "mechanism/language/*.md",
                    "reduce/common/README.md", "mechanism/io/*.md", "mechanism/python/*.md", "mechanism/glossary*.md", "mechanism/keys.md"],
