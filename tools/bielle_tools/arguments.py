@@ -2,10 +2,9 @@
 
 import argparse
 import math
-import subprocess
 
 from .messages import InputError, check_names, did_you_mean
-from .programs import find_program
+from .programs import find_program, version_text
 from .results.results_file import Results
 
 
@@ -14,8 +13,7 @@ class _Version(argparse.Action):
 
     def __call__(self, parser, namespace, values, option_string=None):
         program = find_program("bielle-mechanism")
-        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
-        print(f"{parser.prog} with {program}\n{said}", end="")
+        print(f"{parser.prog} with {program}\n{version_text(program)}", end="")
         parser.exit()
 
 

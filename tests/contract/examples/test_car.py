@@ -13,9 +13,6 @@ G, CHASSIS, CORNER = 9.81, 1200, 36  # masses [kg]; the wishbones and the wheel 
 class Car(ExampleTest):
     model = "car.yaml"
 
-    def rows(self, name):
-        return np.squeeze(self.results.rows(name))
-
     def test_tyres_carry_the_weight_at_the_start(self):
         forces = [-self.rows(f"elements/{corner}.tyre/force")[0] for corner in CORNERS]
         weight = (CHASSIS + 4 * CORNER) * G

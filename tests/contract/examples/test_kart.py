@@ -16,9 +16,6 @@ HEIGHT = (150 * 0.2 + 18 * (RADIUS - 3.6e-3)) / MASS
 class Kart(ExampleTest):
     model = "kart.yaml"
 
-    def rows(self, name):
-        return np.squeeze(self.results.rows(name))
-
     def forces(self):
         """Sum of the forces of the tyres on the wheels, inertial."""
         return sum(self.rows(f"joints/{tyre}.tyre/reaction_inertial")[:, :3] for tyre in TYRES)

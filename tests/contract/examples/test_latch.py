@@ -14,14 +14,6 @@ BOX = (1 + 0.04 ** 2) / 12 * LOWER, (1 + 0.03 ** 2) / 12 * UPPER  # [kg m^2] abo
 class Latch(ExampleTest):
     model = "latch.yaml"
 
-    def rows(self, name):
-        return np.squeeze(self.results.rows(name))
-
-    def events(self):
-        names = self.results.file["crossings"][()].decode().splitlines()
-        group = self.results.file["analysis_1/events"]
-        return [(names[int(k)], time) for k, time in zip(group["crossing"][:], group["time"][:])]
-
     def momentum(self):
         """Angular momentum about the base, positive as the mast rises."""
         total = 0

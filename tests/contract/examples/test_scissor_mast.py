@@ -15,9 +15,6 @@ BAYS, BAR = 6, 1.0
 class ScissorMast(ExampleTest):
     model = "scissor_mast.yaml"
 
-    def rows(self, name):
-        return np.squeeze(self.results.rows(name))
-
     def test_bays_are_rectangles_whose_diagonals_are_the_bars(self):
         """width^2 + height^2 = bar^2, but for the bending of the bars."""
         for k in range(1, BAYS + 1):

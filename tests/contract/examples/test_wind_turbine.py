@@ -19,9 +19,6 @@ def area(s):
 class WindTurbine(ExampleTest):
     model = "wind_turbine.yaml"
 
-    def rows(self, name):
-        return np.squeeze(self.results.rows(name))
-
     def test_blades_stand_at_a_third_of_a_turn(self):
         start = [self.rows(f"nodes/blade_{k}.tip/position")[0] for k in (1, 2, 3)]
         angles = sorted(math.atan2(-place[1], place[2]) for place in start)

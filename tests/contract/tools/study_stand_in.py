@@ -29,7 +29,7 @@ if "--quiet" not in arguments:
     print("static ...\\nstatic: 0.1 s", file=sys.stderr)
     print(f"static, 3 points\\n  limit point at load factor {10 * speed}\\n  limit point at load factor {20 * speed}")
 with h5py.File(arguments[arguments.index("-o") + 1], "w") as file:
-    file.attrs["format"] = "bielle results"
+    file.attrs.update({"format": "bielle results", "created_by": "bielle-mechanism 0.0 (commit stand-in)"})
     file["analysis_1/time"] = [0.0, 1.0]
     file["analysis_1/joints/main/rate"] = [[0.0], [2 * speed]]
     file["analysis_1/nodes/hub/position"] = [[0.0, 0, 0], [1, 0, speed * float(values["mass"])]]

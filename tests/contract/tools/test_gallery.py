@@ -8,6 +8,8 @@ import re
 import sys
 import unittest
 
+import h5py
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 
@@ -23,6 +25,7 @@ from bielle_tools.gallery.page import page  # noqa: E402
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 MANUAL = os.path.join(REPOSITORY, "mechanism", "manual", "gallery.md")
+EXAMPLES = os.path.join(REPOSITORY, "mechanism", "manual", "examples.md")
 
 
 def gallery(*arguments):
@@ -59,6 +62,8 @@ class Making(InFolder):
         with open(self.path("out/index.html"), encoding="utf-8") as file:
             text = file.read()
         self.assertIn("Failed: crashing, empty, moved, refused, without_figure.", text)
+        with h5py.File(self.path("out/good/hht.h5")) as file:
+            self.assertIn(f"Computed by {file.attrs['created_by']}.", text)
         for link in re.findall(r"(?:href|src)='([^']+)'", text):  # all within the folder, and there
             self.assertTrue(link.startswith("#") or os.path.isfile(self.path("out/" + link)), link)
 
@@ -96,7 +101,8 @@ class Description(unittest.TestCase):
     def test_the_page_shows_machines_that_failed_before_they_had_a_picture(self):
         machine = Machine("A <machine>", "t", {"r": ["latch.yaml"]}, [Picture("r")], "r", lambda paths: [])
         text = page([Made("one", machine, [self.check(value=2)], pictures=["one/picture_1.png"], page="one/machine.html"),
-                     Made("two", machine, failure="it <failed>")])
+                     Made("two", machine, failure="it <failed>")], "bielle-mechanism 0.1.0 (commit <c>)")
+        self.assertIn("Computed by bielle-mechanism 0.1.0 (commit &lt;c&gt;).", text)
         self.assertIn("A &lt;machine&gt;", text)
         self.assertIn("it &lt;failed&gt;", text)
         self.assertIn("Failed: one, two.", text)
@@ -110,6 +116,18 @@ class Description(unittest.TestCase):
             self.assertIn(model, [words[0] for words in machines[name].runs.values()])
             for body in machines[name].bodies:
                 self.assertTrue(glob.glob(os.path.join(REPOSITORY, "meshes", body + ".yaml")), body)
+
+    def test_all_examples_are_listed_with_their_checks(self):
+        with open(EXAMPLES, encoding="utf-8") as file:
+            lines = re.findall(r"(?m)^\| \[`(\w+)`\]\(\.\./examples/(\w+)\.yaml\) \| .+ \| \[.+\]\(\.\./\.\./(\S+\.py)\) \| (yes)? *\|$", file.read())
+        models = glob.glob(os.path.join(REPOSITORY, "mechanism", "examples", "*.yaml"))
+        self.assertEqual(sorted(model for _, model, _, _ in lines), sorted(os.path.basename(path)[:-5] for path in models))
+        drawn = {words[0] for machine in catalogue.chosen(catalogue.FOLDER, []).values() for words in machine.runs.values()}
+        for name, model, check, gallery_has_it in lines:
+            with self.subTest(name):
+                self.assertEqual(name, model)
+                self.assertTrue(os.path.isfile(os.path.join(REPOSITORY, check)), check)
+                self.assertEqual(bool(gallery_has_it), f"{model}.yaml" in drawn)
 
 
 if __name__ == "__main__":

@@ -61,6 +61,15 @@ class Manual(unittest.TestCase):
         done = self.tool(*[word for page in started for word in ("--run", page)])
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_answers_print_what_they_show(self):
+        environment, count = pages.environment_of(ROOT, PROGRAMS, os.path.join(ROOT, "tools")), 0
+        for path in sorted(glob.glob(os.path.join(MANUAL, "how_do_i", "*.md"))):
+            if any(pages.FILE_NAME.match(block.text) for block in pages.blocks(path)):
+                count += 1
+                with self.subTest(path), tempfile.TemporaryDirectory() as folder:
+                    pages.run_page(path, folder, {**environment, "OPENBLAS_NUM_THREADS": "1"})
+        self.assertGreaterEqual(count, 2)
+
     def test_fragments_are_valid(self):
         done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "--schema"], capture_output=True, text=True, check=True)
         schema, count = jsonschema.Draft7Validator(json.loads(done.stdout)), 0

@@ -1,6 +1,7 @@
 """Pictures of the manual: pages choose them by themselves, they show something, and they are made once."""
 
 import os
+import re
 import shutil
 import sys
 import unittest
@@ -19,6 +20,7 @@ sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 from bielle_tools.manual import pages, site  # noqa: E402
 from bielle_tools.manual.example_pages import page_of, write_pages  # noqa: E402
 from bielle_tools.manual.examples import examples_of  # noqa: E402
+from bielle_tools.manual.pages import BLOCK  # noqa: E402
 from bielle_tools.manual.gathering import Gathered, gather, runnable  # noqa: E402
 from bielle_tools.manual.pictures import Picture, check_ink  # noqa: E402
 from bielle_tools.messages import InputError  # noqa: E402
@@ -198,12 +200,55 @@ class Site(Pages):
             self.assertIn("\nbielle-mechanism robot_arm.yaml\n", file.read())
         self.assertTrue(page_of(REPOSITORY, "no_title.yaml", "nodes: {}\n").startswith("# No title\n"))
 
+    def shown(self):
+        """{page: [(page whose picture it shows, line)]} of the site; pages with models: {page: path}"""
+        os.makedirs(self.path("pages"), exist_ok=True)
+        every = {page: os.path.join(REPOSITORY, page) for part in site.pages_of(REPOSITORY).values() for page in part}
+        every.update(write_pages(REPOSITORY, self.path("pages")))
+        found = {}
+        for page, path in every.items():
+            with open(path, encoding="utf-8") as file:
+                found[page] = site.shown_pages(BLOCK.sub("", file.read()), page)
+        return found, every
+
+    def test_pages_whose_pictures_are_shown_have_models(self):
+        found, every = self.shown()
+        self.assertGreater(sum(map(len, found.values())), 15)
+        for page, others in found.items():
+            for other, line in others:
+                with self.subTest(f"{page}:{line}"):
+                    self.assertIn(other, every)
+                    self.assertNotEqual(examples_of(every[other]), [])
+
+    def test_a_page_shows_the_picture_of_another(self):
+        pictures = [Picture("own.png", "", None), Picture("m.png", "a [machine]", 0), Picture("m_plot.svg", "a curve", 1)]
+        gathered = Gathered({"a/b/other.md": pictures, "a/bare.md": pictures[:1]}, {})
+
+        def written(comment):
+            return site.SHOWS.sub(lambda match: site._shown(match, "a/c/page.md", gathered), f"x\n{comment}\ny\n")  # pylint: disable=protected-access
+        self.assertEqual(written("<!-- shows: ../b/other.md -->"), "x\n[![a  machine ](../b/m.png)](../b/other.md)\ny\n")
+        self.assertEqual(written("<!-- shows: ../b/other.md machine -->"), written("<!-- shows: ../b/other.md -->"))
+        self.assertEqual(written("<!-- shows: ../b/other.md curve -->"), "x\n[![a curve](../b/m_plot.svg)](../b/other.md)\ny\n")
+        for comment, said in (("<!-- shows: ../bare.md -->", "the page 'a/bare.md' has no machine"), ("<!-- shows: none.md curve -->", "the page 'a/c/none.md' has no curve")):
+            with self.assertRaisesRegex(InputError, f"a/c/page.md: '{comment}': {said}"):
+                written(comment)
+
     def test_sources_have_the_pictures(self):
         os.mkdir(self.path("kept"))
-        self.write("kept/p.png", "x")
+        for name in ("p.png", "p_plot.svg"):
+            self.write(f"kept/{name}", "x")
         page = "mechanism/manual/reference/joints/bearing.md"
-        gathered = Gathered({page: [Picture("p.png", "alt", 0)]}, {page: self.path("kept")})
-        site.write_sources(REPOSITORY, self.path("sources"), gathered)
+        found, every = self.shown()
+        drawn = {page, *(other for others in found.values() for other, _ in others)}
+        gathered = Gathered({each: [Picture("p.png", "alt", 0), Picture("p_plot.svg", "alt", 0)] for each in drawn}, {each: self.path("kept") for each in drawn})
+        own = {each: path for each, path in every.items() if each.startswith("mechanism/examples/")}
+        site.write_sources(REPOSITORY, self.path("sources"), gathered, own)
+        for shows in filter(found.get, found):
+            with open(os.path.join(self.path("sources"), shows), encoding="utf-8") as file:
+                text = file.read()
+            self.assertNotIn("<!-- shows", text)
+            for place in re.findall(r"\[!\[alt\]\((\S+)\)\]", text):
+                self.assertTrue(os.path.isfile(os.path.join(self.path("sources"), os.path.dirname(shows), place)), f"{shows}: {place}")
         folder = os.path.dirname(os.path.join(self.path("sources"), page))
         self.assertTrue(os.path.isfile(os.path.join(folder, "p.png")))
         with open(os.path.join(self.path("sources"), page), encoding="utf-8") as file:

@@ -21,6 +21,9 @@ sys.path.insert(0, TOOLS)
 from bielle_tools.manual import pages  # noqa: E402
 
 WITHOUT_EXAMPLE = {"messages.md"}  # a page about what any run may print
+# Pages and tables of keys of states, by the key that tells their type.
+STATES = {"rate": ("states", "state_with_a__rate_"), "filter": ("filter", "filter"), "transfer_function": ("transfer_function", "transfer_function_2"),
+          "state_space": ("state_space", "state_space_block"), "sampled": ("sampled", "sampled_state"), "delayed": ("delayed", "delay")}
 SECTIONS = {"element": "elements", "joint": "joints", "analysis": "analyses"}  # folders of the reference by things
 
 
@@ -92,6 +95,16 @@ class Reference(unittest.TestCase):
                 path = os.path.join(REFERENCE, "hydraulics", f"{part}.md")
                 self.assert_page_of_keys(path, thing)
                 self.assertRegex(model_of(path), rf"\b{part}s?:|\bsupplies:")
+
+    def test_every_type_of_state_has_a_page(self):
+        keys = list(schema_of_mechanisms()["definitions"]["state"]["properties"])
+        self.assertEqual(keys[:keys.index("start")], list(STATES), "the keys before `start` tell the type")
+        for key, (page, thing) in STATES.items():
+            with self.subTest(key):
+                path = os.path.join(REFERENCE, "control", f"{page}.md")
+                self.assert_page_of_keys(path, thing)
+                self.assertRegex(model_of(path), rf"\b{key}:")
+                self.assertTrue(any(block.closed_form for block in pages.blocks(path)))
 
     def assert_page_of_keys(self, path, thing):
         self.assertTrue(os.path.exists(path), path)

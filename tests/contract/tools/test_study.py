@@ -24,6 +24,18 @@ class Study(WithStandIn):
                 self.assertNotIn("nodes", file[f"runs/{number}"])
         self.assertEqual([name for name in os.listdir(self.folder) if "study" in name], ["study.h5"])
 
+    def test_the_file_names_the_programs_of_its_runs(self):
+        first, second = ("bielle-mechanism 0.0 (commit stand-in)", "bielle-mechanism 0.0 (commit newer)")
+        self.assertEqual(self.study("speed,mass\n1,2\n1,-2\n2,2\n").returncode, 2)
+        with h5py.File(self.path("study.h5")) as file:
+            self.assertEqual(file.attrs["created_by"], first)
+        self.write("bielle-mechanism", STAND_IN.replace("stand-in", "newer"))
+        self.assertEqual(self.study("speed,mass\n1,2\n2,2\n3,2\n").returncode, 0)  # two runs are kept
+        with h5py.File(self.path("study.h5")) as file:
+            found = [file[f"runs/{number}"].attrs["created_by"] for number in (1, 2, 3)]
+            self.assertEqual(file.attrs["created_by"].split(", "), list(dict.fromkeys(found)))
+            self.assertEqual(found[2], second)
+
     def test_keeps_what_is_asked_for(self):
         self.assertEqual(self.study("speed,mass\n1,2\n", "--keep", "nodes").returncode, 0)
         with h5py.File(self.path("study.h5")) as file:

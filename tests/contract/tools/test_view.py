@@ -1,11 +1,15 @@
 """bielle-view: the page in a headless browser shows the results, for regular and for damaged files."""
 
+import base64
 import http.client
+import json
 import os
+import re
 import subprocess
 import sys
 import time
 import unittest
+import zlib
 
 import h5py
 import numpy as np
@@ -72,6 +76,21 @@ class Command(InFolder):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (status, 1), done.stderr)
             self.assertIn(says, done.stderr)
 
+    @staticmethod
+    def described(page):
+        """The data of a page."""
+        packed = re.search(r'id="description">([^<]+)<', page).group(1)
+        return json.loads(zlib.decompress(base64.b64decode(packed)))
+
+    def test_the_page_names_the_program_of_each_run(self):
+        programs = ["bielle-mechanism 0.1.0 (commit 0123456789ab)", "bielle-mechanism 0.2.0 (commit </script>)"]
+        paths = [write_results(self.path(f"run{k}.h5"), {"n": resting(2)}, [], extra=lambda file, by=by: file.attrs.update(created_by=by))
+                 for k, by in enumerate(programs)]
+        self.assertEqual(view(*paths, "-o", self.path("page.html")).returncode, 0)
+        with open(self.path("page.html"), encoding="utf-8") as file:
+            found = self.described(file.read())["runs"]
+        self.assertEqual([run["created_by"] for run in found], programs)
+
     def test_the_page_loads_nothing(self):
         path = write_results(self.path("run.h5"), {"n": resting(2)}, [])
         self.assertEqual(view(path).returncode, 0)
@@ -79,6 +98,7 @@ class Command(InFolder):
             text = file.read()
         self.assertIn("default-src 'none'", text)
         self.assertIn("connect-src 'none'", text)
+        self.assertEqual(self.described(text)["runs"][0]["created_by"], "", "these results do not tell")
         for word in ("<script src", "<link", "@import", "<img", "<iframe"):
             self.assertNotIn(word, text.replace("<script>", ""), word)
 
@@ -179,6 +199,12 @@ class Viewed(Pages, InFolder):
         self.assertAlmostEqual(ratio(600, 900), 1, delta=1e-6)
         self.run_script("bielle.camera.touched = true")
         self.assertGreater(abs(ratio(1400, 500) - 1), 0.05)
+        self.no_errors()
+
+    def test_the_help_names_the_program(self):
+        program = "bielle-mechanism 0.1.0 (commit 0123456789ab)"
+        self.page(self.every(extra=lambda file: file.attrs.update(created_by=program)))
+        self.assertIn(f"every.h5: computed by {program}.", self.run_script("return document.getElementById('help').textContent"))
         self.no_errors()
 
     def test_keys(self):

@@ -6,13 +6,13 @@ from ..html_parts import document, mark, table, text
 from .making import MODELS
 
 
-def page(machines):
-    """The text of the page. @param machines  list of Made"""
+def page(machines, program):
+    """The text of the page. @param machines  list of Made; program: name, version and commit of what computed them"""
     failed = [made.name for made in machines if not made.passed]
     verdict = f"Failed: {', '.join(failed)}." if failed else "All checks passed."
     parts = ["<h1>Gallery of machines</h1>", f"<p class='{'failed' if failed else 'passed'}'>{text(verdict)}</p>",
              "<p>Each machine is a complete model. Its checks compare numbers of the run with others that are computed "
-             "without Bielle.</p>",
+             "without Bielle.</p>", f"<p class='quiet'>Computed by {text(program)}.</p>",
              "<ul>", *(f"<li><a href='#{made.name}'>{text(made.machine.title)}</a></li>" for made in machines), "</ul>",
              *map(section, machines)]
     return document("Bielle: gallery", parts)

@@ -22,6 +22,7 @@ LEAST_ROWS = 5          # of a curve
 LEAST_CHANGE = 1e-6     # of a curve, relative to its largest value
 MOST_MEASURES = 3       # in a plot that nothing chooses
 SIZE = "800x500"
+CURVE = "_plot.svg"      # end of the name of a curve
 FEW_ROWS = re.compile(r"^output: \{every: \d+\}\n", re.MULTILINE)
 FIGURES = {"campbell": "campbell", "frequency_response": "frequency_response"}  # group of the results: figure of bielle-plot
 
@@ -62,9 +63,9 @@ class Artist:
         machine = self._machine(example, facts, folder, os.path.join(target, base + ".png"))
         if machine:
             found.append(Picture(base + ".png", machine, example.written))
-        curve = self._curve(example, facts, folder, os.path.join(target, base + "_plot.svg"))
+        curve = self._curve(example, facts, folder, os.path.join(target, base + CURVE))
         if curve:
-            found.append(Picture(base + "_plot.svg", curve, example.ended))
+            found.append(Picture(base + CURVE, curve, example.ended))
         return found
 
     def _body(self, example, base, folder, target):

@@ -8,10 +8,11 @@ import subprocess
 
 from ..messages import InputError
 from .pages import BLOCK
+from .pictures import CURVE
 from .source_messages import explained, list_of_messages
 
 CONTENTS = {  # page that leads a part, and the pages of the part, in order
-    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/features.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md", "mechanism/manual/gallery.md",
+    "First steps": ["README.md", "mechanism/manual/README.md", "mechanism/manual/features.md", "mechanism/manual/getting_started/*.md", "mechanism/manual/how_do_i/README.md", "mechanism/manual/how_do_i/[a-z]*.md", "mechanism/manual/examples.md", "mechanism/manual/gallery.md",
                     "mechanism/manual/messages/README.md", "mechanism/manual/messages/[a-z]*.md"],
     "Mechanisms": ["mechanism/README.md", "mechanism/manual/reference/*/*.md", "mechanism/language/*.md",
                    "reduce/common/README.md", "mechanism/io/*.md", "mechanism/python/*.md", "mechanism/glossary*.md", "mechanism/keys.md"],
@@ -34,6 +35,7 @@ ALT = re.compile(r"[\[\]\\`*_<>]")  # letters with a meaning in the text of an i
 EXAMPLES = "Examples"  # title of the part with pages of the site alone
 PLACE = "<!-- pictures -->"
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+SHOWS = re.compile(r"^<!-- shows: (\S+)(?: (machine|curve))? -->$", re.MULTILINE)  # the picture of another page
 
 
 def pages_of(repository):
@@ -65,6 +67,8 @@ def write_sources(repository, folder, gathered=None, own=None):
             text = _with_pictures(text, gathered.pictures[page])
             for picture in gathered.pictures[page]:
                 shutil.copy(os.path.join(gathered.folders[page], picture.name), os.path.dirname(target))
+        if gathered:
+            text = SHOWS.sub(lambda match: _shown(match, page, gathered), text)
         with open(target, "w", encoding="utf-8") as file:
             file.write(LINK.sub(lambda match: _link(match, repository, page, pages, folder), text))
     _write_all_messages(repository, folder)
@@ -97,6 +101,26 @@ def _with_pictures(text, pictures):
         place = ends[picture.after]
         text = f"{text[:place]}\n\n{_image(picture)}\n{text[place:]}"
     return text
+
+
+def shown_pages(text, page):
+    """Pages, relative to the repository, whose pictures a page shows: [(page, line of the comment)]."""
+    return [(_relative(match.group(1), page), text.count("\n", 0, match.start()) + 1) for match in SHOWS.finditer(text)]
+
+
+def _relative(target, page):
+    return os.path.normpath(os.path.join(os.path.dirname(page), target))
+
+
+def _shown(match, page, gathered):
+    """The first machine or curve of another page, with a link to it. @raises InputError if that page has none"""
+    other, wanted = _relative(match.group(1), page), match.group(2) or "machine"
+    picture = next((each for each in gathered.pictures.get(other, [])
+                    if each.after is not None and each.name.endswith(CURVE) == (wanted == "curve")), None)
+    if picture is None:
+        raise InputError(f"{page}: '{match.group(0)}': the page '{other}' has no {wanted}")
+    place = os.path.relpath(os.path.join(os.path.dirname(other), picture.name), os.path.dirname(page) or ".")
+    return f"[![{ALT.sub(' ', picture.alt)}]({place})]({match.group(1)})"
 
 
 def _image(picture):

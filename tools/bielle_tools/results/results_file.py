@@ -140,6 +140,11 @@ class Results:
         """Name of the mechanism, or of the file."""
         return self.text("/", "name") or os.path.splitext(os.path.basename(self.path))[0]
 
+    @property
+    def created_by(self):
+        """Name, version and commit of the program that computed the results; empty if the file does not tell."""
+        return self.text("/", "created_by")
+
     @_told
     def names(self, section):
         """Names under `nodes`, `joints`, `elements`, ...; empty if there are none. Names of entries may contain `/`."""

@@ -1,6 +1,7 @@
 """Runs one model for every row of a table of parameters and gathers the results in one HDF5 file.
 
     /               attrs: format = "bielle study", version, model, complete;   /input  text of the model
+            created_by: names, versions and commits of the programs that made the runs
     /parameters/<name> (runs)  values as written in the table, as text
     /status (runs)  exit status of each run: 0 done, 1 wrong input, 2 failed; -1 not run yet
     /message (runs) what a failed run said
@@ -176,6 +177,7 @@ def _write(study, plan, folder):
         _text(study, f"parameters/{name}", [row[column] for row in plan.rows])
     status, messages = np.full(runs, -1), [""] * runs
     numbers, units = {each.name: np.full(runs, np.nan) for each in plan.wanted}, {}
+    made_by = []
     for index, identity in enumerate(plan.identities):
         path = run_path(folder, identity)
         about = facts(path)
@@ -184,6 +186,7 @@ def _write(study, plan, folder):
             continue
         status[index], messages[index] = about["status"], about["message"]
         with h5py.File(path, "r") as run:
+            made_by += {str(run.attrs.get("created_by", "unknown"))} - set(made_by) if len(run) else ()
             if len(run):
                 copy_results(run, study.create_group(f"runs/{index + 1}"), ["all"])
         if status[index] == 0:
@@ -195,6 +198,7 @@ def _write(study, plan, folder):
     for each in plan.wanted:
         study[f"gathered/{each.name}"] = numbers[each.name]
         study[f"gathered/{each.name}"].attrs.update({"of": each.words, "units": units.get(each.name, "")})
+    study.attrs["created_by"] = ", ".join(made_by)
     study.attrs["complete"] = bool(np.all(status >= 0))
     return status, messages, numbers, units
 

@@ -64,7 +64,7 @@ def build_page(paths, frames=500, superelements=None, analysis=None, live=None):
                                 gravity=None if scene.gravity is None else scene.gravity.tolist(), title=results[0].title)
                 described.append(_described(sequence, scene, scenes, pack, layouts, data["layouts"]))
                 notes += [note for note in scene.notes if note not in notes]
-            data["runs"].append({"name": os.path.basename(path), "keys": keys_of(results[0]), "sequences": described})
+            data["runs"].append({"name": os.path.basename(path), "created_by": results[0].created_by, "keys": keys_of(results[0]), "sequences": described})
     finally:
         for results in opened:
             results.file.close()

@@ -90,7 +90,8 @@ class Controls {
     box.append(element("table", {}, ...HELP.map(([key, text]) => element("tr", {}, element("td", {}, element("kbd", {textContent: key})), element("td", {textContent: text})))),
                element("p", {textContent: "Mouse: turn; right button or Shift: move; wheel: nearer, farther; click: identify."}),
                element("p", {textContent: `Numbers have 16 bits: positions to ${e.position.toExponential(1)} of the size, rotations to ${e.rotation.toExponential(1)} rad, ` +
-                 `deformations to ${e.shape.toExponential(1)} of the size, stresses to ${e.stress.toExponential(1)} of the largest.`}));
+                 `deformations to ${e.shape.toExponential(1)} of the size, stresses to ${e.stress.toExponential(1)} of the largest.`}),
+               ...this.app.data.runs.filter(run => run.created_by).map(run => element("p", {textContent: `${run.name}: computed by ${run.created_by}.`})));
     document.getElementById("help-button").addEventListener("click", () => { box.hidden = !box.hidden; });
   }
 
