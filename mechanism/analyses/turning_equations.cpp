@@ -70,9 +70,9 @@ TurningEquations::TurningEquations(const System& system, const StandingState& ab
       mean(rotation.mean) {}
 
 std::vector<Azimuth> TurningEquations::azimuths(const System& system, const StandingState& about, int count) const {
-  std::vector<Azimuth> mean = azimuths_over_turn(system, about.environment, about.state, part, count);
-  if (!orbit) return mean;
-  const OrbitEquations equations(system, about.environment, part, std::move(mean));
+  std::vector<Azimuth> of_mean = azimuths_over_turn(system, about.environment, about.state, part, count);
+  if (!orbit) return of_mean;
+  const OrbitEquations equations(system, about.environment, part, std::move(of_mean));
   std::vector<Azimuth> list;
   for (int k = 0; k < count; ++k) list.push_back(equations.linearised(k, orbit->deviation));
   return list;

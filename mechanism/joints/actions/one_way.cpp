@@ -145,7 +145,9 @@ bool RigidOneWay::is_on(const LocalState& state, int /*row*/) const { return hol
 // -- elastic
 
 void ElasticOneWay::declare(Declaration& declaration) const {
-  declare_one_way(declaration, {"", EventFunction::Direction::falling});
+  EventFunction opening{"", EventFunction::Direction::falling};
+  opening.begins_on = 1;  // a motion may begin without elongation
+  declare_one_way(declaration, opening);
   declaration.damping = damping_ > 0;
   declaration.kinks = true;  // at zero total force
 }

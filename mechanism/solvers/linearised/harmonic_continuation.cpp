@@ -60,17 +60,14 @@ void take_copy(int multiple, double rate, Complex& s, Eigen::MatrixXcd& u, Eigen
   if (s.imag() < 0) s = std::conj(s);
 }
 
-bool contains(const HarmonicModes& modes, const Mode& mode, const Eigen::MatrixXcd& u) {
-  constexpr double same = 1e-6, parallel = 1 - 1e-6;  // equal exponents may have different shapes
-  for (std::size_t k = 0; k < modes.found.modes.size(); ++k) {
-    if (std::abs(modes.found.modes[k].s - mode.s) > same * std::abs(mode.s)) continue;
-    const double both = std::norm(modes.u[k].conjugate().cwiseProduct(u).sum());
-    if (both > parallel * modes.u[k].squaredNorm() * u.squaredNorm()) return true;
-  }
+}  // namespace
+
+bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u, Complex s) {
+  for (std::size_t k = 0; k < modes.found.modes.size(); ++k)
+    if (modes.found.modes[k].kind != ModeKind::rigid && shapes.are_same(u, s, modes.u[k], modes.found.modes[k].s))
+      return true;
   return false;
 }
-
-}  // namespace
 
 std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, const HarmonicShapes& shapes,
                                             const HarmonicModes& from, int harmonics) {
@@ -100,7 +97,7 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
         take_copy(multiple, rate, mode.s, u, w);
         improve();
       }
-      if (shapes.is_shift(u, mode.s) || contains(modes, mode, u)) return std::nullopt;
+      if (shapes.is_shift(u, mode.s) || is_among(shapes, modes, u, mode.s)) return std::nullopt;
     }
     modes.whirl.push_back(shapes.whirl(shapes.sizes(u, mode.s)));
     modes.found.modes.push_back(std::move(mode));

@@ -26,6 +26,10 @@ struct HarmonicModes {
   std::vector<double> whirl;           ///< sense of each mode (HarmonicShapes::whirl)
 };
 
+/// Whether a motion is one of the modes that are not rigid. @param u  as many harmonics as they have @param s  exponent
+bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u,
+              std::complex<double> s);
+
 /// @param from  modes with fewer harmonics
 /// @returns modes with their changes by the further harmonics; nothing if two become the same one, or the shift in time
 std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, const HarmonicShapes& shapes,

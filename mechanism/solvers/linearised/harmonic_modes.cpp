@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/orthonormal.hpp"
 
 namespace bielle::mechanism {
@@ -47,6 +48,7 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
   const bool shifts = shapes_.any_shift() && !options.near;
   const auto finish = [&](bool enough) {
     if (shifts) add_shift(result);
+    result.found.all = result.found.all && (result.harmonics == 0 || is_complete(result));
     return enough;
   };
   for (const Mode& mode : found.modes) {
@@ -55,6 +57,7 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
     if (!rigid && shapes_.is_shift(u, mode.s)) continue;
     const HarmonicSizes sizes = shapes_.sizes(u, mode.s);
     if (!rigid && sizes.largest() != 0) continue;
+    if (mode.kind != ModeKind::rigid && result.harmonics > 0 && is_among(shapes_, result, u, mode.s)) continue;
     if (mode.kind != ModeKind::rigid && !options.below && ++count > options.count) {
       result.found.all = false;
       return finish(true);
@@ -65,6 +68,25 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
     result.whirl.push_back(shapes_.whirl(sizes));
   }
   return finish(options.below || found.all || count >= options.count);
+}
+
+/// Whether the modes are as many as the finite eigenvalues of the equations at one azimuth.
+bool HarmonicSearch::is_complete(const HarmonicModes& modes) const {
+  const LinearisedEquations& first = equations_.first();
+  constexpr int most = 2000;  // limit of states for counting
+  const ShiftedOperator T(first, equations_.rate());
+  if (first.states() > most || !T.regular()) return false;
+  Eigen::Index least = 0, greatest = 0;
+  for (const Mode& mode : modes.found.modes) {
+    // A motion that is locked to the rotation is its own conjugate.
+    const double turns = 2 * mode.s.imag() / equations_.rate();
+    constexpr double rounding = 1e-6;
+    const bool single = mode.kind == ModeKind::rigid || std::abs(turns - std::round(turns)) < rounding;
+    least += single ? 1 : 2;
+    greatest += single && mode.kind != ModeKind::rigid ? 1 : 2;
+  }
+  const Eigen::Index all = count_finite_eigenvalues(first, T);
+  return least <= all && all <= greatest;
 }
 
 HarmonicModes HarmonicSearch::find_with(const ModeOptions& options, int harmonics) const {

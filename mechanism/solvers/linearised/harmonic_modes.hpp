@@ -23,6 +23,7 @@ class HarmonicSearch {
  private:
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
   void add_shift(HarmonicModes& result) const;
+  bool is_complete(const HarmonicModes& modes) const;
   bool take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const;
 
   const PeriodicEquations& equations_;

@@ -5,8 +5,14 @@
 
 namespace bielle::mechanism {
 
+namespace {
+
+constexpr double copied = 0.9;  // a copy lacks harmonics that are left out
+
+}  // namespace
+
 int HarmonicSizes::largest() const {
-  constexpr double moves = 1e-9, equal = 1e-6;
+  constexpr double moves = 1e-9, equal = 0.1;  // harmonics that are left out make equal ones differ
   const VectorX& deciding = standing.sum() > moves * turning.sum() ? standing : turning;
   const Eigen::Index middle = deciding.size() / 2;
   Eigen::Index place = middle;
@@ -53,26 +59,38 @@ double HarmonicShapes::whirl(const HarmonicSizes& sizes) const {
   return std::copysign(1, equations_.rate()) * (less - more) / (less + more);
 }
 
+bool HarmonicShapes::are_same(const Eigen::MatrixXcd& u, std::complex<double> s, const Eigen::MatrixXcd& other,
+                              std::complex<double> of_other, double alike) const {
+  constexpr double equal = 1e-5;
+  const double rate = equations_.rate();
+  const VectorX weight = weights(std::abs(rate));
+  for (const bool conjugate : {false, true}) {
+    const std::complex<double> t = conjugate ? std::conj(of_other) : of_other;
+    const Eigen::MatrixXcd v = conjugate ? Eigen::MatrixXcd(other.rowwise().reverse().conjugate()) : other;
+    const double k = std::round((s - t).imag() / rate);
+    if (std::abs(s - t - std::complex<double>(0, k * rate)) > equal * std::max(std::abs(s), std::abs(rate))) continue;
+    std::complex<double> product = 0;
+    double size = 0, of_v = 0;
+    for (Eigen::Index column = 0; column < u.cols(); ++column) {
+      const double from = static_cast<double>(column) + k;
+      if (from < 0 || from >= static_cast<double>(v.cols())) continue;
+      const auto of_copy = static_cast<Eigen::Index>(from);
+      for (Eigen::Index i = 0; i < u.rows(); ++i) {
+        product += weight[i] * std::conj(v(i, of_copy)) * u(i, column);
+        size += weight[i] * std::norm(u(i, column));
+        of_v += weight[i] * std::norm(v(i, of_copy));
+      }
+    }
+    const bool is_copy = k != 0 || (conjugate && of_other.imag() != 0);
+    if (size > 0 && std::norm(product) > (is_copy ? copied : alike) * size * of_v) return true;
+  }
+  return false;
+}
+
 bool HarmonicShapes::is_shift(const Eigen::MatrixXcd& u, std::complex<double> s) const {
   if (!any_shift()) return false;
-  constexpr double zero = 1e-5, same = 0.1;  // a copy lacks harmonics that are left out
-  const double rate = equations_.rate(), k = std::round(s.imag() / rate);
-  if (std::abs(s - std::complex<double>(0, k * rate)) > zero * std::abs(rate)) return false;
-  const VectorX weight = weights(rate);
   const auto h = static_cast<int>(u.cols() / 2);
-  const Eigen::MatrixXcd of_shift = equations_.amplitudes(shift(h), h);
-  std::complex<double> product = 0;
-  double size = 0, size_of_shift = 0;
-  for (int column = 0; column < u.cols(); ++column) {
-    const int from = column + static_cast<int>(k);
-    if (from < 0 || from >= u.cols()) continue;
-    for (Eigen::Index i = 0; i < u.rows(); ++i) {
-      product += weight[i] * std::conj(of_shift(i, from)) * u(i, column);
-      size += weight[i] * std::norm(u(i, column));
-      size_of_shift += weight[i] * std::norm(of_shift(i, from));
-    }
-  }
-  return std::norm(product) > (1 - same) * size * size_of_shift;
+  return are_same(u, s, equations_.amplitudes(shift(h), h), 0, copied);
 }
 
 }  // namespace bielle::mechanism

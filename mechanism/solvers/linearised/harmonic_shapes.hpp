@@ -17,7 +17,8 @@ namespace bielle::mechanism {
 struct HarmonicSizes {
   VectorX standing, turning;
 
-  /// Harmonic at which the part is largest that decides which exponent is the principal one: 0 for the principal one.
+  /// Harmonic at which the part is largest that decides which exponent is the principal one: 0 for the principal one,
+  /// and for one of several equals (a motion that is locked to the rotation).
   int largest() const;
 };
 
@@ -39,8 +40,14 @@ class HarmonicShapes {
   /// Sense of the motion of the turning part around the axis: 1 if its pattern runs forwards, -1 backwards, between for
   /// sums of both; NaN if less than a tenth of its motion runs around, or without a standing part.
   double whirl(const HarmonicSizes& sizes) const;
-  /// Whether a mode is the shift of the motion in time, or a copy of it: its exponent is a multiple of i rate, and its
-  /// harmonics are those of the shift. (A mode in resonance with the rotation has another shape.)
+  /// Whether two modes with as many harmonics are one motion: their exponents, or the conjugate of one, differ by a
+  /// multiple of i rate, and their harmonics are the same.
+  /// @param alike  square of the cosine between shapes of one exponent from which on they are the same: two modes of an
+  /// exponent may be any two of its shapes, which are nearly parallel by chance
+  bool are_same(const Eigen::MatrixXcd& u, std::complex<double> s, const Eigen::MatrixXcd& other,
+                std::complex<double> of_other, double alike = 1 - 1e-6) const;
+  /// Whether a mode is the shift of the motion in time, or a copy of it. (A mode in resonance with the rotation has
+  /// another shape.)
   bool is_shift(const Eigen::MatrixXcd& u, std::complex<double> s) const;
 
  private:

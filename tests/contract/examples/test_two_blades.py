@@ -22,6 +22,18 @@ class TwoBlades(ExampleTest):
             for other in nearest[:k]:
                 self.assertGreater(abs(one.real - other.real), 1e-3)
 
+    def test_a_resonance_that_is_locked_to_the_rotation_grows(self):
+        # Real exponents: the support moves at the rate of the rotation, with equal harmonics on both sides.
+        target, rate = os.path.join(self.folder, "resonant.h5"), 12
+        model = os.path.join(EXAMPLES, self.model)
+        subprocess.run([PROGRAM, model, "--set", f"rate={rate}", "-o", target, "--quiet"], check=True, timeout=100)
+        _, expected = two_blades.exponents(rate)
+        found = two_blades.modes(target)
+        self.assertEqual(len(found), 4)
+        for value in found:
+            self.assertLess(abs(two_blades.nearest(value, expected, rate).real - value.real), 1e-6)
+        self.assertEqual(sum(value.real > 0 for value in found), 1)
+
     def test_gravity_matters(self):
         # Without it the motion is steady, and the second exponent decays by another rate.
         target = os.path.join(self.folder, "weightless.h5")

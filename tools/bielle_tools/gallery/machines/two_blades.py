@@ -55,10 +55,10 @@ def nearest(value, found, rate):
 
 
 def modes(path):
-    """Exponents of the modes of a run that oscillate."""
+    """Exponents of the modes of a run that are not rigid."""
     with Results(path) as results:
         kinds, values = results.array("eigen/kind"), results.array("eigen/eigenvalue")
-    return [complex(*value) for kind, value in zip(kinds, values) if kind.decode() == "oscillating"]
+    return [complex(*value) for kind, value in zip(kinds, values) if kind.decode() != "rigid"]
 
 
 def check(paths):
