@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "mechanism/analyses/blade_pattern.hpp"
 #include "mechanism/solvers/linearised/mode_parts.hpp"
 #include "mechanism/solvers/linearised/whirl.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
@@ -169,7 +169,7 @@ ModeMotion MotionWords::deformation(const ModeGroup& group, const Amplitudes& am
   const bool blades = are_blades(group);
   const bool round = group.flap[k] + group.edge[k] < (1 - mode_share) * bending;
   const auto with_pattern = [&](const char* family, const std::string& motion) {
-    return blades ? ModeMotion{family, motion, blade_pattern(group, amplitudes), static_cast<int>(group.nodes.size())}
+    return blades ? ModeMotion{family, motion, pattern_of(group, amplitudes), static_cast<int>(group.nodes.size())}
                   : ModeMotion{family, motion, ""};
   };
   if (!kind) return with_pattern("", "");
@@ -213,7 +213,7 @@ ModeMotion MotionWords::rigid_motion(const ModeGroup& group, const Amplitudes& a
                          : out >= mode_share * whole         ? "out of plane"
                          : whole - out >= mode_share * whole ? "in plane"
                                                              : "";
-    return {"", motion, blade_pattern(group, amplitudes), static_cast<int>(group.nodes.size())};
+    return {"", motion, pattern_of(group, amplitudes), static_cast<int>(group.nodes.size())};
   }
   if (turns(group)) {
     const Eigen::Matrix3Xcd& motion = rotates ? turned : moved;
@@ -289,14 +289,12 @@ std::string MotionWords::whirl(std::size_t mode) const {
   return sense >= least ? "forward" : sense <= -least ? "backward" : "";
 }
 
-/// Compares the blades' amplitudes q_b at the node that moves most, with their azimuths psi_b: shares of the mean, of
-/// exp(-i psi_b), a pattern that runs forwards, and of exp(i psi_b), one that runs backwards.
-std::string MotionWords::blade_pattern(const ModeGroup& group, const Amplitudes& amplitudes) const {
+/// Compares the amplitudes of the blades at the node that moves most.
+std::string MotionWords::pattern_of(const ModeGroup& group, const Amplitudes& amplitudes) const {
   if (!report_.turning || !(report_.found.modes[amplitudes.number].s.imag() > 0)) return {};
   const Eigen::Matrix3Xcd& moved = amplitudes.shapes.displacement;
-  const std::size_t blades = group.nodes.size();
   Vector3 middle = Vector3::Zero();
-  for (const std::vector<int>& nodes : group.nodes) middle += centre(nodes) / static_cast<double>(blades);
+  for (const std::vector<int>& nodes : group.nodes) middle += centre(nodes) / static_cast<double>(group.nodes.size());
   std::size_t place = 0;
   double most = 0;
   for (std::size_t i = 0; i < group.nodes.front().size(); ++i) {
@@ -308,38 +306,14 @@ std::string MotionWords::blade_pattern(const ModeGroup& group, const Amplitudes&
     }
   }
   const bool out_of_plane = along(moved, group, axis_) >= 0.5 * size(moved, group);
-  const Vector3 first = axis_.unitOrthogonal(), second = axis_.cross(first);
-  Complex mean = 0, forward = 0, backward = 0;
-  double sum = 0;
-  Eigen::Vector3cd resultant = Eigen::Vector3cd::Zero();  // on the hub: a moment or a force
+  std::vector<BladeAmplitude> blades;
   for (const std::vector<int>& nodes : group.nodes) {
-    const Vector3 arm = centre(nodes) - middle;
-    const Vector3 radial = (arm - axis_ * axis_.dot(arm)).normalized();
-    const Vector3 tangent = axis_.cross(radial);
-    const Complex amplitude = (out_of_plane ? axis_ : tangent).cast<Complex>().dot(moved.col(nodes[place]));
-    const Complex phase = std::polar(1.0, std::atan2(radial.dot(second), radial.dot(first)));
-    mean += amplitude;
-    forward += amplitude * phase;
-    backward += amplitude * std::conj(phase);
-    sum += std::norm(amplitude);
-    resultant += (out_of_plane ? Vector3(-tangent) : tangent).cast<Complex>() * amplitude;
+    const Vector3 arm = centre(nodes) - middle, radial = (arm - axis_ * axis_.dot(arm)).normalized();
+    const Vector3 direction = out_of_plane ? axis_ : Vector3(axis_.cross(radial));
+    blades.push_back({radial, direction.cast<Complex>().dot(moved.col(nodes[place]))});
   }
-  const double whole = static_cast<double>(blades) * sum;
-  if (!(whole > 0)) return {};
-  if (std::norm(mean) >= mode_share * whole) return "collective";
-  if (blades == 2) return std::norm(forward) >= mode_share * whole ? "differential" : "";
-  const double ahead = std::norm(forward) / whole, behind = std::norm(backward) / whole;
-  if (1 - ahead - behind - std::norm(mean) / whole >= mode_share) return "reactionless";
-  if (ahead + behind < mode_share) return {};
-  if (whirls_ && ahead >= mode_share) return "forward";
-  if (whirls_ && behind >= mode_share) return "backward";
-  const auto axes = standing_axes(group);
-  if (report_.turning->periodicity != Periodicity::negligible || !axes) return "asymmetric";
-  const double side = std::norm(axes->col(1).cast<Complex>().dot(resultant)),
-               up = std::norm(axes->col(2).cast<Complex>().dot(resultant));
-  if (side >= mode_share * (side + up)) return out_of_plane ? "tilt" : "horizontal";
-  if (up >= mode_share * (side + up)) return out_of_plane ? "yaw" : "vertical";
-  return "asymmetric";
+  const bool rests = report_.turning->periodicity == Periodicity::negligible;
+  return blade_pattern(blades, axis_, out_of_plane, whirls_, rests ? standing_axes(group) : std::nullopt);
 }
 
 }  // namespace bielle::mechanism

@@ -33,7 +33,7 @@ class MotionWords {
   ModeMotion deformation(const ModeGroup& group, const Amplitudes& amplitudes) const;
   ModeMotion rigid_motion(const ModeGroup& group, const Amplitudes& amplitudes) const;
   std::string about_joint(const ModeGroup& group, const Amplitudes& amplitudes) const;
-  std::string blade_pattern(const ModeGroup& group, const Amplitudes& amplitudes) const;
+  std::string pattern_of(const ModeGroup& group, const Amplitudes& amplitudes) const;
   std::string whirl(std::size_t mode) const;
   Vector3 centre(const std::vector<int>& nodes) const;
 

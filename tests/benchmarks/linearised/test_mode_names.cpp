@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "mechanism/analyses/blade_pattern.hpp"
 #include "mechanism/analyses/campbell.hpp"
 #include "mechanism/analyses/mode_groups.hpp"
 #include "mechanism/analyses/mode_names.hpp"
@@ -341,6 +342,57 @@ TEST_CASE("a mast that carries a heavier load is the part of its modes", "[linea
       "  load: {type: rigid_body, node: top, mass: 2000, inertia: [1, 1, 1]}\n",
       2);
   CHECK(names == std::vector<std::string>{"1st mast bending about z", "1st mast bending about y"});
+}
+
+TEST_CASE("patterns of blades are those of their phases", "[linearised]") {
+  using Complex = std::complex<double>;
+  const Vector3 axis = Vector3::UnitX();
+  Matrix3 standing;  // along the axis, to the side, up
+  standing << 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  const auto pattern = [&](int count, auto amplitude, bool out_of_plane, bool sense, bool rests) {
+    std::vector<BladeAmplitude> blades;
+    for (int b = 0; b < count; ++b) {
+      const double psi = 2 * M_PI * b / count;  // from the upper blade on
+      blades.push_back({Vector3(0, -std::sin(psi), std::cos(psi)), amplitude(psi)});
+    }
+    return blade_pattern(blades, axis, out_of_plane, sense, rests ? std::optional(standing) : std::nullopt);
+  };
+  for (const int count : {3, 4, 5}) {
+    CAPTURE(count);
+    CHECK(pattern(
+              count, [](double) { return Complex(0, 2); }, true, true, false) == "collective");
+    CHECK(pattern(
+              count, [](double psi) { return std::polar(2.0, 1 - psi); }, true, true, false) == "forward");
+    CHECK(pattern(
+              count, [](double psi) { return std::polar(2.0, 1 + psi); }, false, true, false) == "backward");
+    CHECK(pattern(
+              count, [](double psi) { return std::polar(2.0, psi); }, true, false, false) == "asymmetric");
+    // The upper and the lower blade move against each other: the hub tilts, or is pushed sideways.
+    CHECK(pattern(
+              count, [](double psi) { return Complex(std::cos(psi)); }, true, true, true) == "tilt");
+    CHECK(pattern(
+              count, [](double psi) { return Complex(std::sin(psi)); }, true, true, true) == "yaw");
+    CHECK(pattern(
+              count, [](double psi) { return Complex(std::cos(psi)); }, false, true, true) == "horizontal");
+    CHECK(pattern(
+              count, [](double psi) { return Complex(std::sin(psi)); }, false, true, true) == "vertical");
+    CHECK(pattern(
+              count, [](double psi) { return Complex(std::cos(psi + M_PI / 4)); }, true, true, true) == "asymmetric");
+    CHECK(pattern(
+              count, [](double psi) { return Complex(1 + std::cos(psi)); }, true, true, false) == "collective");
+    CHECK(pattern(
+              count, [](double) { return Complex(0); }, true, true, false)
+              .empty());
+  }
+  CHECK(pattern(
+            4, [](double psi) { return Complex(std::cos(2 * psi)); }, true, true, false) == "reactionless");
+  CHECK(pattern(
+            5, [](double psi) { return Complex(std::cos(2 * psi)); }, true, true, false) == "reactionless");
+  CHECK(pattern(
+            2, [](double psi) { return Complex(std::cos(psi)); }, true, true, false) == "differential");
+  CHECK(pattern(
+            2, [](double psi) { return Complex(psi < 1 ? 1 : 0); }, true, true, false)
+            .empty());
 }
 
 TEST_CASE("names of several entries are short", "[linearised]") {
