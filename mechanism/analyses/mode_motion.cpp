@@ -279,7 +279,7 @@ std::string MotionWords::about_joint(const ModeGroup& group, const Amplitudes& a
 }
 
 std::string MotionWords::whirl(std::size_t mode) const {
-  if (!whirls_) return {};
+  if (!whirls_ || !(report_.found.modes[mode].s.imag() > 0)) return {};
   double sense = NAN;
   if (report_.turning)
     sense = report_.turning_whirl(system_, mode);

@@ -80,15 +80,20 @@ std::vector<EqualModes> merge_equal(std::vector<ModeName>& modes) {
       places[all[k]] = {i, k, all.size()};
     }
     if (all.size() == 1) continue;
-    const bool one_family =
-        std::all_of(all.begin(), all.end(), [&](std::size_t j) { return modes[j].family == first.family; });
+    const auto all_have = [&](std::string ModeName::*word) {
+      return std::all_of(all.begin(), all.end(), [&](std::size_t j) { return modes[j].*word == first.*word; });
+    };
+    const std::string family = all_have(&ModeName::family) ? first.family : "";
+    const std::string motion = all_have(&ModeName::motion) ? first.motion : family;
+    const std::string pattern = all_have(&ModeName::pattern) ? first.pattern : "";
     for (const std::size_t j : all) {
-      modes[j].motion = one_family ? first.family : "";
-      modes[j].pattern.clear();
+      modes[j].motion = motion;
+      modes[j].pattern = pattern;
       modes[j].rate = first.rate;
       if (first.kind != ModeKind::rigid) continue;
       modes[j].part = rigid_motion;
       modes[j].motion.clear();
+      modes[j].pattern.clear();
     }
   }
   return places;

@@ -130,6 +130,21 @@ TEST_CASE("bending of a round cantilever has no plane: both modes of a frequency
                                           "2nd boom bending, 1 of 2", "2nd boom bending, 2 of 2"});
 }
 
+TEST_CASE("equal modes of equal parts keep what they have in common", "[linearised]") {
+  const std::vector<std::string> names = names_of(
+      "nodes: {a: {fixed: true}, b: {position: [1, 0, 0]}, c: {position: [0, 2, 0], fixed: true}, d: {position: [1, 2, "
+      "0]}}\nelements:\n"
+      "  boom_1: {type: beam, nodes: [a, b], elements: 3, section: {rectangle: [0.02, 0.03], young: 2e11, poisson: "
+      "0.3, "
+      "density: 7800}}\n"
+      "  boom_2: {type: beam, nodes: [c, d], elements: 3, section: {rectangle: [0.02, 0.03], young: 2e11, poisson: "
+      "0.3, "
+      "density: 7800}}\n",
+      4);
+  CHECK(names == std::vector<std::string>{"1st boom bending about z, 1 of 2", "1st boom bending about z, 2 of 2",
+                                          "1st boom bending about y, 1 of 2", "1st boom bending about y, 2 of 2"});
+}
+
 TEST_CASE("blades and tower have the names of designers, and whirls the frequencies of the collective mode -+ the rate",
           "[linearised]") {
   constexpr double rate = 2;
