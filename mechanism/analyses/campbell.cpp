@@ -71,25 +71,16 @@ class CampbellStates {
     return sample;
   }
 
-  /// Names the tracked modes of the last point.
+  /// Names the tracked modes by their shapes at the last point; modes that are lost there, by those at the first.
   void name_modes() {
-    const SweepPoint& last = found_->swept.points.back();
+    const SweepPoint &first = found_->swept.points.front(), &last = found_->swept.points.back();
     if (last.tracks.empty()) return;
-    found_->names.assign(last.tracks.size(), "");
-    with_modes(
-        last.value, count_,
-        [&](const System& system, const ModesReport& report) {
-          const std::vector<std::string> names = mode_names(system, report, mode_parts(system.model(), report));
-          std::vector<char> taken(names.size(), 0);
-          for (std::size_t i = 0; i < last.tracks.size(); ++i) {
-            const std::optional<std::size_t> mode = mode_of(last.tracks[i], report.found.modes, taken);
-            if (!mode) continue;
-            taken[*mode] = 1;
-            found_->names[i] = names[*mode];
-          }
-        },
-        true);
-    number_equal(found_->names, last);
+    std::vector<ModeName> names(last.tracks.size());
+    describe(last, names);
+    if (!std::all_of(last.tracks.begin(), last.tracks.end(), [](const TrackedMode& track) { return track.found; }))
+      describe(first, names);
+    for (std::size_t i = 0; i < names.size(); ++i) names[i].rate = std::abs(first.tracks[i].s);
+    found_->names = full_names(std::move(names));
   }
 
  private:
@@ -108,10 +99,21 @@ class CampbellStates {
     return nearest;
   }
 
-  static void number_equal(std::vector<std::string>& names, const SweepPoint& point) {
-    std::vector<double> rates;
-    for (const TrackedMode& track : point.tracks) rates.push_back(std::abs(track.s));
-    names = numbered_names(names, rates);
+  /// Describes the tracked modes of a point that have no description yet.
+  void describe(const SweepPoint& point, std::vector<ModeName>& names) const {
+    with_modes(
+        point.value, count_,
+        [&](const System& system, const ModesReport& report) {
+          const std::vector<ModeName> all = describe_modes(system, report);
+          std::vector<char> taken(all.size(), 0);
+          for (std::size_t i = 0; i < point.tracks.size(); ++i) {
+            const std::optional<std::size_t> mode = mode_of(point.tracks[i], report.found.modes, taken);
+            if (!mode) continue;
+            taken[*mode] = 1;
+            if (names[i].part.empty()) names[i] = all[*mode];
+          }
+        },
+        true);
   }
 
   /// Keeps the largest number of harmonics and the largest change by one more.

@@ -135,7 +135,7 @@ std::string format_frequency(const TrackedMode& mode) {
 std::string format_mode_lines(const SweptModes& swept, const std::vector<std::string>& names) {
   const SweepPoint &first = swept.points.front(), &last = swept.points.back();
   std::string text = fmt::format("  {:>4}  {:>12}  {:>12}  {:>11}  {:13}  {}\n", "mode", "first [Hz]", "last [Hz]",
-                                 "damping", "whirl at last", "name at last");
+                                 "damping", "whirl at last", "name");
   for (std::size_t k = 0; k < first.tracks.size(); ++k) {
     const TrackedMode& mode = last.tracks[k];
     const double ratio = mode.found ? -mode.s.real() / std::abs(mode.s) : NAN;

@@ -160,7 +160,7 @@ void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {
       environment.load_factor == 1 ? "" : fmt::format(", load factor {:.6g}", environment.load_factor));
   summary.text += format_start(report.about.start);
   if (!modes.empty()) {
-    const std::vector<std::string> names = mode_names(session.system(), report, parts);
+    const std::vector<std::string> names = full_names(describe_modes(session.system(), report), !options_.search.near);
     session.write(ResultNames{"eigen/name", names});
     summary.text += format_table(report, parts, names);
   }

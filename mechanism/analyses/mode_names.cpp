@@ -1,140 +1,188 @@
 #include "mechanism/analyses/mode_names.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
-#include <set>
+#include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
-#include "mechanism/analyses/campbell_arrays.hpp"
-#include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/analyses/mode_groups.hpp"
+#include "mechanism/analyses/mode_motion.hpp"
 
 namespace bielle::mechanism {
 namespace {
 
-/// Replaces each number in a name by a star.
-std::string with_stars(const std::string& name) {
-  std::string pattern;
-  for (const char c : name)
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0)
-      pattern += c;
-    else if (pattern.empty() || pattern.back() != '*')
-      pattern += '*';
-  return pattern;
+constexpr const char* coupled = "coupled mode";       // more than two parts share it
+constexpr const char* rigid_motion = "rigid motion";  // several have no own shapes
+
+/// Returns the part of a mode: the group whose deformation has most of the energy, otherwise the group with most of
+/// all energy, or two that have most of it together.
+/// @param one  the group, if it is one
+std::string main_part(const std::vector<ModeGroup>& groups, Eigen::Index mode, const ModeGroup*& one) {
+  std::vector<const ModeGroup*> sorted;
+  double whole = 0, kinetic = 0;
+  for (const ModeGroup& group : groups) {
+    sorted.push_back(&group);
+    whole += group.energy[mode];
+    kinetic += group.kinetic[mode];
+  }
+  if (sorted.empty() || !(whole > 0)) return {};
+  // In the mean over a period the whole potential energy is as large as the kinetic energy.
+  for (const ModeGroup* group : sorted)
+    if (group->deformation[mode] >= mode_share * kinetic && (!one || group->deformation[mode] > one->deformation[mode]))
+      one = group;
+  if (one) return one->name;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const ModeGroup* a, const ModeGroup* b) { return a->energy[mode] > b->energy[mode]; });
+  if (sorted[0]->energy[mode] >= mode_share * whole) {
+    one = sorted[0];
+    return one->name;
+  }
+  if (sorted[0]->energy[mode] + sorted[1]->energy[mode] < mode_share * whole) return coupled;
+  const auto [first, second] = std::minmax(sorted[0]->name, sorted[1]->name);
+  return fmt::format("{} and {}", first, second);
 }
 
-/// Entries with a common name, and the nodes of their members.
-struct EntryGroup {
-  std::set<std::string> entries;
-  std::set<int> nodes;
-  VectorX kinetic;  ///< in each mode
-  std::string name() const { return entries.size() == 1 ? *entries.begin() : with_stars(*entries.begin()); }
+std::string ordinal(int number) {
+  const bool teen = number % 100 / 10 == 1;
+  const char* const ending[] = {"th", "st", "nd", "rd"};
+  return fmt::format("{}{}", number, teen || number % 10 > 3 ? "th" : ending[number % 10]);
+}
+
+bool oscillates(const ModeName& mode) { return mode.s.imag() != 0; }
+
+/// A mode's place among those of its part with the same exponent.
+struct EqualModes {
+  std::size_t set = 0, place = 0, count = 1;
 };
 
-std::vector<EntryGroup> entry_groups(const System& system, const ModesReport& report) {
-  std::map<std::pair<Section, std::string>, EntryGroup> groups;
-  const auto& members = system.model().members();
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    const VectorX kinetic = report.energies.kinetic.row(static_cast<Eigen::Index>(m)).transpose();
-    if (kinetic.isZero(0)) continue;
-    const Entry& entry = members[m].entry;
-    EntryGroup& group = groups[{entry.section, with_stars(entry.name)}];
-    if (group.entries.empty()) group.kinetic = VectorX::Zero(kinetic.size());
-    group.entries.insert(entry.name);
-    group.kinetic += kinetic;
-    group.nodes.insert(system.slots()[m].nodes.begin(), system.slots()[m].nodes.end());
+/// Removes what shapes of equal modes do not determine.
+std::vector<EqualModes> merge_equal(std::vector<ModeName>& modes) {
+  constexpr double equal = 1e-6;  // relative
+  std::vector<EqualModes> places(modes.size());
+  std::vector<char> done(modes.size(), 0);
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (done[i] != 0) continue;
+    places[i].set = i;
+    if (modes[i].part.empty()) continue;
+    std::vector<std::size_t> all;
+    for (std::size_t j = i; j < modes.size(); ++j) {
+      const bool rigid = modes[i].kind == ModeKind::rigid && modes[j].kind == ModeKind::rigid;
+      const bool same = modes[i].kind == modes[j].kind && modes[i].part == modes[j].part &&
+                        std::abs(modes[i].s - modes[j].s) <= equal * std::abs(modes[i].s);
+      if (done[j] == 0 && !modes[j].part.empty() && (rigid || same)) all.push_back(j);
+    }
+    const ModeName first = modes[i];
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      done[all[k]] = 1;
+      places[all[k]] = {i, k, all.size()};
+    }
+    if (all.size() == 1) continue;
+    const auto all_have = [&](std::string ModeName::*word) {
+      return std::all_of(all.begin(), all.end(), [&](std::size_t j) { return modes[j].*word == first.*word; });
+    };
+    const std::string family = all_have(&ModeName::family) ? first.family : "";
+    const std::string motion = all_have(&ModeName::motion) ? first.motion : family;
+    const std::string pattern = all_have(&ModeName::pattern) ? first.pattern : "";
+    for (const std::size_t j : all) {
+      modes[j].motion = motion;
+      modes[j].pattern = pattern;
+      modes[j].rate = first.rate;
+      if (first.kind != ModeKind::rigid) continue;
+      modes[j].part = rigid_motion;
+      modes[j].motion.clear();
+      modes[j].pattern.clear();
+    }
   }
-  std::vector<EntryGroup> list;
-  for (auto& [key, group] : groups) list.push_back(std::move(group));
-  return list;
+  return places;
 }
 
-/// Sums of squares of the displacements and rotations of nodes along three directions.
-struct Motions {
-  Vector3 displacement = Vector3::Zero(), rotation = Vector3::Zero();
-};
-
-Motions motions_of(const EntryGroup& group, const NodeShapes& shapes) {
-  Motions sums;
-  for (const int node : group.nodes) {
-    sums.displacement += shapes.displacement.col(node).cwiseAbs2();
-    sums.rotation += shapes.rotation.col(node).cwiseAbs2();
-  }
-  return sums;
+/// The name without its number.
+std::string base_name(const ModeName& mode) {
+  if (mode.part.empty()) return {};
+  std::string name = mode.part;
+  if (!mode.motion.empty()) name += " " + mode.motion;
+  if (!mode.pattern.empty()) name += ", " + mode.pattern;
+  const bool tells = mode.kind == ModeKind::rigid ? mode.part != rigid_motion : !oscillates(mode);
+  if (tells) name += fmt::format(", {}", mode_kind_name(mode.kind));
+  return name;
 }
 
-constexpr double hardly_moves = 1e-2;  // displacement of a part that turns about itself, by rotation and extent
-
-std::string direction_of(const Motions& motions, double length) {
-  static const char* const axes[] = {"x", "y", "z"};
-  Eigen::Index along = 0, about = 0;
-  const double moved = motions.displacement.maxCoeff(&along), turned = motions.rotation.maxCoeff(&about);
-  return moved > std::pow(hardly_moves * length, 2) * turned ? fmt::format("along {}", axes[along])
-                                                             : fmt::format("about {}", axes[about]);
+/// The least order of a mode of blades, which have as many modes of each order as there are blades. Some of these may
+/// have mixed patterns, so that their names are others.
+int order_of_copies(const std::vector<ModeName>& modes, std::size_t k) {
+  if (modes[k].copies == 1) return 1;
+  int slower = 0;
+  for (const ModeName& other : modes)
+    if (other.part == modes[k].part && other.motion == modes[k].motion && other.kind == modes[k].kind &&
+        other.rate < modes[k].rate)
+      ++slower;
+  return 1 + slower / modes[k].copies;
 }
 
-std::string direction_behind_joint(const EntryGroup& group, const NodeShapes& shapes, const Vector3& axis,
-                                   double length) {
-  double along = 0, across = 0, about = 0, tilting = 0;
-  for (const int node : group.nodes) {
-    const Eigen::Vector3cd moved = shapes.displacement.col(node);
-    const double part = std::norm(axis.cast<std::complex<double>>().dot(moved));
-    along += part;
-    across += moved.squaredNorm() - part;
-    const Eigen::Vector3cd turned = shapes.rotation.col(node);
-    const double spin = std::norm(axis.cast<std::complex<double>>().dot(turned));
-    about += spin;
-    tilting += turned.squaredNorm() - spin;
-  }
-  if (along + across <= std::pow(hardly_moves * length, 2) * (about + tilting))
-    return about > tilting ? "about the axis" : "tilting";
-  return along > across ? "along the axis" : "across the axis";
+/// Numbers modes of one name by rising rate; equal modes count as one.
+std::vector<int> numbers_of(const std::vector<ModeName>& modes, const std::vector<std::string>& names,
+                            const std::vector<EqualModes>& equal) {
+  std::vector<std::size_t> ascending(modes.size());
+  std::iota(ascending.begin(), ascending.end(), std::size_t{0});
+  std::stable_sort(ascending.begin(), ascending.end(),
+                   [&](std::size_t a, std::size_t b) { return modes[a].rate < modes[b].rate; });
+  std::map<std::string, int> last;
+  std::vector<int> numbers(modes.size(), 0);
+  for (const std::size_t k : ascending)
+    numbers[k] = equal[k].place > 0 ? numbers[equal[k].set]
+                                    : last[names[k]] = std::max(last[names[k]] + 1, order_of_copies(modes, k));
+  return numbers;
 }
 
 }  // namespace
 
-std::vector<std::string> mode_names(const System& system, const ModesReport& report, const ModeParts& parts) {
-  std::vector<std::string> names;
-  if (parts.names.empty()) return std::vector<std::string>(report.found.modes.size());
-  const std::vector<EntryGroup> groups = entry_groups(system, report);
-  const State& state = report.about.state;
+std::vector<ModeName> describe_modes(const System& system, const ModesReport& report) {
+  const std::vector<ModeGroup> groups = mode_groups(system, report);
+  const MotionWords words(system, report);
+  std::vector<ModeName> modes;
   for (std::size_t k = 0; k < report.found.modes.size(); ++k) {
-    const EntryGroup* most = nullptr;
-    const auto mode = static_cast<Eigen::Index>(k);
-    for (const EntryGroup& group : groups)
-      if (!most || group.kinetic[mode] > most->kinetic[mode]) most = &group;
-    if (!most) {
-      names.emplace_back();
-      continue;
-    }
-    const NodeShapes shapes = node_shapes(system, state, report.found.modes[k]);
-    bool behind = report.turning.has_value();
-    for (const int node : most->nodes) behind = behind && report.turning_nodes[static_cast<std::size_t>(node)] != 0;
-    std::string name = most->name() + " ";
-    name += behind ? direction_behind_joint(*most, shapes, report.turning_axis, model_extent(state))
-                   : direction_of(motions_of(*most, shapes), model_extent(state));
-    const bool oscillates = report.found.modes[k].s.imag() > 0;
-    if (const double whirl = report.turning_whirl(system, k); oscillates && !std::isnan(whirl))
-      name += fmt::format(", {}", whirl_name(whirl));
-    names.push_back(std::move(name));
+    ModeName& name = modes.emplace_back();
+    const Mode& mode = report.found.modes[k];
+    name.s = mode.s;
+    name.kind = mode.kind;
+    name.rate = std::abs(mode.s);
+    const ModeGroup* group = nullptr;
+    name.part = main_part(groups, static_cast<Eigen::Index>(k), group);
+    name.numbered = name.part == coupled;
+    if (!group) continue;
+    ModeMotion motion = words(*group, k);
+    name.family = std::move(motion.family);
+    name.motion = std::move(motion.motion);
+    name.pattern = std::move(motion.pattern);
+    name.copies = motion.copies;
+    name.numbered = group->flexible && mode.kind != ModeKind::rigid && oscillates(name);
   }
-  return names;
+  return modes;
 }
 
-std::vector<std::string> numbered_names(const std::vector<std::string>& names, const std::vector<double>& rates) {
-  std::vector<std::string> numbered = names;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (names[k].empty() || std::count(names.begin(), names.end(), names[k]) == 1) continue;
-    int number = 1;
-    for (std::size_t j = 0; j < names.size(); ++j)
-      if (names[j] == names[k] && (rates[j] < rates[k] || (rates[j] == rates[k] && j < k))) ++number;
-    const bool teen = number % 100 / 10 == 1;
-    const char* const ending[] = {"th", "st", "nd", "rd"};
-    numbered[k] += fmt::format(", {}{}", number, teen || number % 10 > 3 ? "th" : ending[number % 10]);
+std::vector<std::string> full_names(std::vector<ModeName> modes, bool from_slowest) {
+  const std::vector<EqualModes> equal = merge_equal(modes);
+  std::vector<std::string> names;
+  for (const ModeName& mode : modes) names.push_back(base_name(mode));
+  const std::vector<int> numbers = numbers_of(modes, names, equal);
+  std::vector<std::string> full = names;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    if (names[k].empty()) continue;
+    if (modes[k].kind != ModeKind::rigid) {
+      bool alone = true;
+      for (std::size_t j = 0; j < modes.size(); ++j)
+        alone = alone && (names[j] != names[k] || equal[j].set == equal[k].set);
+      if (from_slowest && (modes[k].numbered || numbers[k] > 1))
+        full[k] = fmt::format("{} {}", ordinal(numbers[k]), full[k]);
+      if (!from_slowest && !alone)
+        full[k] += fmt::format(", at {:.6g} Hz", std::abs(modes[k].s) / (2 * std::numbers::pi));
+    }
+    if (equal[k].count > 1) full[k] += fmt::format(", {} of {}", equal[k].place + 1, equal[k].count);
   }
-  return numbered;
+  return full;
 }
 
 }  // namespace bielle::mechanism

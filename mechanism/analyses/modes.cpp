@@ -49,7 +49,8 @@ void scale_to_unit(const System& system, const State& state, std::vector<Mode>& 
 /// Adds up the energies of the harmonics of modes: means over a period and over a turn.
 MemberEnergies energies_of_harmonics(const System& system, const ModesReport& report, double rate) {
   const HarmonicModes& harmonic = *report.harmonic;
-  MemberEnergies sum;
+  MemberEnergies sum(static_cast<Eigen::Index>(system.model().members().size()),
+                     static_cast<Eigen::Index>(report.found.modes.size()));
   for (int k = -harmonic.harmonics; k <= harmonic.harmonics; ++k) {
     std::vector<Mode> modes = report.found.modes;
     for (std::size_t j = 0; j < modes.size(); ++j) {
@@ -57,9 +58,7 @@ MemberEnergies energies_of_harmonics(const System& system, const ModesReport& re
       modes[j].w = harmonic.w[j].col(k + harmonic.harmonics);
       modes[j].s += std::complex<double>(0, k * rate);
     }
-    const MemberEnergies part = member_energies(system, report.about.environment, report.about.state, modes);
-    sum.kinetic = sum.kinetic.size() > 0 ? MatrixX(sum.kinetic + part.kinetic) : part.kinetic;
-    sum.potential = sum.potential.size() > 0 ? MatrixX(sum.potential + part.potential) : part.potential;
+    sum += member_energies(system, report.about.environment, report.about.state, modes);
   }
   return sum;
 }

@@ -240,6 +240,23 @@ void BeamElement::add_energy(const LocalState& state, Energy& energy) const {
   if (!inertia_.is_massless()) inertia_.add_energy(state, energy);
 }
 
+// A shear that is constant along the element stands for the moment that varies along it (residual flexibility).
+StrainEnergies BeamElement::strain_energies(const LocalState& state, const Eigen::Ref<const VectorX>& du) const {
+  const Deformation D = deformation(state);
+  Vector12 h;
+  h << D.R_A.transpose() * du.segment<3>(0), R_A_.transpose() * du.segment<3>(3), D.R_B.transpose() * du.segment<3>(6),
+      R_B_.transpose() * du.segment<3>(9);
+  const Vector6 strain = D.S * h / L_, resultants = stiffness_ * strain;
+  const Vector6 energy = 0.5 * L_ * strain.cwiseProduct(resultants);
+  return {energy[0], energy[3], energy[2] + energy[4], energy[1] + energy[5]};
+}
+
+int BeamElement::softer_axis() const {
+  constexpr double equal = 1.05;
+  const double about_y = section_.stiffness(4, 4), about_z = section_.stiffness(5, 5);
+  return about_z > equal * about_y ? 1 : about_y > equal * about_z ? 2 : 0;
+}
+
 void BeamElement::describe(const LocalState& /*state*/, Description& description) const {
   description.add_sum("length", L_, "m");
   description.add_sum("mass", mass_, "kg");

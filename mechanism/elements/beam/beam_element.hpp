@@ -40,6 +40,7 @@
 #include "mechanism/elements/beam/beam_section.hpp"
 #include "mechanism/math/se3.hpp"
 #include "mechanism/model/component.hpp"
+#include "mechanism/model/slender_component.hpp"
 
 namespace bielle::mechanism {
 
@@ -52,7 +53,7 @@ struct BeamPlace {
   int elements = 1;  ///< number of elements of the beam
 };
 
-class BeamElement : public Component {
+class BeamElement : public Component, public SlenderComponent {
  public:
   /// Rotation [rad] between the ends above which a converged step is rejected: the logarithm is unique only below pi.
   static constexpr double largest_turn = 0.95 * std::numbers::pi;
@@ -84,6 +85,8 @@ class BeamElement : public Component {
     Eigen::Matrix<double, 6, 12> by_position, by_rate;
   };
   MiddleForces calc_middle_forces(const LocalState& state) const;
+  StrainEnergies strain_energies(const LocalState& state, const Eigen::Ref<const VectorX>& du) const override;
+  int softer_axis() const override;
   /// Stores psi; within the next step the relative rotation must not pass 180 degrees from this value. @throws
   /// ComputationError beyond `largest_turn`
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;

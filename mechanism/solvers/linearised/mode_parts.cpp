@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanism/model/coupled_pairs.hpp"
+#include "mechanism/model/slender_component.hpp"
 #include "mechanism/solvers/linearised/variations.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 
@@ -82,6 +83,25 @@ double mean_energy(const MatrixX& A, const Eigen::VectorXcd& x) {
   return 0.25 * (real.dot(A * real) + imag.dot(A * imag));
 }
 
+double mean_energy_of_rotations(const MatrixX& M, const Eigen::VectorXcd& w, Eigen::Index nodes) {
+  double sum = 0;
+  for (Eigen::Index k = 0; k < nodes; ++k)
+    sum += mean_energy(M.block<3, 3>(6 * k + 3, 6 * k + 3), w.segment<3>(6 * k + 3));
+  return sum;
+}
+
+/// Adds the strain energies of a slender member, averaged over a period.
+void add_strain_energies(const SlenderComponent& component, const LocalState& state, const Eigen::VectorXcd& u,
+                         Eigen::Index member, Eigen::Index mode, MemberEnergies& energies) {
+  for (const VectorX& part : {VectorX(u.real()), VectorX(u.imag())}) {
+    const StrainEnergies strain = component.strain_energies(state, part);
+    energies.extension(member, mode) += 0.5 * strain.extension;
+    energies.torsion(member, mode) += 0.5 * strain.torsion;
+    energies.bending_y(member, mode) += 0.5 * strain.bending_y;
+    energies.bending_z(member, mode) += 0.5 * strain.bending_z;
+  }
+}
+
 /// Adds up the potential energies of pairs of a member's nodes, in each mode.
 class PairEnergies final : public PairDerivatives {
  public:
@@ -104,11 +124,26 @@ class PairEnergies final : public PairDerivatives {
 
 }  // namespace
 
+MemberEnergies::MemberEnergies(Eigen::Index members, Eigen::Index modes) {
+  kinetic = potential = turning = extension = torsion = bending_y = bending_z = MatrixX::Zero(members, modes);
+}
+
+MemberEnergies& MemberEnergies::operator+=(const MemberEnergies& other) {
+  kinetic += other.kinetic;
+  potential += other.potential;
+  turning += other.turning;
+  extension += other.extension;
+  torsion += other.torsion;
+  bending_y += other.bending_y;
+  bending_z += other.bending_z;
+  return *this;
+}
+
 MemberEnergies member_energies(const System& system, const Environment& environment, const State& state,
                                const std::vector<Mode>& modes) {
   const auto& members = system.model().members();
   const auto rows = static_cast<Eigen::Index>(members.size()), columns = static_cast<Eigen::Index>(modes.size());
-  MemberEnergies energies{MatrixX::Zero(rows, columns), MatrixX::Zero(rows, columns)};
+  MemberEnergies energies(rows, columns);
   std::vector<std::vector<NodeVariation>> nodes;
   for (const Mode& mode : modes) {
     std::vector<NodeVariation>& of_mode = nodes.emplace_back();
@@ -119,6 +154,7 @@ MemberEnergies member_energies(const System& system, const Environment& environm
   for (Eigen::Index m = 0; m < rows; ++m) {
     const Component& component = *members[static_cast<std::size_t>(m)].component;
     const Slots& slots = system.slots()[static_cast<std::size_t>(m)];
+    const auto* slender = dynamic_cast<const SlenderComponent*>(&component);
     const int size = slots.size(), positions = slots.first_order_row();
     Declaration declaration;
     component.declare(declaration);
@@ -146,8 +182,12 @@ MemberEnergies member_energies(const System& system, const Environment& environm
       const auto j = static_cast<std::size_t>(k);
       const MemberVariation local = member_variation(system, slots, modes[j], nodes[j]);
       const bool rigid = modes[j].kind == ModeKind::rigid;
-      energies.kinetic(m, k) = mean_energy(M, rigid ? local.u : local.w);
-      if (!rigid) energies.potential(m, k) = mean_energy(K, local.u);
+      const Eigen::VectorXcd& rate = rigid ? local.u : local.w;
+      energies.kinetic(m, k) = mean_energy(M, rate);
+      energies.turning(m, k) = mean_energy_of_rotations(M, rate, static_cast<Eigen::Index>(slots.nodes.size()));
+      if (rigid) continue;
+      energies.potential(m, k) = mean_energy(K, local.u);
+      if (slender) add_strain_energies(*slender, LocalState(state, slots, environment), local.u, m, k, energies);
     }
   }
   return energies;

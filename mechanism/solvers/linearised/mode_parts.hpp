@@ -21,9 +21,15 @@ std::complex<double> unit_factor(const System& system, const State& state, const
 
 /// Energies of modes in each member of the model, averaged over a period: (dv^H M dv)/4 and (u^H K u)/4, with M and the
 /// symmetric part of K of the member alone. K contains the geometric stiffness of its forces, for a joint that of its
-/// reactions, for a body that of its weight. A rigid mode moves by its shape within a second.
+/// reactions, for a body that of its weight. A rigid mode moves by its shape within a second. All are (members, modes)
+/// [J] for unscaled amplitudes.
 struct MemberEnergies {
-  MatrixX kinetic, potential;  ///< (members, modes) [J] for unscaled amplitudes; potential ones may be negative
+  MatrixX kinetic, potential;                        ///< potential ones may be negative
+  MatrixX turning;                                   ///< kinetic energy of rotations of nodes alone
+  MatrixX extension, torsion, bending_y, bending_z;  ///< of slender members (SlenderComponent); of others zero
+  MemberEnergies(Eigen::Index members, Eigen::Index modes);
+  MemberEnergies() = default;
+  MemberEnergies& operator+=(const MemberEnergies& other);
 };
 MemberEnergies member_energies(const System& system, const Environment& environment, const State& state,
                                const std::vector<Mode>& modes);

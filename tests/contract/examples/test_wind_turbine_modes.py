@@ -61,8 +61,8 @@ class WindTurbineModes(ExampleTest):
 
     def test_modes_have_different_names_of_blades_and_tower(self):
         self.assertEqual(len(set(self.names)), 5)
-        self.assertTrue(any(name.startswith("tower along") for name in self.names), self.names)
-        self.assertTrue(any(name.startswith("blade_*.blade along the axis") for name in self.names), self.names)
+        for name in ("1st tower fore-aft", "1st tower side-side", "1st blade flap, backward", "1st blade flap, forward"):
+            self.assertIn(name, self.names)
 
     def test_critical_speeds_are_where_orders_meet_frequencies(self):
         self.assertEqual(set(self.critical["order"]), {1, 3})

@@ -81,7 +81,7 @@ analysis: [{type: eigen}]
         self.assertIn("what is behind joint 'pivot' turns at 3 rad/s, the rest stands still", text)
         self.assertIn("constant in axes that turn with it", text)
         with h5py.File(os.path.join(self.folder, "model.h5")) as file:
-            self.assertEqual([name.decode() for name in file["/eigen/name"]], ["rod across the axis"])
+            self.assertEqual([name.decode() for name in file["/eigen/name"]], ["rod across the axis, rigid"])
 
     def test_wrong_keys_are_refused(self):
         for analysis, says in (("{type: eigen, cuont: 3}", ("'cuont'", "did you mean 'count'")),

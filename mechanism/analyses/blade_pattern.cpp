@@ -1,0 +1,52 @@
+#include "mechanism/analyses/blade_pattern.hpp"
+
+#include <cmath>
+
+#include "mechanism/analyses/mode_motion.hpp"
+
+namespace bielle::mechanism {
+namespace {
+
+/// Tells an asymmetric pattern by the moment of motions out of the plane, or the force, on the hub.
+const char* hub_motion(const std::vector<BladeAmplitude>& blades, const Vector3& axis, bool out_of_plane,
+                       const Matrix3& standing) {
+  std::complex<double> side = 0, up = 0;
+  for (const BladeAmplitude& blade : blades) {
+    const Vector3 tangent = axis.cross(blade.radial), acts = out_of_plane ? Vector3(-tangent) : tangent;
+    side += standing.col(1).dot(acts) * blade.amplitude;
+    up += standing.col(2).dot(acts) * blade.amplitude;
+  }
+  const double whole = std::norm(side) + std::norm(up);
+  if (std::norm(side) >= mode_share * whole) return out_of_plane ? "tilt" : "horizontal";
+  if (std::norm(up) >= mode_share * whole) return out_of_plane ? "yaw" : "vertical";
+  return "asymmetric";
+}
+
+}  // namespace
+
+std::string blade_pattern(const std::vector<BladeAmplitude>& blades, const Vector3& axis, bool out_of_plane,
+                          bool has_sense, const std::optional<Matrix3>& standing) {
+  const Vector3 first = axis.unitOrthogonal(), second = axis.cross(first);
+  std::complex<double> sum = 0, sum_forward = 0, sum_backward = 0;
+  double squares = 0;
+  for (const auto& [radial, amplitude] : blades) {
+    const std::complex<double> phase = std::polar(1.0, std::atan2(radial.dot(second), radial.dot(first)));
+    sum += amplitude;
+    sum_forward += amplitude * phase;
+    sum_backward += amplitude * std::conj(phase);
+    squares += std::norm(amplitude);
+  }
+  const double whole = static_cast<double>(blades.size()) * squares;
+  if (!(whole > 0)) return {};
+  const double collective = std::norm(sum) / whole, forward = std::norm(sum_forward) / whole,
+               backward = std::norm(sum_backward) / whole;
+  if (collective >= mode_share) return "collective";
+  if (blades.size() == 2) return forward >= mode_share ? "differential" : "";
+  if (1 - collective - forward - backward >= mode_share) return "reactionless";
+  if (forward + backward < mode_share) return {};
+  if (has_sense && forward >= mode_share) return "forward";
+  if (has_sense && backward >= mode_share) return "backward";
+  return standing ? hub_motion(blades, axis, out_of_plane, *standing) : "asymmetric";
+}
+
+}  // namespace bielle::mechanism

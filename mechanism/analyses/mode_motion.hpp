@@ -1,0 +1,47 @@
+// Words for the motion of a part in a mode: "fore-aft", "bending about y", "flap".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanism/analyses/mode_groups.hpp"
+
+namespace bielle::mechanism {
+
+/// Share of a motion from which on a word describes it; motions that are more mixed have none.
+inline constexpr double mode_share = 0.6;
+
+struct ModeMotion {
+  std::string family;   ///< "bending"; may be empty
+  std::string motion;   ///< the family with its direction, "bending about y", "fore-aft"; may be empty
+  std::string pattern;  ///< of blades against each other, or the sense of whirl: "collective"; may be empty
+  int copies = 1;       ///< number of blades that have patterns
+};
+
+class MotionWords {
+ public:
+  MotionWords(const System& system, const ModesReport& report);
+  /// Describes the motion of a group.
+  ModeMotion operator()(const ModeGroup& group, std::size_t mode) const;
+
+ private:
+  struct Amplitudes;  ///< motions of the nodes in the mode
+  bool turns(const ModeGroup& group) const;
+  bool are_blades(const ModeGroup& group) const;
+  std::optional<Matrix3> standing_axes(const ModeGroup& group) const;
+  ModeMotion deformation(const ModeGroup& group, const Amplitudes& amplitudes) const;
+  ModeMotion rigid_motion(const ModeGroup& group, const Amplitudes& amplitudes) const;
+  std::string about_joint(const ModeGroup& group, const Amplitudes& amplitudes) const;
+  std::string pattern_of(const ModeGroup& group, const Amplitudes& amplitudes) const;
+  std::string whirl(std::size_t mode) const;
+  Vector3 centre(const std::vector<int>& nodes) const;
+
+  const System& system_;
+  const ModesReport& report_;
+  const State& state_;
+  Vector3 axis_ = Vector3::Zero();  ///< unit vector of the rotation in its sense; zero without one
+  bool whirls_ = false;             ///< whether senses of whirl are those that an observer at rest sees
+};
+
+}  // namespace bielle::mechanism
