@@ -263,9 +263,8 @@ TEST_CASE("an elastic one-way clutch winds up by the torque that it holds, and g
     CHECK_THAT(session.balance(), WithinAbs(0, 0.01 * 1.6e-3));  // 4^2/(2 k) = 0.01 J, (w h)^2
   });
   // It lets a wheel go that begins at rest: 2 rad after 1 s forwards and 1 s of braking.
-  move_to(wheel("one_way: {stiffness: 800, damping: 40}", 0, "if(t < 1, 4, -4)"), 2e-3, 5, [](const Session& session) {
-    CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(2 - 4.0 / 800, 1e-6));
-  });
+  move_to(wheel("one_way: {stiffness: 800, damping: 40}", 0, "if(t < 1, 4, -4)"), 2e-3, 5,
+          [](const Session& session) { CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(2 - 4.0 / 800, 1e-6)); });
   // A motion that follows another begins with the clutch as it is wound.
   {
     const auto file = bielle::mechanism::read_mechanism_text(wheel("one_way: {stiffness: 800}", 1, "-4"), "model.yaml");
