@@ -43,6 +43,9 @@ class Crane(unittest.TestCase):
         cls.results.file.close()
         cls.folder.cleanup()
 
+    def rows(self, name):
+        return np.squeeze(self.results.rows(name))
+
     def test_it_is_what_the_valves_are_told(self):
         """At rest before the first command; the load goes up, then down while the boom is lowered."""
         height = self.rows("measures/load_height")

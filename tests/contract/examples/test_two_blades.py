@@ -4,8 +4,8 @@ import os
 import subprocess
 import unittest
 
-from bielle_tools.gallery.machines import two_blades
 from example import EXAMPLES, PROGRAM, ExampleTest
+from bielle_tools.gallery.machines import two_blades
 
 
 class TwoBlades(ExampleTest):

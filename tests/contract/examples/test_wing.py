@@ -6,9 +6,9 @@ import unittest
 
 import numpy as np
 
+from example import EXAMPLES, PROGRAM, ExampleTest
 from bielle_tools.gallery.machines import wing
 from bielle_tools.results import Results
-from example import EXAMPLES, PROGRAM, ExampleTest
 
 
 class Wing(ExampleTest):
