@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "mechanism/solvers/linearised/mode_judgement.hpp"
@@ -19,12 +20,9 @@ Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h) {
   return wide;
 }
 
-/// Improves a mode of the equations by inverse iteration, with a shift next to its exponent, where they are regular.
-void iterate(const LinearisedEquations& equations, double rate, Mode& mode) {
+/// Improves a mode of the equations by inverse iteration.
+void iterate(const LinearisedEquations& equations, const ShiftedOperator& T, double rate, Mode& mode) {
   const double size = std::max(std::abs(mode.s), std::abs(rate));
-  const Complex off(6e-6, 8e-6);
-  const ShiftedOperator T(equations, mode.s + size * off);
-  if (!T.regular()) return;
   const auto scale = T.scale().cast<Complex>();
   Eigen::VectorXcd x(equations.states());
   x << mode.u, mode.w;
@@ -45,6 +43,21 @@ void iterate(const LinearisedEquations& equations, double rate, Mode& mode) {
   x = x.cwiseProduct(scale).eval();
   mode.u = x.head(equations.unknowns());
   mode.w = x.tail(equations.dofs);
+}
+
+/// Improves a mode with a shift next to its exponent, where the equations are regular.
+/// @param near  operator at another shift, whose pivots are used; replaced
+void improve(const LinearisedEquations& equations, double rate, std::unique_ptr<ShiftedOperator>& near, Mode& mode) {
+  const Complex shift = mode.s + std::max(std::abs(mode.s), std::abs(rate)) * Complex(6e-6, 8e-6);
+  constexpr double accurate = 1e-8;
+  const Mode before = mode;
+  const bool chosen = near == nullptr;
+  near = std::make_unique<ShiftedOperator>(equations, shift, std::move(near));
+  if (near->regular()) iterate(equations, *near, rate, mode);
+  if (chosen || (near->regular() && mode.residual < accurate)) return;
+  mode = before;
+  near = std::make_unique<ShiftedOperator>(equations, shift);
+  if (near->regular()) iterate(equations, *near, rate, mode);
 }
 
 /// Takes the copy of a motion whose exponent is larger by a multiple of i rate.
@@ -78,24 +91,25 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
   modes.found.states = from.found.states;
   modes.found.all = from.found.all;
   modes.found.growing_besides = from.found.growing_besides;
+  std::unique_ptr<ShiftedOperator> near;
   for (std::size_t k = 0; k < from.found.modes.size(); ++k) {
     Mode mode = from.found.modes[k];
     Eigen::MatrixXcd u = widened(from.u[k], harmonics), w = widened(from.w[k], harmonics);
-    const auto improve = [&] {
+    const auto improve_here = [&] {
       mode.u = equations.coefficients(u);
       mode.w = equations.coefficients(w);
       if (mode.kind == ModeKind::rigid) return;
-      iterate(modes.equations, rate, mode);
+      improve(modes.equations, rate, near, mode);
       u = equations.amplitudes(mode.u, harmonics);
       w = equations.amplitudes(mode.w, harmonics);
     };
-    improve();
+    improve_here();
     if (mode.kind != ModeKind::rigid) {
       const double size = std::max(std::abs(mode.s), std::abs(rate));
       modes.change = std::max(modes.change, std::abs(mode.s - from.found.modes[k].s) / size);
       if (const int multiple = shapes.sizes(u, mode.s).largest(); multiple != 0) {
         take_copy(multiple, rate, mode.s, u, w);
-        improve();
+        improve_here();
       }
       if (shapes.is_shift(u, mode.s) || is_among(shapes, modes, u, mode.s)) return std::nullopt;
     }

@@ -187,7 +187,6 @@ class OrbitSearch {
   }
 
   bool factorise(const PeriodicDeviation& orbit) {
-    operator_.reset();
     std::vector<LinearisedEquations> azimuths;
     for (int k = 0; k < equations_->count(); ++k) {
       azimuths.push_back(equations_->linearised(k, orbit).equations);
@@ -195,7 +194,7 @@ class OrbitSearch {
     }
     periodic_ = std::make_unique<const PeriodicEquations>(azimuths, rate_, length_);
     harmonics_ = periodic_->of_harmonics(orbit.harmonics);
-    operator_ = std::make_unique<const ShiftedOperator>(harmonics_, 0);
+    operator_ = std::make_unique<ShiftedOperator>(harmonics_, 0, std::move(operator_));
     return operator_->regular();
   }
 
@@ -308,7 +307,7 @@ class OrbitSearch {
   std::unique_ptr<const OrbitEquations> equations_;
   std::unique_ptr<const PeriodicEquations> periodic_;
   LinearisedEquations harmonics_;
-  std::unique_ptr<const ShiftedOperator> operator_;
+  std::unique_ptr<ShiftedOperator> operator_;
 };
 
 }  // namespace

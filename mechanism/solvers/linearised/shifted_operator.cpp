@@ -16,12 +16,18 @@ using VectorXc = ShiftedOperator::VectorXc;
 
 ShiftedOperator::ShiftedOperator(const LinearisedEquations& equations, Complex shift, Side side)
     : equations_(equations), shift_(shift), side_(side) {
-  build();
+  build(nullptr);
+}
+
+ShiftedOperator::ShiftedOperator(const LinearisedEquations& equations, Complex shift,
+                                 std::unique_ptr<ShiftedOperator> other)
+    : equations_(equations), shift_(shift), side_(Side::right) {
+  build(other.get());
 }
 
 ShiftedOperator::~ShiftedOperator() = default;
 
-void ShiftedOperator::build() {
+void ShiftedOperator::build(ShiftedOperator* other) {
   const LinearisedEquations& e = equations_;
   const int n = e.unknowns(), m = e.constraints(), size = n + m;
   SparseC shifted(n, n);
@@ -78,7 +84,13 @@ void ShiftedOperator::build() {
       most = std::max(most, std::abs(it.value()) * scale_[it.index()]);
     diagonal.segment(parts * (n + k), parts).setConstant(most > 0 ? 1 / most : 1);
   }
-  factors_ = std::make_unique<SparseLU>(*pattern_);
+  if (other != nullptr && other->regular_ && other->pattern_->column_start() == pattern_->column_start() &&
+      other->pattern_->row() == pattern_->row()) {
+    pattern_ = std::move(other->pattern_);  // the factors refer to it
+    factors_ = std::move(other->factors_);
+  } else {
+    factors_ = std::make_unique<SparseLU>(*pattern_);
+  }
   regular_ = factors_->factor(values, diagonal) == FactorStatus::good && factors_->reciprocal_condition() > 0;
   if (factors_->singular_column() >= 0) singular_ = factors_->singular_column() / parts;
 }

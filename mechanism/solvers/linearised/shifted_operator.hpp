@@ -28,6 +28,9 @@ class ShiftedOperator {
   enum class Side { right, left };
   /// @param equations  must outlive this object
   ShiftedOperator(const LinearisedEquations& equations, Complex shift, Side side = Side::right);
+  /// Takes over the sequence of pivots of another operator if its matrix has the same pattern, which saves most of the
+  /// factorisation. The solutions may be less accurate. @param other  ends; none: pivots are chosen
+  ShiftedOperator(const LinearisedEquations& equations, Complex shift, std::unique_ptr<ShiftedOperator> other);
   ~ShiftedOperator();
   ShiftedOperator(const ShiftedOperator&) = delete;
   ShiftedOperator& operator=(const ShiftedOperator&) = delete;
@@ -52,7 +55,7 @@ class ShiftedOperator {
 
  private:
   using SparseC = Eigen::SparseMatrix<Complex>;
-  void build();
+  void build(ShiftedOperator* other);
   void set_scale(const SparseC& D);
   template <class Vector, class Matrix>
   Vector right_side(const Vector& in, const Matrix& rates) const;
