@@ -1,11 +1,19 @@
 #include "mechanism/analyses/blade_pattern.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mechanism/analyses/mode_motion.hpp"
+#include "mechanism/solvers/newton/model_length.hpp"
 
 namespace bielle::mechanism {
 namespace {
+
+Vector3 centre(const State& state, const std::vector<int>& nodes) {
+  Vector3 sum = Vector3::Zero();
+  for (const int node : nodes) sum += state.nodes[static_cast<std::size_t>(node)].x;
+  return sum / static_cast<double>(nodes.size());
+}
 
 /// Tells an asymmetric pattern by the moment of motions out of the plane, or the force, on the hub.
 const char* hub_motion(const std::vector<BladeAmplitude>& blades, const Vector3& axis, bool out_of_plane,
@@ -23,6 +31,29 @@ const char* hub_motion(const std::vector<BladeAmplitude>& blades, const Vector3&
 }
 
 }  // namespace
+
+std::vector<Blade> blades_around(const Vector3& axis, const ModeGroup& group, const State& state) {
+  Vector3 middle = Vector3::Zero();
+  for (const std::vector<int>& nodes : group.nodes)
+    middle += centre(state, nodes) / static_cast<double>(group.nodes.size());
+  constexpr double off_axis = 1e-2, same_azimuth = 1e-2;
+  const double least = off_axis * model_extent(state);
+  std::vector<Blade> blades;
+  for (const std::vector<int>& nodes : group.nodes) {
+    const Vector3 arm = centre(state, nodes) - middle, across = arm - axis * axis.dot(arm);
+    if (across.norm() < least) return {};
+    const Vector3 radial = across.normalized();
+    const auto blade = std::find_if(blades.begin(), blades.end(),
+                                    [&](const Blade& each) { return (each.radial - radial).norm() < same_azimuth; });
+    if (blade == blades.end())
+      blades.push_back({radial, nodes});
+    else
+      blade->nodes.insert(blade->nodes.end(), nodes.begin(), nodes.end());
+  }
+  const bool equal = std::all_of(blades.begin(), blades.end(),
+                                 [&](const Blade& each) { return each.nodes.size() == blades.front().nodes.size(); });
+  return equal && blades.size() > 1 ? blades : std::vector<Blade>();
+}
 
 std::string blade_pattern(const std::vector<BladeAmplitude>& blades, const Vector3& axis, bool out_of_plane,
                           bool has_sense, const std::optional<Matrix3>& standing) {

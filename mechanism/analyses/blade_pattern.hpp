@@ -10,9 +10,19 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/math/types.hpp"
+#include "mechanism/analyses/mode_groups.hpp"
 
 namespace bielle::mechanism {
+
+struct Blade {
+  Vector3 radial;          ///< unit vector from the axis to its middle, inertial
+  std::vector<int> nodes;  ///< in the same order for each blade
+};
+
+/// Returns the blades of a turning group: entries at the same azimuth (pieces of a blade) are one.
+/// @param axis  unit vector of the rotation, inertial
+/// @returns nothing if it has no two of them with as many nodes, or an entry lies on the axis
+std::vector<Blade> blades_around(const Vector3& axis, const ModeGroup& group, const State& state);
 
 struct BladeAmplitude {
   Vector3 radial;                  ///< unit vector from the axis to the blade, inertial

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/analyses/blade_pattern.hpp"
 #include "mechanism/solvers/linearised/mode_parts.hpp"
 #include "mechanism/solvers/linearised/whirl.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
@@ -121,26 +120,8 @@ bool MotionWords::turns(const ModeGroup& group) const {
   return true;
 }
 
-Vector3 MotionWords::centre(const std::vector<int>& nodes) const {
-  Vector3 sum = Vector3::Zero();
-  for (const int node : nodes) sum += state_.nodes[static_cast<std::size_t>(node)].x;
-  return sum / static_cast<double>(nodes.size());
-}
-
-/// Blades are two or more turning entries of one kind around the axis.
-bool MotionWords::are_blades(const ModeGroup& group) const {
-  if (group.nodes.size() < 2 || !turns(group)) return false;
-  Vector3 middle = Vector3::Zero();
-  for (const std::vector<int>& nodes : group.nodes) {
-    if (nodes.size() != group.nodes.front().size()) return false;
-    middle += centre(nodes) / static_cast<double>(group.nodes.size());
-  }
-  constexpr double off_axis = 1e-2;
-  for (const std::vector<int>& nodes : group.nodes) {
-    const Vector3 arm = centre(nodes) - middle;
-    if (arm.cross(axis_).norm() < off_axis * model_extent(state_)) return false;
-  }
-  return true;
+std::vector<Blade> MotionWords::blades_of(const ModeGroup& group) const {
+  return turns(group) ? blades_around(axis_, group, state_) : std::vector<Blade>();
 }
 
 /// Columns: fore-aft (along the axis), side-side, vertical. Vertical is against gravity, without it along a beam.
@@ -166,17 +147,18 @@ ModeMotion MotionWords::deformation(const ModeGroup& group, const Amplitudes& am
   const Eigen::Index k = amplitudes.mode;
   const double y = group.bending_y[k], z = group.bending_z[k], bending = y + z;
   const auto kind = main_direction(Vector3(group.extension[k], group.torsion[k], bending));
-  const bool blades = are_blades(group);
+  const std::vector<Blade> blades = blades_of(group);
   const bool round = group.flap[k] + group.edge[k] < (1 - mode_share) * bending;
   const auto with_pattern = [&](const char* family, const std::string& motion) {
-    return blades ? ModeMotion{family, motion, pattern_of(group, amplitudes), static_cast<int>(group.nodes.size())}
-                  : ModeMotion{family, motion, ""};
+    return blades.empty()
+               ? ModeMotion{family, motion, ""}
+               : ModeMotion{family, motion, pattern_of(blades, group, amplitudes), static_cast<int>(blades.size())};
   };
   if (!kind) return with_pattern("", "");
   if (*kind == 0) return with_pattern("extension", "extension");
   if (*kind == 1) return with_pattern("torsion", "torsion");
   const Eigen::Matrix3Xcd& moved = amplitudes.shapes.displacement;
-  if (blades) {
+  if (!blades.empty()) {
     if (group.flap[k] >= mode_share * bending) return with_pattern("bending", "flap");
     if (group.edge[k] >= mode_share * bending) return with_pattern("bending", "edge");
     const double out = along(moved, group, axis_), whole = size(moved, group);
@@ -207,13 +189,13 @@ ModeMotion MotionWords::rigid_motion(const ModeGroup& group, const Amplitudes& a
   const Eigen::Matrix3Xcd& turned = amplitudes.shapes.rotation;
   const double turning = group.turning[k] / group.kinetic[k];
   const bool rotates = turning >= mode_share, moves = turning <= 1 - mode_share;
-  if (are_blades(group)) {
+  if (const std::vector<Blade> blades = blades_of(group); !blades.empty()) {
     const double out = along(moved, group, axis_), whole = size(moved, group);
     const char* motion = !moves                              ? ""
                          : out >= mode_share * whole         ? "out of plane"
                          : whole - out >= mode_share * whole ? "in plane"
                                                              : "";
-    return {"", motion, pattern_of(group, amplitudes), static_cast<int>(group.nodes.size())};
+    return {"", motion, pattern_of(blades, group, amplitudes), static_cast<int>(blades.size())};
   }
   if (turns(group)) {
     const Eigen::Matrix3Xcd& motion = rotates ? turned : moved;
@@ -290,30 +272,28 @@ std::string MotionWords::whirl(std::size_t mode) const {
 }
 
 /// Compares the amplitudes of the blades at the node that moves most.
-std::string MotionWords::pattern_of(const ModeGroup& group, const Amplitudes& amplitudes) const {
+std::string MotionWords::pattern_of(const std::vector<Blade>& blades, const ModeGroup& group,
+                                    const Amplitudes& amplitudes) const {
   if (!report_.turning || !(report_.found.modes[amplitudes.number].s.imag() > 0)) return {};
   const Eigen::Matrix3Xcd& moved = amplitudes.shapes.displacement;
-  Vector3 middle = Vector3::Zero();
-  for (const std::vector<int>& nodes : group.nodes) middle += centre(nodes) / static_cast<double>(group.nodes.size());
   std::size_t place = 0;
   double most = 0;
-  for (std::size_t i = 0; i < group.nodes.front().size(); ++i) {
+  for (std::size_t i = 0; i < blades.front().nodes.size(); ++i) {
     double sum = 0;
-    for (const std::vector<int>& nodes : group.nodes) sum += moved.col(nodes[i]).squaredNorm();
+    for (const Blade& blade : blades) sum += moved.col(blade.nodes[i]).squaredNorm();
     if (sum > most * (1 + 1e-9)) {
       most = sum;
       place = i;
     }
   }
   const bool out_of_plane = along(moved, group, axis_) >= 0.5 * size(moved, group);
-  std::vector<BladeAmplitude> blades;
-  for (const std::vector<int>& nodes : group.nodes) {
-    const Vector3 arm = centre(nodes) - middle, radial = (arm - axis_ * axis_.dot(arm)).normalized();
-    const Vector3 direction = out_of_plane ? axis_ : Vector3(axis_.cross(radial));
-    blades.push_back({radial, direction.cast<Complex>().dot(moved.col(nodes[place]))});
+  std::vector<BladeAmplitude> found;
+  for (const Blade& blade : blades) {
+    const Vector3 direction = out_of_plane ? axis_ : Vector3(axis_.cross(blade.radial));
+    found.push_back({blade.radial, direction.cast<Complex>().dot(moved.col(blade.nodes[place]))});
   }
   const bool rests = report_.turning->periodicity == Periodicity::negligible;
-  return blade_pattern(blades, axis_, out_of_plane, whirls_, rests ? standing_axes(group) : std::nullopt);
+  return blade_pattern(found, axis_, out_of_plane, whirls_, rests ? standing_axes(group) : std::nullopt);
 }
 
 }  // namespace bielle::mechanism

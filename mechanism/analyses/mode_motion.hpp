@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/analyses/mode_groups.hpp"
+#include "mechanism/analyses/blade_pattern.hpp"
 
 namespace bielle::mechanism {
 
@@ -28,14 +28,14 @@ class MotionWords {
  private:
   struct Amplitudes;  ///< motions of the nodes in the mode
   bool turns(const ModeGroup& group) const;
-  bool are_blades(const ModeGroup& group) const;
+  /// Returns two or more turning entries of one kind around the axis; nothing if it is none of these.
+  std::vector<Blade> blades_of(const ModeGroup& group) const;
   std::optional<Matrix3> standing_axes(const ModeGroup& group) const;
   ModeMotion deformation(const ModeGroup& group, const Amplitudes& amplitudes) const;
   ModeMotion rigid_motion(const ModeGroup& group, const Amplitudes& amplitudes) const;
   std::string about_joint(const ModeGroup& group, const Amplitudes& amplitudes) const;
-  std::string pattern_of(const ModeGroup& group, const Amplitudes& amplitudes) const;
+  std::string pattern_of(const std::vector<Blade>& blades, const ModeGroup& group, const Amplitudes& amplitudes) const;
   std::string whirl(std::size_t mode) const;
-  Vector3 centre(const std::vector<int>& nodes) const;
 
   const System& system_;
   const ModesReport& report_;

@@ -63,8 +63,9 @@ std::vector<std::pair<double, std::string>> cantilever_modes(double EIy, double 
 }
 
 /// A tower with a nacelle and three blades on a shaft through their middle; z up, the shaft along x.
-/// @param turn  angle of everything about z [rad]
-std::string turbine(double turn, const std::string& gravity = "gravity: [0, 0, -9.81]\n") {
+/// @param turn  angle of everything about z [rad] @param pieces  whether each blade is an entry or two, of as many
+/// elements
+std::string turbine(double turn, const std::string& gravity = "gravity: [0, 0, -9.81]\n", int pieces = 1) {
   const double c = std::cos(turn), s = std::sin(turn);
   const auto vector = [&](double x, double y, double z) {
     return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", c * x - s * y, s * x + c * y, z);
@@ -84,10 +85,19 @@ std::string turbine(double turn, const std::string& gravity = "gravity: [0, 0, -
     const double angle = 2 * M_PI * k / 3;
     const auto radial = [&](double r) { return vector(0, -r * std::sin(angle), r * std::cos(angle)); };
     nodes += fmt::format("  root_{0}: {{position: {1}}}\n  tip_{0}: {{position: {2}}}\n", k, radial(1), radial(20));
-    elements += fmt::format(
-        "  blade_{0}: {{type: beam, nodes: [root_{0}, tip_{0}], elements: 3, orientation: {1}, section: {{EA: 1e9, "
-        "GAy: 1e9, GAz: 1e9, GJ: 1e8, EIy: 2.4e8, EIz: 6e7, mass_per_length: 60, Jx: 5, Jy: 2, Jz: 3}}}}\n",
-        k, vector(1, 0, 0));
+    const auto add_beam = [&](const std::string& name, const std::string& ends, int count) {
+      elements += fmt::format(
+          "  {}: {{type: beam, nodes: [{}], elements: {}, orientation: {}, section: {{EA: 1e9, GAy: 1e9, GAz: 1e9, "
+          "GJ: 1e8, EIy: 2.4e8, EIz: 6e7, mass_per_length: 60, Jx: 5, Jy: 2, Jz: 3}}}}\n",
+          name, ends, count, vector(1, 0, 0));
+    };
+    if (pieces == 1) {
+      add_beam(fmt::format("blade_{}", k), fmt::format("root_{0}, tip_{0}", k), 3);
+    } else {
+      nodes += fmt::format("  middle_{}: {{position: {}}}\n", k, radial(1 + 19.0 / 3));
+      add_beam(fmt::format("blade_{}_1", k), fmt::format("root_{0}, middle_{0}", k), 1);
+      add_beam(fmt::format("blade_{}_2", k), fmt::format("middle_{0}, tip_{0}", k), 2);
+    }
     joints += fmt::format("  bolts_{0}: {{type: rigid, nodes: [hub, root_{0}]}}\n", k);
   }
   return nodes + elements + joints;
@@ -173,6 +183,12 @@ TEST_CASE("names of a turbine are the same however it is drawn", "[linearised]")
   // Without gravity the tower tells the vertical.
   CHECK(names_of(without, behind_shaft(without, 2, 10)) == names);
   CHECK(names_of(model, behind_shaft(model, -2, 10)) == names);
+}
+
+TEST_CASE("pieces of a blade have its name", "[linearised]") {
+  const std::string gravity = "gravity: [0, 0, -9.81]\n";
+  const ModesOf whole(turbine(0, gravity)), pieces(turbine(0, gravity, 2));
+  CHECK(names_of(pieces, behind_shaft(pieces, 2, 10)) == names_of(whole, behind_shaft(whole, 2, 10)));
 }
 
 TEST_CASE("the order of a blade's mode counts slower ones of mixed patterns", "[linearised]") {
