@@ -70,7 +70,8 @@ class Explain(CommandTest):
         error, hint = text.splitlines()
         self.assertIn("error: model.yaml: nothing to do", error)
         self.assertEqual(hint, "bielle-mechanism --explain nothing-to-do says more")
-        status, text = self.on_a_terminal("none.yaml")
+        self.write("slow.yaml", FALLING.replace("duration: 0.1", "duration: -1"))
+        status, text = self.on_a_terminal("slow.yaml")
         self.assertEqual((status, len(text.splitlines())), (1, 1), text)  # this message has no explanation
 
     def test_scripts_get_the_error_alone(self):

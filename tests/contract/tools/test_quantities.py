@@ -156,7 +156,8 @@ class OfSynthetic(InFolder):
                            ("main.reaction.max", "columns in N and N m"), ("kinetic[1]", "one number at each time"), ("main.reaction..x", "'..x' is not understood"),
                            ("main.reaction[1", "is not understood"), ("shaft.von_mises[1,1,1]", "are too many"), ("qqq", "bielle-table --list"),
                            ("hub.position.moment", "is one vector"), ("rod.deflection", "expected a point"), ("rod.deflection(1, 2", "a bracket is not closed"),
-                           ("analysis_3/main.angle", "holds no analysis 3"), ("", "has no quantity ''")):
+                           ("analysis_3/main.angle", "holds no analysis 3"), ("", "has no quantity ''"),
+                           ("main.angle + 1", "an entry of 'measures'"), ("kinetic/2^3", "an entry of 'measures'"), ("hub.z", "did you mean 'hub.position.z'?")):
             with self.subTest(text=text), self.assertRaises(InputError) as caught:
                 self.read(text)
             self.assertIn(part, str(caught.exception))

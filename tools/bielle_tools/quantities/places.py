@@ -7,6 +7,7 @@ are optional: `'rod.wrist'.position`.
 """
 
 import contextlib
+import re
 
 import h5py
 
@@ -105,6 +106,11 @@ class Places:
         fields."""
         names = self.recorded + self.made if "/" in written else list(self._names())
         plain, entry = written, written
+        if re.search(r"[+*^]|\s[-/]\s", written):
+            return ": a formula is an entry of 'measures' in the model, whose name is a quantity"
+        node, _, component = written.rpartition(".")
+        if component in ("x", "y", "z") and f"{node}.position" in self._names():
+            return f"; did you mean '{written[:-2]}.position.{component}'?"
         while "." in entry or "/" in entry:
             entry = entry[:max(entry.rfind("."), entry.rfind("/"))]
             fields = [name for name in names if name.startswith((entry + ".", entry + "/"))]
