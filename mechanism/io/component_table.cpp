@@ -105,6 +105,38 @@ const std::vector<ComponentType>& component_table() {
 
 namespace {
 
+/// Returns a clause that names the type by which other programs' name for it goes here, or nothing.
+std::optional<std::string> own_name(Section section, const std::string& wanted) {
+  static const std::vector<std::pair<std::string, std::string>> names = {{"revolute", "hinge"},
+                                                                         {"pin", "hinge"},
+                                                                         {"translational", "prismatic"},
+                                                                         {"fixed", "rigid"},
+                                                                         {"weld", "rigid"},
+                                                                         {"clamp", "rigid"},
+                                                                         {"ball", "spherical"},
+                                                                         {"hooke", "universal"},
+                                                                         {"cardan", "universal"},
+                                                                         {"inplane", "planar"},
+                                                                         {"rod", "distance"},
+                                                                         {"rope", "cable"},
+                                                                         {"spring", "spring_damper"},
+                                                                         {"damper", "spring_damper"},
+                                                                         {"mass", "point_mass"},
+                                                                         {"body", "rigid_body"},
+                                                                         {"flexible_body", "superelement"},
+                                                                         {"cylinder", "hydraulic_actuator"},
+                                                                         {"tire", "tyre"},
+                                                                         {"bush", "bushing"}};
+  for (const auto& [foreign, own] : names)
+    if (wanted == foreign)
+      for (const ComponentType& type : component_table())
+        if (own == type.name)
+          return type.section == section
+                     ? fmt::format("; here it is called '{}'", own)
+                     : fmt::format("; here it is called '{}', one of the {}", own, section_name(type.section));
+  return {};
+}
+
 /// Returns a clause that names the section of a type from another section, or nothing.
 std::optional<std::string> where_it_belongs(Section section, const std::string& wanted) {
   for (const ComponentType& type : component_table())
@@ -138,8 +170,10 @@ void read_component(Section section, const std::string& name, const YamlValue& e
       type.read(name, keyed, model);
       return read_activity(keyed, {section, name}, model);
     }
+  std::optional<std::string> clause = where_it_belongs(section, wanted);
+  if (!clause) clause = own_name(section, wanted);
   entry.at("type").fail(fmt::format("'{}' is not a type of the {}{}", wanted, section_name(section),
-                                    where_it_belongs(section, wanted).value_or(did_you_mean(wanted, names))));
+                                    clause.value_or(did_you_mean(wanted, names))));
 }
 
 }  // namespace bielle::mechanism

@@ -17,9 +17,11 @@ namespace {
 const std::set<std::string> steady_types = {"point_mass", "rigid_body", "spring_damper", "distance",
                                             "spherical",  "cable",      "load"};
 
+/// Nodes that are to turn at the start are left out: the rate would be lost.
 bool turns_freely(const Node& node) {
-  return !node.carrier && std::all_of(node.freedom.begin() + 3, node.freedom.end(),
-                                      [](Freedom freedom) { return freedom == Freedom::free; });
+  return !node.carrier && node.angular_velocity.isZero(0) &&
+         std::all_of(node.freedom.begin() + 3, node.freedom.end(),
+                     [](Freedom freedom) { return freedom == Freedom::free; });
 }
 
 bool has_a_line(const RigidBody& body) {

@@ -143,8 +143,8 @@ void Spool::check(const LocalState& state, const std::string& name) const {
   if (u >= least_ - rounding && u <= most_opening + rounding) return;
   throw ComputationError(
       fmt::format("t = {:.6g} s: the command of valve '{}' is {:.6g}: expected {:.6g} to {:.6g}, a share of the full "
-                  "opening; limit it in its formula, as in max(-1, min(1, ..))",
-                  state.time(), name, u, least_, most_opening));
+                  "opening; limit it in its formula, as in max({:.6g}, min(1, ..))",
+                  state.time(), name, u, least_, most_opening, least_));
 }
 
 std::string Spool::describe() const {

@@ -5,6 +5,7 @@
 
 #include "mechanism/joints/gears/gear_mesh.hpp"
 #include "mechanism/model/description.hpp"
+#include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 
@@ -24,6 +25,16 @@ void ElasticGearMesh::declare(Declaration& declaration) const {
 Vector3 ElasticGearMesh::normal(int side) const {
   const ToothGeometry& g = contact().geometry();
   return (side == 0 ? 1 : -1) * std::cos(g.pressure_angle) * g.t + std::sin(g.pressure_angle) * g.nu;
+}
+
+MeshMeasure ElasticGearMesh::stiffness(const LocalState& state) const {
+  const MeshMeasure k = spring_.stiffness(contact(), state);
+  if (!(k.value > 0))
+    throw ComputationError(fmt::format(
+        "the stiffness of the teeth of '{}' is {:.6g} N/m at the angles {:.6g} and {:.6g} rad of its wheels; "
+        "it has to be positive",
+        name(), k.value, contact().turned(0, state).value, contact().turned(1, state).value));
+  return k;
 }
 
 MeshMeasure ElasticGearMesh::penetration(int side, const MeshMeasure& error, const LocalState& state) const {

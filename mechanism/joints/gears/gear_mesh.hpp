@@ -122,7 +122,8 @@ class ElasticGearMesh final : public GearMesh {
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
   double calc_force(const LocalState& state, MeasureGradient& gradient) const override;
   bool force_is_reaction() const override { return false; }
-  MeshMeasure stiffness(const LocalState& state) const { return spring_.stiffness(contact(), state); }
+  /// @throws ComputationError if it is not positive at these angles
+  MeshMeasure stiffness(const LocalState& state) const;
   /// Computes p of the flank that is deeper in contact, or nearer to it [m].
   MeshMeasure deformation(const LocalState& state) const;
 

@@ -77,8 +77,7 @@ void take_copy(int multiple, double rate, Complex& s, Eigen::MatrixXcd& u, Eigen
 
 bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u, Complex s) {
   for (std::size_t k = 0; k < modes.found.modes.size(); ++k)
-    if (modes.found.modes[k].kind != ModeKind::rigid && shapes.are_same(u, s, modes.u[k], modes.found.modes[k].s))
-      return true;
+    if (shapes.are_same(u, s, modes.u[k], modes.found.modes[k].s)) return true;
   return false;
 }
 

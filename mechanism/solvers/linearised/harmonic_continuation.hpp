@@ -26,7 +26,7 @@ struct HarmonicModes {
   std::vector<double> whirl;           ///< sense of each mode (HarmonicShapes::whirl)
 };
 
-/// Whether a motion is one of the modes that are not rigid. @param u  as many harmonics as they have @param s  exponent
+/// Whether a motion is one of the modes, or a copy of one. @param u  as many harmonics as they have @param s  exponent
 bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u,
               std::complex<double> s);
 

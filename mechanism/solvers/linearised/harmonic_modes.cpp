@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -35,6 +37,39 @@ void HarmonicSearch::add_shift(HarmonicModes& result) const {
   result.found.modes.insert(result.found.modes.begin(), std::move(mode));
 }
 
+namespace {
+
+/// Returns the modes in the order in which they are wanted.
+std::vector<Mode> in_order(std::vector<Mode> modes, const ModeOptions& options) {
+  if (!options.near) return modes;
+  const std::complex<double> near(0, 2 * std::numbers::pi * *options.near);
+  std::stable_sort(modes.begin(), modes.end(),
+                   [&](const Mode& a, const Mode& b) { return std::abs(a.s - near) < std::abs(b.s - near); });
+  return modes;
+}
+
+/// Sorts what was found by rates.
+void sort_by_rate(HarmonicModes& modes) {
+  std::vector<std::size_t> order(modes.found.modes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(modes.found.modes[a].s) < std::abs(modes.found.modes[b].s);
+  });
+  HarmonicModes sorted;
+  for (const std::size_t k : order) {
+    sorted.found.modes.push_back(std::move(modes.found.modes[k]));
+    sorted.u.push_back(std::move(modes.u[k]));
+    sorted.w.push_back(std::move(modes.w[k]));
+    sorted.whirl.push_back(modes.whirl[k]);
+  }
+  modes.found.modes = std::move(sorted.found.modes);
+  modes.u = std::move(sorted.u);
+  modes.w = std::move(sorted.w);
+  modes.whirl = std::move(sorted.whirl);
+}
+
+}  // namespace
+
 /// Takes the principal modes. @returns whether there are enough
 bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const {
   result.found.modes.clear();
@@ -47,11 +82,12 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
   int count = 0;
   const bool shifts = shapes_.any_shift() && !options.near;
   const auto finish = [&](bool enough) {
+    if (options.near) sort_by_rate(result);
     if (shifts) add_shift(result);
     result.found.all = result.found.all && (result.harmonics == 0 || is_complete(result));
     return enough;
   };
-  for (const Mode& mode : found.modes) {
+  for (const Mode& mode : in_order(found.modes, options)) {
     Eigen::MatrixXcd u = equations_.amplitudes(mode.u, result.harmonics);
     const bool rigid = mode.kind == ModeKind::rigid && shifts;
     if (!rigid && shapes_.is_shift(u, mode.s)) continue;

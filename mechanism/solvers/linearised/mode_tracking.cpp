@@ -138,7 +138,7 @@ class Following {
     after.s = pairing.conjugate ? std::conj(mode.s) : mode.s;
     after.uncertainty = mode.uncertainty;
     after.grows = mode.kind == ModeKind::growing;
-    after.whirl = alone ? (pairing.conjugate ? -1 : 1) * sample_.whirl[pairing.mode] : NAN;
+    after.whirl = alone ? sample_.whirl[pairing.mode] : NAN;
     after.u = shape_of(mode, pairing.conjugate);
     if (alone) return after;
     if (track.open >= 0)

@@ -25,7 +25,7 @@ struct TrackedMode {
   bool grows = false;      ///< growth exceeds the uncertainty
   Eigen::VectorXcd u;      ///< its shape; if the mode was not found, the last known one
   double correlation = 0;  ///< correlation with itself at the previous state, 0..1; 1 at the first state
-  double whirl = 0;        ///< see whirl.hpp; NaN without a sense, or if frequencies coincide
+  double whirl = 0;        ///< that of Im s >= 0, see whirl.hpp; NaN without a sense, or if frequencies coincide
   int open = -1;  ///< group of modes with equal frequencies since the first state: shapes are arbitrary in their space
 };
 

@@ -38,11 +38,11 @@ class OrbitSearch {
         gap_sizes_(constraint_sizes(system, environment, state)) {}
 
   std::optional<PeriodicOrbit> find() {
-    constexpr int most = 16;
+    constexpr int most = 64;
     constexpr double alternates = 1e-9;
     PeriodicDeviation orbit;
     orbit.rate = rate_;
-    for (int h = 2; h <= most; h += 2) {
+    for (int h = 2; h <= most; h += std::max(2, h / 8 * 2)) {
       equations_.reset();
       equations_ = std::make_unique<const OrbitEquations>(
           system_, environment_, part_, azimuths_over_turn(system_, environment_, state_, part_, 2 * h + 6));

@@ -14,6 +14,7 @@ namespace bielle::mechanism {
 namespace {
 
 constexpr double rounding = 1e-12;
+constexpr double closed_to = 1e-9;  // gaps of loops that were closed leave such moments
 
 /// A node with a basis of the motions that move no mass (its unknowns x directions).
 struct Candidate {
@@ -74,7 +75,7 @@ void reduce(Candidate& candidate, const Eigen::MatrixXd& rows) {
   std::vector<Eigen::Index> left;
   for (Eigen::Index k = 0; k < turned.cols(); ++k) {
     const double size = (turned.col(k).asDiagonal() * rows).cwiseAbs().maxCoeff();
-    if ((turned.col(k).transpose() * rows).cwiseAbs().maxCoeff() <= rounding * size) left.push_back(k);
+    if ((turned.col(k).transpose() * rows).cwiseAbs().maxCoeff() <= closed_to * size) left.push_back(k);
   }
   candidate.motions = Eigen::MatrixXd(turned(Eigen::all, left));
 }
@@ -92,9 +93,10 @@ State closed(const System& system, const Environment& environment, State state) 
 /// A position in the neighbourhood with other rates, the same in each run.
 State moved(const System& system, const Environment& environment, const State& start) {
   constexpr double angle = 0.1;
+  const double distance = 0.1 * model_length(start);
   VectorX dq(system.dofs()), v(system.dofs());
   for (int k = 0; k < system.dofs(); ++k) {
-    dq[k] = angle * std::sin(1.0 + 1.7 * k) * (system.kind(k) == Kind::translation ? 0.1 * model_length(start) : 1);
+    dq[k] = angle * std::sin(1.0 + 1.7 * k) * (system.kind(k) == Kind::translation ? distance : 1);
     v[k] = std::cos(2.0 + 2.3 * k);
   }
   State state = start;

@@ -278,6 +278,9 @@ std::string explanation(const mu::ParserError& error, std::string token, const s
     case mu::ecVAL_EXPECTED:
     case mu::ecUNTERMINATED_STRING:
       return "a quoted file name is expected in table, spline, table2 and spline2, and there alone" + place();
+    case mu::ecUNEXPECTED_OPERATOR:
+      if (token == "=") return fmt::format("'='{} is no operator; to compare, write ==", place());
+      return fmt::format("unexpected '{}'{}: a number or a name is missing before it", token, place());
     default:
       return error.GetMsg();
   }

@@ -119,6 +119,10 @@ class Parser {
       const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(parser_.problem_offset, text_.size()));
       line = static_cast<int>(std::count(text_.begin(), end, '\n')) + 1;
     }
+    if (text_.starts_with("\x89HDF"))
+      throw InputError(fmt::format("{}: this is an HDF5 file (results, or a superelement), no text", name_));
+    if (text_.starts_with("ISO-10303-21"))
+      throw InputError(fmt::format("{}: this is a STEP file, which a body file names as its `geometry`", name_));
     const std::string context = parser_.context == nullptr ? "" : std::string(parser_.context) + ", ";
     fail(line, fmt::format("no valid YAML: {}{}{}", context, parser_.problem == nullptr ? "" : parser_.problem,
                            hint_at_tabs(text_, line)));

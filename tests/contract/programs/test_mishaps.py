@@ -137,6 +137,10 @@ class Files(CommandTest):
             self.expect_refusal(1, "model.yaml", says=[f"'{word}' is not a type of the elements", says])
         self.write("model.yaml", "nodes: {a: {}}\njoints: {b: {type: beam, nodes: [ground, a]}}\n")
         self.expect_refusal(1, "model.yaml", says=["'beam' is not a type of the joints; it is one of the elements: write it there"])
+        self.write("model.yaml", "nodes: {a: {}}\njoints: {b: {type: revolute, nodes: [ground, a], axis: [0, 0, 1]}}\n")
+        self.expect_refusal(1, "model.yaml", says=["'revolute' is not a type of the joints; here it is called 'hinge'"])
+        self.write("model.yaml", part.replace("TYPE", "rope"))
+        self.expect_refusal(1, "model.yaml", says=["here it is called 'cable', one of the joints"])
         self.write("model.yaml", PENDULUM + 'loads: {l: {node: bob, force: [0, 0, "frobnicate + t"]}}\n')
         self.expect_refusal(1, "model.yaml", says=["unknown name 'frobnicate'", "'t'", "pi", "sqrt, ", "spline"])
 
