@@ -1,4 +1,4 @@
-"""The site of the manual is built by Sphinx without a warning: a minute. test_manual checks the links of its sources everyday."""
+"""The site of the manual is built by Sphinx without a warning, in a minute. test_manual checks the links of its sources."""
 
 import importlib.util
 import os
@@ -13,8 +13,9 @@ from in_folder import REPOSITORY, InFolder  # noqa: E402
 @unittest.skipIf(importlib.util.find_spec("myst_parser") is None, "Sphinx is not installed (tools/install --with-manual)")
 class Site(InFolder):
     def test_site_is_built_without_warnings(self):
-        done = subprocess.run([os.path.join(REPOSITORY, "tools", "manual"), "--no-pictures", "-o", self.path("site")], capture_output=True, text=True,
-                              timeout=500, env={**os.environ, "BIELLE_BIN": os.environ["BIELLE_PROGRAMS"]})
+        command = [os.path.join(REPOSITORY, "tools", "manual"), "--no-pictures", "-o", self.path("site")]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=500,
+                              env={**os.environ, "BIELLE_BIN": os.environ["BIELLE_PROGRAMS"]})
         self.assertEqual(done.returncode, 0, done.stderr)
         missing = [line for line in done.stderr.splitlines() if "WARNING" in line and "image file not readable" not in line]
         self.assertEqual(missing, [])
