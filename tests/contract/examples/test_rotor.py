@@ -48,15 +48,24 @@ def whirl(speed):
 
 
 class Rotor(unittest.TestCase):
-    def modes(self, speed):
-        with tempfile.TemporaryDirectory() as folder:
-            target = os.path.join(folder, "run.h5")
+    @classmethod
+    def setUpClass(cls):
+        cls.folder, cls.said = cls.enterClassContext(tempfile.TemporaryDirectory()), {}
+
+    def run_at(self, speed):
+        """Runs the model once at a speed [rad/s]. @returns the path of its results; its summary is in `said`"""
+        target = os.path.join(self.folder, f"at_{speed}.h5")
+        if speed not in self.said:
             done = subprocess.run([PROGRAM, MODEL, "-o", target, "--set", f"speed={speed}"], capture_output=True, text=True, timeout=100)
             self.assertEqual(done.returncode, 0, done.stderr)
-            with h5py.File(target) as file:
-                modes = file["/eigen"]
-                kinds = list(modes["kind"].asstr())
-                return kinds, modes["frequency"][:], modes["damping_ratio"][:], done.stdout
+            self.said[speed] = done.stdout
+        return target
+
+    def modes(self, speed):
+        with h5py.File(self.run_at(speed)) as file:
+            modes = file["/eigen"]
+            kinds = list(modes["kind"].asstr())
+            return kinds, modes["frequency"][:], modes["damping_ratio"][:], self.said[speed]
 
     def test_frequencies_of_whirl_split_with_the_speed(self):
         for speed in (0, 30, 120):
@@ -83,8 +92,7 @@ class Rotor(unittest.TestCase):
 
     def test_the_campbell_diagram_has_the_frequencies_of_every_speed_and_is_drawn(self):
         with tempfile.TemporaryDirectory() as folder:
-            target = os.path.join(folder, "run.h5")
-            subprocess.run([PROGRAM, MODEL, "-o", target], check=True, capture_output=True, timeout=100)
+            target = self.run_at(30)
             with h5py.File(target) as file:
                 found = file["/campbell"]
                 speeds, frequencies, senses = found["speed"][:], found["damped_frequency"][:], found["whirl"][:]
@@ -105,14 +113,11 @@ class Rotor(unittest.TestCase):
             self.assertGreater(os.path.getsize(os.path.join(folder, "campbell.png")), 20000)
 
     def test_the_shapes_are_those_of_whirls(self):
-        with tempfile.TemporaryDirectory() as folder:
-            target = os.path.join(folder, "run.h5")
-            subprocess.run([PROGRAM, MODEL, "-o", target, "--set", "speed=120"], check=True, capture_output=True, timeout=100)
-            with h5py.File(target) as file:
-                modes = file["/eigen"]
-                disc = list(modes["nodes"].asstr()).index("disc")
-                shapes = modes["displacement"][:, disc] @ [1, 1j]
-                turns = modes["rotation"][:, disc] @ [1, 1j]
+        with h5py.File(self.run_at(120)) as file:
+            modes = file["/eigen"]
+            disc = list(modes["nodes"].asstr()).index("disc")
+            shapes = modes["displacement"][:, disc] @ [1, 1j]
+            turns = modes["rotation"][:, disc] @ [1, 1j]
         # Sense of rotation of x + i y: from the phase between the two.
         senses = [np.sign((turn[0].conjugate() * turn[1]).imag) for turn in turns[2:6]]
         self.assertEqual(len(shapes), 9)  # the rigid one, and eight others

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from fuzzing import FuzzTest, NEVER, damaged_bytes
-from study_stand_in import STAND_IN, STUDY
+from study_stand_in import STAND_IN, STUDY, stand_in_results
 
 import os
 
@@ -44,6 +44,8 @@ class StudyFiles(FuzzTest):
     def test_study_files_and_tables(self):
         self.write("bielle-mechanism", STAND_IN)
         os.chmod(self.path("bielle-mechanism"), 0o700)
+        with open(self.path("stand_in"), "wb") as file:
+            file.write(stand_in_results())
         for case, rng in self.cases(25):
             inputs = {"model.yaml": "parameters: {speed: 1, mass: 2, load: 0, other: 0}\n", "sweep.yaml": FILE, "more.csv": TABLE}
             name = rng.choice(["sweep.yaml", "sweep.yaml", "more.csv"])

@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 
 from command import CommandTest
+from quick_tools import WithQuickTools
 
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
@@ -39,7 +40,7 @@ def rigid(mass, arm, inertia):
     return np.block([[mass * np.eye(3), -mass * skew(arm)], [mass * skew(arm), inertia - mass * skew(arm) @ skew(arm)]])
 
 
-class DeckMasses(CommandTest):
+class DeckMasses(WithQuickTools, CommandTest):
     program = "bielle-reduce"
 
     def setUp(self):

@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 
 from command import CommandTest
+from quick_tools import WithQuickTools
 
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
@@ -31,7 +32,7 @@ def elasticity():
     return np.linalg.inv(compliance)
 
 
-class DeckMaterials(CommandTest):
+class DeckMaterials(WithQuickTools, CommandTest):
     program = "bielle-reduce"
 
     def write(self, name, text):

@@ -11,6 +11,7 @@ import h5py
 import numpy as np
 
 from command import CommandTest
+from quick_tools import WithQuickTools
 
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
@@ -39,7 +40,7 @@ def rbe3(groups, refc=123456, number=6002, more=()):
     return cell_decks.card("free", "RBE3", number, "", 9001, refc, *words, *more)
 
 
-class DeckTies(CommandTest):
+class DeckTies(WithQuickTools, CommandTest):
     program = "bielle-reduce"
 
     def write(self, name, text):

@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 
 from command import PROGRAMS, CommandTest
+from quick_tools import WithQuickTools
 
 REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract", "tools"))
@@ -38,7 +39,7 @@ output: {fields: {bar: [von_mises]}}
 """
 
 
-class Cells(CommandTest):
+class Cells(WithQuickTools, CommandTest):
     program = "bielle-reduce"
 
     def mesh(self, name, kinds, order):

@@ -11,6 +11,7 @@ import meshio
 import numpy as np
 
 from command import PROGRAMS, CommandTest
+from quick_tools import WithQuickTools
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MESHES = os.path.join(HERE, "..", "..", "..", "meshes")
@@ -32,7 +33,7 @@ modes: {{count: 3}}
 SIDE = "{plane: {point: [0, 0, 0], normal: [1, 0, 0]}}"
 
 
-class Meshes(CommandTest):
+class Meshes(WithQuickTools, CommandTest):
     program = "bielle-reduce"
 
     def setUp(self):
@@ -217,7 +218,7 @@ def write_unv(path, points, cells, sides, dataset):
         file.write("\n".join(lines))
 
 
-class Unreadable(CommandTest):
+class Unreadable(WithQuickTools, CommandTest):
     program = "bielle-reduce"
 
     def refuse(self, name, content, *says, mode="w"):

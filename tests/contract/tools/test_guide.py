@@ -11,9 +11,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.normpath(os.path.join(HERE, "..", "..", ".."))
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOLS = os.path.join(ROOT, "tools")
-sys.path.insert(0, TOOLS)
+sys.path[:0] = [TOOLS, os.path.join(HERE, "..")]
 
 from bielle_tools.manual import pages  # noqa: E402
+from python_tool import leave_layout_out  # noqa: E402
+from quick_tools import quick_tools  # noqa: E402
 
 COMMANDS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-loads",
             "bielle-exchange", "convert_mesh.py", "tools/bielle-study", "tools/verify"]
@@ -30,16 +32,18 @@ def run_lines(path):
 
 class Guide(unittest.TestCase):
     def test_commands_print_what_the_pages_show(self):
-        environment = {**pages.environment_of(ROOT, PROGRAMS, TOOLS), "BIELLE_BIN": PROGRAMS, "OPENBLAS_NUM_THREADS": "1"}
-        for path in guide():
-            with self.subTest(os.path.relpath(path, ROOT)), tempfile.TemporaryDirectory() as folder:
-                os.symlink(TOOLS, os.path.join(folder, "tools"))  # commands of the repository are called from its root
-                pages.run_page(path, folder, environment)
+        leave_layout_out()
+        with quick_tools() as tools:
+            environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "BIELLE_BIN": PROGRAMS, "OPENBLAS_NUM_THREADS": "1"}
+            for path in guide():
+                with self.subTest(os.path.relpath(path, ROOT)), tempfile.TemporaryDirectory() as folder:
+                    os.symlink(tools, os.path.join(folder, "tools"))  # commands of the repository are called from its root
+                    pages.run_page(path, folder, environment)
 
     def test_every_page_runs_commands_and_shows_output(self):
         self.assertGreaterEqual(len(guide()), 10)
         for path in guide():
-            if os.path.basename(path) == "manual.md":  # the site is built by test_manual
+            if os.path.basename(path) == "manual.md":  # the site is built by test_manual_site
                 continue
             with self.subTest(os.path.relpath(path, ROOT)):
                 self.assertNotEqual(run_lines(path), "")

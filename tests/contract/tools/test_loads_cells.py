@@ -12,6 +12,7 @@ import numpy as np
 from box_mesh import REPOSITORY
 from cell_decks import SIDE, SIZE, VOLUME, Box, card
 from python_tool import run_python_tool
+from quick_tools import WithQuickTools
 
 from bielle_tools.bodies.loads import LoadedBody
 from bielle_tools.decks.abaqus_file import read_abaqus
@@ -67,9 +68,10 @@ class ConsistentForces(unittest.TestCase):
             np.testing.assert_allclose(np.cross(points, found).sum(axis=0), np.cross(centre, 7 * normal), atol=1e-13, err_msg=kind)
 
 
-class MeshesOfOtherCells(unittest.TestCase):
+class MeshesOfOtherCells(WithQuickTools):
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = folder.name
@@ -156,11 +158,12 @@ class MeshesOfOtherCells(unittest.TestCase):
         self.assertIn("24 pyramids of 5 nodes, which CalculiX does not know", done.stderr)
 
 
-class TiesOfDecks(unittest.TestCase):
+class TiesOfDecks(WithQuickTools):
     """Interfaces with `from`: the forces are spread as the deck ties its nodes."""
 
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = folder.name

@@ -1,7 +1,6 @@
 """The manual: its pages are run and print what they show, its fragments are valid, its links lead somewhere."""
 
 import glob
-import importlib.util
 import json
 import os
 import re
@@ -16,10 +15,12 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.normpath(os.path.join(HERE, "..", "..", ".."))
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 MANUAL = os.path.join(ROOT, "mechanism", "manual")
-sys.path[:0] = [os.path.join(ROOT, "tools"), os.path.join(HERE, "..", "programs")]
+sys.path[:0] = [os.path.join(ROOT, "tools"), os.path.join(HERE, "..", "programs"), os.path.join(HERE, "..")]
 
 from bielle_tools.manual import pages, site  # noqa: E402
 from bielle_tools.messages import InputError  # noqa: E402
+from python_tool import leave_layout_out  # noqa: E402
+from quick_tools import quick_tools  # noqa: E402
 from test_schema import load  # noqa: E402
 
 MOST_WORDS = 1500  # in one page
@@ -49,8 +50,8 @@ class Manual(unittest.TestCase):
         return subprocess.run([os.path.join(ROOT, "tools", "manual"), *arguments], capture_output=True, text=True, timeout=500,
                               env={**os.environ, "BIELLE_BIN": PROGRAMS})
 
-    def page(self, text):
-        path = os.path.join(self.folder, "page.md")
+    def page(self, text, name="page.md"):
+        path = os.path.join(self.folder, name)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
         return path
@@ -58,17 +59,28 @@ class Manual(unittest.TestCase):
     def test_getting_started_prints_what_it_shows(self):
         started = sorted(glob.glob(os.path.join(MANUAL, "getting_started", "*.md")))
         self.assertGreaterEqual(len(started), 5)
-        done = self.tool(*[word for page in started for word in ("--run", page)])
+        leave_layout_out()
+        with quick_tools() as tools:
+            environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "OPENBLAS_NUM_THREADS": "1"}
+            for path in started:  # later ones use files of earlier ones
+                pages.run_page(path, self.folder, environment)
+
+    def test_pages_are_run_in_one_folder(self):
+        first, second = (self.page(f"```sh\n{line}\n```\n", name) for line, name in (("echo 1 >made", "first.md"), ("test -s made", "second.md")))
+        done = self.tool("--run", first, "--run", second)
         self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.tool("--run", second)
+        self.assertEqual((done.returncode, "second.md:2: 'test -s made' ended with status 1" in done.stderr), (1, True), done.stderr)
 
     def test_answers_print_what_they_show(self):
-        environment, count = pages.environment_of(ROOT, PROGRAMS, os.path.join(ROOT, "tools")), 0
-        for path in sorted(glob.glob(os.path.join(MANUAL, "how_do_i", "*.md"))):
-            if any(pages.FILE_NAME.match(block.text) for block in pages.blocks(path)):
-                count += 1
+        found = [path for path in sorted(glob.glob(os.path.join(MANUAL, "how_do_i", "*.md")))
+                 if any(pages.FILE_NAME.match(block.text) for block in pages.blocks(path))]
+        self.assertGreaterEqual(len(found), 2)
+        with quick_tools() as tools:
+            environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "OPENBLAS_NUM_THREADS": "1"}
+            for path in found:
                 with self.subTest(path), tempfile.TemporaryDirectory() as folder:
-                    pages.run_page(path, folder, {**environment, "OPENBLAS_NUM_THREADS": "1"})
-        self.assertGreaterEqual(count, 2)
+                    pages.run_page(path, folder, environment)
 
     def test_fragments_are_valid(self):
         done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "--schema"], capture_output=True, text=True, check=True)
@@ -139,14 +151,6 @@ class Manual(unittest.TestCase):
                     found = os.path.normpath(os.path.join(os.path.dirname(path), target))
                     original = os.path.normpath(os.path.join(os.path.dirname(os.path.join(ROOT, os.path.relpath(path, self.folder))), target))
                     self.assertTrue(os.path.exists(found) or os.path.isdir(original), f"{path}: {target}")
-
-    @unittest.skipIf(importlib.util.find_spec("myst_parser") is None, "Sphinx is not installed (tools/install --with-manual)")
-    def test_site_is_built_without_warnings(self):
-        done = self.tool("--no-pictures", "-o", os.path.join(self.folder, "site"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        missing = [line for line in done.stderr.splitlines() if "WARNING" in line and "image file not readable" not in line]
-        self.assertEqual(missing, [])
-        self.assertTrue(os.path.exists(os.path.join(self.folder, "site", "mechanism", "manual", "README.html")))
 
     def test_wrong_options(self):
         done = self.tool("--run", os.path.join(self.folder, "none.md"))

@@ -5,6 +5,7 @@ import re
 import shutil
 import sys
 import unittest
+import unittest.mock
 import xml.dom.minidom
 
 import numpy as np
@@ -17,16 +18,16 @@ from in_folder import REPOSITORY, InFolder  # noqa: E402
 
 sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
 
-from bielle_tools.manual import pages, site  # noqa: E402
+from bielle_tools.manual import gathering, pages, site  # noqa: E402
 from bielle_tools.manual.example_pages import page_of, write_pages  # noqa: E402
 from bielle_tools.manual.examples import examples_of  # noqa: E402
 from bielle_tools.manual.pages import BLOCK  # noqa: E402
 from bielle_tools.manual.gathering import Gathered, gather, runnable  # noqa: E402
 from bielle_tools.manual.pictures import Picture, check_ink  # noqa: E402
 from bielle_tools.messages import InputError  # noqa: E402
+from quick_tools import quick_tools  # noqa: E402
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
-TOOLS = os.path.join(REPOSITORY, "tools")
 PENDULUM = """# A pendulum
 
 ```yaml
@@ -65,7 +66,7 @@ class Pages(InFolder):
 
     def gathered(self, *names, **options):
         """Draws pages of the folder. @returns Gathered, with the sentences that were told in `said`"""
-        environment = {**pages.environment_of(REPOSITORY, PROGRAMS, TOOLS), "OPENBLAS_NUM_THREADS": "1"}
+        environment = {**pages.environment_of(REPOSITORY, PROGRAMS, gathering.TOOLS), "OPENBLAS_NUM_THREADS": "1"}
         self.said = []
         return gather(REPOSITORY, {name: self.path(name) for name in names}, PROGRAMS, environment, self.path("kept"), 2, self.said.append)
 
@@ -104,6 +105,11 @@ class Choice(Pages):
 
 
 class Making(Pages):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.enterClassContext(unittest.mock.patch.object(gathering, "TOOLS", cls.enterClassContext(quick_tools())))
+
     def test_a_page_has_its_machine_and_its_curve(self):
         self.page(PENDULUM)
         found = self.gathered("page.md")

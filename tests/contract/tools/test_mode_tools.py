@@ -7,13 +7,12 @@ import unittest
 from xml.etree import ElementTree
 
 import h5py
-import matplotlib.pyplot  # noqa: F401  (loaded once for all runs of the tools)
 import meshio
 import numpy as np
 from PIL import Image
 
 from box_mesh import REPOSITORY, InFolder
-from python_tool import run_python_tool  # box_mesh knows where
+from python_tool import import_tools, leave_layout_out, run_python_tool  # box_mesh knows where
 from synthetic_modes import OMEGA, SIGMA, write_whirl
 
 from bielle_tools.bodies.superelement_body import superelement_of  # noqa: E402
@@ -49,6 +48,12 @@ analysis:
 
 
 class Tools(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        import_tools()
+        leave_layout_out()
+
     def run_tool(self, tool, *arguments):
         return run_python_tool(os.path.join(REPOSITORY, "tools", tool), arguments, self.folder, {**os.environ, "DISPLAY": ""})
 

@@ -16,7 +16,7 @@ import drawn_results
 import synthetic_modes
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
-from python_tool import run_python_tool
+from python_tool import import_tools, run_python_tool
 
 from bielle_tools.messages import InputError  # noqa: E402  (box_mesh knows where)
 from bielle_tools.pictures.camera import MARGIN  # noqa: E402
@@ -32,6 +32,11 @@ SIDE, TRAVEL = 0.2, 1.0  # the side of the red box, and its way along x [m]
 
 
 class Pictures(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        import_tools("pictures", "results", "bodies")
+
     def boxes(self, size=1.0, origin=(0, 0, 0), rows=5, name="boxes"):
         """A red box that goes along x, and a blue one that rests below its start. @returns path of the results"""
         x = np.outer(np.linspace(0, TRAVEL, rows), [1, 0, 0]) * size + origin

@@ -16,9 +16,10 @@ PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOLS = os.path.join(ROOT, "tools")
 REFERENCE = os.path.join(ROOT, "mechanism", "manual", "reference")
 BODIES = os.path.join(ROOT, "reduce", "manual")
-sys.path.insert(0, TOOLS)
+sys.path[:0] = [TOOLS, os.path.join(HERE, "..")]
 
 from bielle_tools.manual import pages  # noqa: E402
+from quick_tools import quick_tools  # noqa: E402
 
 WITHOUT_EXAMPLE = {"messages.md"}  # a page about what any run may print
 # Pages and tables of keys of states, by the key that tells their type.
@@ -55,10 +56,11 @@ def lines_of(schema):
 
 class Reference(unittest.TestCase):
     def test_examples_run_and_print_what_the_pages_show(self):
-        environment = pages.environment_of(ROOT, PROGRAMS, TOOLS)
-        for path in pages_with_examples():
-            with self.subTest(os.path.relpath(path, ROOT)), tempfile.TemporaryDirectory() as folder:
-                pages.run_page(path, folder, {**environment, "OPENBLAS_NUM_THREADS": "1"})
+        with quick_tools() as tools:
+            environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "OPENBLAS_NUM_THREADS": "1"}
+            for path in pages_with_examples():
+                with self.subTest(os.path.relpath(path, ROOT)), tempfile.TemporaryDirectory() as folder:
+                    pages.run_page(path, folder, environment)
 
     def test_every_page_has_a_model_commands_and_output(self):
         found = pages_with_examples()

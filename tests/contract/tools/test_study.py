@@ -9,7 +9,8 @@ import unittest
 
 import h5py
 
-from study_stand_in import STAND_IN, STUDY, WithStandIn
+from study_stand_in import PROGRAM, STAND_IN, STUDY, WithStandIn
+
 
 class Study(WithStandIn):
     def test_gathers_all_runs_in_order(self):
@@ -25,11 +26,11 @@ class Study(WithStandIn):
         self.assertEqual([name for name in os.listdir(self.folder) if "study" in name], ["study.h5"])
 
     def test_the_file_names_the_programs_of_its_runs(self):
-        first, second = ("bielle-mechanism 0.0 (commit stand-in)", "bielle-mechanism 0.0 (commit newer)")
+        first, second = PROGRAM, PROGRAM.replace("stand-in", "replaced")
         self.assertEqual(self.study("speed,mass\n1,2\n1,-2\n2,2\n").returncode, 2)
         with h5py.File(self.path("study.h5")) as file:
             self.assertEqual(file.attrs["created_by"], first)
-        self.write("bielle-mechanism", STAND_IN.replace("stand-in", "newer"))
+        self.write("bielle-mechanism", STAND_IN.replace(f'PROGRAM = "{first}"', f'PROGRAM = "{second}"'))
         self.assertEqual(self.study("speed,mass\n1,2\n2,2\n3,2\n").returncode, 0)  # two runs are kept
         with h5py.File(self.path("study.h5")) as file:
             found = [file[f"runs/{number}"].attrs["created_by"] for number in (1, 2, 3)]

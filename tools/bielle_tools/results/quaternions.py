@@ -7,8 +7,8 @@ IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 
 def cross(a, b):
     """(...,3); several times as fast as numpy's for few vectors."""
-    a, b = np.broadcast_arrays(a, b)
-    result = np.empty(a.shape)
+    a, b = np.asarray(a), np.asarray(b)
+    result = np.empty(np.broadcast(a, b).shape)
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         result[..., i] = a[..., j] * b[..., k] - a[..., k] * b[..., j]
     return result
@@ -16,8 +16,8 @@ def cross(a, b):
 
 def product(a, b):
     """(...,4) of R(a) R(b)."""
-    a, b = np.broadcast_arrays(a, b)
-    result = np.empty(a.shape)
+    a, b = np.asarray(a), np.asarray(b)
+    result = np.empty(np.broadcast(a, b).shape)
     result[..., 0] = a[..., 0] * b[..., 0] - (a[..., 1:] * b[..., 1:]).sum(axis=-1)
     result[..., 1:] = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + cross(a[..., 1:], b[..., 1:])
     return result
