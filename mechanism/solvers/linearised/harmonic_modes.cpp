@@ -90,7 +90,7 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
   for (const Mode& mode : in_order(found.modes, options)) {
     Eigen::MatrixXcd u = equations_.amplitudes(mode.u, result.harmonics);
     const bool rigid = mode.kind == ModeKind::rigid && shifts;
-    if (!rigid && shapes_.is_shift(u, mode.s)) continue;
+    if (!rigid && (shapes_.is_shift(u, mode.s) || is_phase(mode))) continue;
     const HarmonicSizes sizes = shapes_.sizes(u, mode.s);
     if (!rigid && sizes.largest() != 0) continue;
     if (mode.kind != ModeKind::rigid && result.harmonics > 0 && is_among(shapes_, result, u, mode.s)) continue;
@@ -104,6 +104,13 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
     result.whirl.push_back(shapes_.whirl(sizes));
   }
   return finish(options.below || found.all || count >= options.count);
+}
+
+/// Whether a mode is a copy of a free azimuth: a drive of the rate leaves it one exponent of zero, which is a state.
+bool HarmonicSearch::is_phase(const Mode& mode) const {
+  constexpr double zero = 1e-7;
+  const double rate = equations_.rate(), k = std::round(mode.s.imag() / rate);
+  return k != 0 && std::abs(mode.s - std::complex<double>(0, k * rate)) < zero * std::abs(rate);
 }
 
 /// Whether the modes are as many as the finite eigenvalues of the equations at one azimuth.

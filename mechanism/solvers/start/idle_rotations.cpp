@@ -66,6 +66,17 @@ Eigen::MatrixXd massless(const SparsePattern& pattern, const std::vector<double>
   return scale.asDiagonal() * eigen.eigenvectors().leftCols(without);
 }
 
+/// Largest action that rows could have on a motion: translations and rotations have their own units.
+double largest_action(const Eigen::VectorXd& motion, const Eigen::MatrixXd& rows) {
+  const Eigen::Index others = motion.size() - 3;
+  const auto largest = [&](Eigen::Index begin, Eigen::Index count) {
+    return count == 0 || rows.cols() == 0 ? 0.0
+                                          : motion.segment(begin, count).cwiseAbs().maxCoeff() *
+                                                rows.middleRows(begin, count).cwiseAbs().maxCoeff();
+  };
+  return largest(0, others) + largest(others, 3);
+}
+
 /// Leaves the motions on which the rows of a node do not act.
 void reduce(Candidate& candidate, const Eigen::MatrixXd& rows) {
   const Eigen::MatrixXd acting = candidate.motions.transpose() * rows;
@@ -74,7 +85,7 @@ void reduce(Candidate& candidate, const Eigen::MatrixXd& rows) {
   // Squares of small actions are rounding: each direction is tested by its own products.
   std::vector<Eigen::Index> left;
   for (Eigen::Index k = 0; k < turned.cols(); ++k) {
-    const double size = (turned.col(k).asDiagonal() * rows).cwiseAbs().maxCoeff();
+    const double size = largest_action(turned.col(k), rows);
     if ((turned.col(k).transpose() * rows).cwiseAbs().maxCoeff() <= closed_to * size) left.push_back(k);
   }
   candidate.motions = Eigen::MatrixXd(turned(Eigen::all, left));
