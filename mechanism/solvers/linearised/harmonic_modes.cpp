@@ -90,8 +90,8 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
   for (const Mode& mode : in_order(found.modes, options)) {
     Eigen::MatrixXcd u = equations_.amplitudes(mode.u, result.harmonics);
     const bool rigid = mode.kind == ModeKind::rigid && shifts;
-    if (!rigid && (shapes_.is_shift(u, mode.s) || is_phase(mode))) continue;
     const HarmonicSizes sizes = shapes_.sizes(u, mode.s);
+    if (!rigid && (shapes_.is_shift(u, mode.s) || is_phase(mode.s, sizes))) continue;
     if (!rigid && sizes.largest() != 0) continue;
     if (mode.kind != ModeKind::rigid && result.harmonics > 0 && is_among(shapes_, result, u, mode.s)) continue;
     if (mode.kind != ModeKind::rigid && !options.below && ++count > options.count) {
@@ -107,10 +107,14 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
 }
 
 /// Whether a mode is a copy of a free azimuth: a drive of the rate leaves it one exponent of zero, which is a state.
-bool HarmonicSearch::is_phase(const Mode& mode) const {
-  constexpr double zero = 1e-7;
-  const double rate = equations_.rate(), k = std::round(mode.s.imag() / rate);
-  return k != 0 && std::abs(mode.s - std::complex<double>(0, k * rate)) < zero * std::abs(rate);
+/// Most of its motion stands still then, which distinguishes it from a resonance with the rotation.
+bool HarmonicSearch::is_phase(std::complex<double> s, const HarmonicSizes& sizes) const {
+  constexpr double zero = 1e-7, most = 0.5;
+  const double rate = equations_.rate(), k = std::round(s.imag() / rate);
+  const VectorX all = sizes.standing + sizes.turning;
+  const double h = static_cast<double>(all.size() / 2);
+  return k != 0 && std::abs(k) <= h && std::abs(s - std::complex<double>(0, k * rate)) < zero * std::abs(rate) &&
+         all[static_cast<Eigen::Index>(h - k)] > most * all.sum();
 }
 
 /// Whether the modes are as many as the finite eigenvalues of the equations at one azimuth.

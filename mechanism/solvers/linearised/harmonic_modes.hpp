@@ -24,7 +24,7 @@ class HarmonicSearch {
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
   void add_shift(HarmonicModes& result) const;
   bool is_complete(const HarmonicModes& modes) const;
-  bool is_phase(const Mode& mode) const;
+  bool is_phase(std::complex<double> s, const HarmonicSizes& sizes) const;
   bool take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const;
 
   const PeriodicEquations& equations_;

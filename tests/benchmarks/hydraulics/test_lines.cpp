@@ -93,7 +93,7 @@ TEST_CASE("a command beyond the ends of a spool ends the run with a sentence") {
       "  supplies: {a: {pressure: 1e6}, b: {pressure: 0}}\n  lines:\n    it: {from: a, to: b, valve: {area: "
       "1e-6, command: \"1.5*t\"}}\n");
   CHECK_THAT(message_of<bielle::ComputationError>([&] { run_hydraulics(beyond, {.h = 0.1, .end = 1}); }),
-             Contains("the command of valve 'it' is 1.05") && Contains("max(-1, min(1, ..))"));
+             Contains("the command of valve 'it' is 1.05") && Contains("max(0, min(1, ..))"));
 }
 
 TEST_CASE("an accumulator takes what its gas gives way: p V^n stays") {

@@ -73,7 +73,7 @@ TEST_CASE("Tags, bytes that are no text, and deep nesting are refused with their
   CHECK(parsed("a: !!str 5\n").at("a").number() == 5);
   CHECK_THAT(why_wrong("a: 1\nb: \xff\n"), Contains("crank.yaml:2: no valid YAML: invalid leading UTF-8 octet"));
   CHECK_THAT(why_wrong("\x89HDF\r\n"), Contains("crank.yaml: this is an HDF5 file"));
-  CHECK_THAT(why_wrong("ISO-10303-21;\nHEADER;\n\t%"), Contains("this is a STEP file"));
+  CHECK_THAT(why_wrong("ISO-10303-21: ["), Contains("this is a STEP file"));
   CHECK_THAT(why_wrong("a: 1\nb: \x01\n"), Contains("crank.yaml:2: no valid YAML: control characters"));
   CHECK_THAT(why_wrong("a: " + std::string(51, '[')), Contains("crank.yaml:1: nested more than 50 levels deep"));
   CHECK_THAT(why_wrong("a: " + std::string(50'000, '[')), Contains("nested more than 50 levels deep"));
