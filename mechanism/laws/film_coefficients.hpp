@@ -26,8 +26,6 @@ class FilmCoefficients {
     Matrix6 K = Matrix6::Zero(), D = Matrix6::Zero(), K_slope = Matrix6::Zero(), D_slope = Matrix6::Zero();
   };
   At operator()(double speed) const;
-  double first() const { return first_; }
-  double last() const { return last_; }
   /// Describes the table in words.
   std::string describe() const;
 

@@ -6,10 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/reading/read_file.hpp"
-#include "mechanism/reading/read_numbers.hpp"
+#include "mechanism/reading/read_rows.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/files/table_file.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -89,19 +87,11 @@ const KeyTable& polar_keys() {
   return table;
 }
 
-Eigen::MatrixXd read_polar_rows(const YamlValue& value) {
-  if (!value.is_sequence()) return read_named_file(value, [](const std::string& path) { return read_table(path, 4); });
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(value.size()), 4);
-  for (std::size_t k = 0; k < value.size(); ++k)
-    rows.row(static_cast<Eigen::Index>(k)) = read_numbers(value.at(k), 4, "[alpha, lift, drag, moment]").transpose();
-  return rows;
-}
-
 void read_polar_table(const YamlValue& entry, AirfoilPolars::Station& station) {
   for (const char* key : {"drag", "moment"})
     if (const auto formula = entry.find(key)) formula->fail("is a column of the `table`");
   const YamlValue value = entry.at("table");
-  Eigen::MatrixXd rows = read_polar_rows(value);
+  Eigen::MatrixXd rows = read_rows(value, 4, "[alpha, lift, drag, moment]");
   if (entry.at("angles").word() == "deg") rows.col(0) *= M_PI / 180;
   if (const double most = rows.col(0).cwiseAbs().maxCoeff(); most > 2 * M_PI)
     value.fail(fmt::format("has an alpha of {:.6g} rad, more than a turn: is it in degrees? (`angles: deg`)", most));

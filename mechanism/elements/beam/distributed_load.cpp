@@ -28,9 +28,7 @@ void DistributedLoad::declare(Declaration& declaration) const {
   }
 }
 
-DistributedLoad::Given DistributedLoad::given(const LocalState& state, const SpanPoint& point,
-                                              const SpanSection& at) const {
-  const SpanValues variables = span_values(span(), point, at, state);
+DistributedLoad::Given DistributedLoad::given(const LocalState& state, const SpanValues& variables) const {
   Vector6 components;
   for (std::size_t k = 0; k < 6; ++k)
     components[static_cast<Eigen::Index>(k)] = load_.components[k].value(state, variables);
@@ -47,7 +45,7 @@ SpanForce DistributedLoad::on_line(const Given& given, const SpanSection& at) co
 }
 
 SpanForce DistributedLoad::load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const {
-  return on_line(given(state, point, at), at);
+  return on_line(given(state, span_values(span(), point, at, state)), at);
 }
 
 /// At constant F and M:  df = -S F~ dTheta(z) for followers, else 0;  dn = ((S^T M)~ + c~ (S^T F)~) dTheta(z) for dead
@@ -56,9 +54,10 @@ void DistributedLoad::add_tangent(const LocalState& state, LocalTangent& tangent
   if (!tangent.wants_K && !tangent.wants_C) return;
   for (const SpanPoint& point : points()) {
     const SpanSection at = span_section(span(), point, state);
-    add_formula_tangent(point, at, state, tangent);
+    const SpanValues variables = span_values(span(), point, at, state);
+    add_formula_tangent(point, at, variables, state, tangent);
     if (!tangent.wants_K) continue;
-    const Given here = given(state, point, at);
+    const Given here = given(state, variables);
     Matrix3 f_turn = Matrix3::Zero(), n_turn = Matrix3::Zero();
     if (load_.follower)
       f_turn = -at.S * skew(here.F);
@@ -69,10 +68,9 @@ void DistributedLoad::add_tangent(const LocalState& state, LocalTangent& tangent
 }
 
 /// Adds the derivatives through the formulas: the rows of a unit component times the gradient of its formula.
-void DistributedLoad::add_formula_tangent(const SpanPoint& point, const SpanSection& at, const LocalState& state,
-                                          LocalTangent& tangent) const {
+void DistributedLoad::add_formula_tangent(const SpanPoint& point, const SpanSection& at, const SpanValues& variables,
+                                          const LocalState& state, LocalTangent& tangent) const {
   thread_local FormulaGradient gradient;
-  const SpanValues variables = span_values(span(), point, at, state);
   SpanGradients by_nodes;
   bool have_gradients = false;
   for (std::size_t k = 0; k < 6; ++k) {

@@ -66,10 +66,10 @@ class DistributedLoad final : public SpanLoad {
   struct Given {
     Vector3 F, M;  ///< multiplied by the load factor
   };
-  Given given(const LocalState& state, const SpanPoint& point, const SpanSection& at) const;
+  Given given(const LocalState& state, const SpanValues& variables) const;
   SpanForce on_line(const Given& given, const SpanSection& at) const;
-  void add_formula_tangent(const SpanPoint& point, const SpanSection& at, const LocalState& state,
-                           LocalTangent& tangent) const;
+  void add_formula_tangent(const SpanPoint& point, const SpanSection& at, const SpanValues& variables,
+                           const LocalState& state, LocalTangent& tangent) const;
   std::string text(std::size_t first) const;
 
   LineLoad load_;

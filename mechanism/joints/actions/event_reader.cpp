@@ -20,9 +20,9 @@ struct PlannedWrite {
   int place;
   double constant;
   std::optional<YamlValue> formula;  ///< in place of the constant
-  const Lockable* locks = nullptr;   ///< its present value takes the place of the constant
   bool switches;
-  std::string description;  ///< empty: another write of the action says it
+  std::string description;          ///< empty: another write of the action says it
+  const Lockable* locks = nullptr;  ///< its present value takes the place of the constant
 };
 
 struct PlannedEvent {
@@ -33,14 +33,13 @@ struct PlannedEvent {
 void plan_lock(const YamlValue& value, bool closes, Model& model, PlannedEvent& event) {
   const std::string description = fmt::format("{} '{}'", closes ? "locks" : "unlocks", value.text());
   if (const auto [valve, lock] = valve_named_by(value, model); lock) {
-    if (closes) event.writes.push_back({valve, lock->locked_value_place(), 0, {}, lock, true, ""});
-    event.writes.push_back({valve, lock->lock_command_place(), closes ? 1.0 : -1.0, {}, nullptr, true, description});
+    if (closes) event.writes.push_back({valve, lock->locked_value_place(), 0, {}, true, "", lock});
+    event.writes.push_back({valve, lock->lock_command_place(), closes ? 1.0 : -1.0, {}, true, description});
     return;
   }
   bool first = true;
   for (const JointLock* lock : locks_named_by(value, model)) {
-    event.writes.push_back(
-        {lock, JointLock::command_place, closes ? 1.0 : -1.0, {}, nullptr, true, first ? description : ""});
+    event.writes.push_back({lock, JointLock::command_place, closes ? 1.0 : -1.0, {}, true, first ? description : ""});
     first = false;
   }
 }
@@ -51,7 +50,6 @@ void plan_activity(const YamlValue& value, bool acts, Model& model, PlannedEvent
                           0,
                           acts ? 1.0 : 0.0,
                           {},
-                          nullptr,
                           true,
                           fmt::format("{} '{}'", acts ? "activates" : "releases", value.text())});
 }
@@ -60,7 +58,7 @@ void plan_set(const YamlValue& value, Model& model, PlannedEvent& event) {
   const auto inputs = value.entries();
   if (inputs.empty()) value.fail("expected the name of an input with its new value");
   for (const auto& [name, formula] : inputs)
-    event.writes.push_back({&input_named_by(name, formula, model), 0, 0, formula, nullptr, false,
+    event.writes.push_back({&input_named_by(name, formula, model), 0, 0, formula, false,
                             fmt::format("sets '{}' to {}", name, formula.text())});
 }
 

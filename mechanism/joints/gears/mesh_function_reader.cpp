@@ -8,10 +8,9 @@
 
 #include "mechanism/joints/gears/iso_stiffness.hpp"
 #include "mechanism/joints/gears/mesh_function.hpp"
-#include "mechanism/reading/read_file.hpp"
 #include "mechanism/reading/read_numbers.hpp"
+#include "mechanism/reading/read_rows.hpp"
 #include "reduce/common/error.hpp"
-#include "reduce/common/files/table_file.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -68,17 +67,8 @@ const KeyTable& stiffness_keys() {
   return table;
 }
 
-/// Returns the columns of a file or of rows in the input. @throws InputError
-Eigen::MatrixXd read_rows(const YamlValue& value) {
-  if (!value.is_sequence()) return read_named_file(value, [](const std::string& path) { return read_table(path, 2); });
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(value.size()), 2);
-  for (std::size_t k = 0; k < value.size(); ++k)
-    rows.row(static_cast<Eigen::Index>(k)) = read_numbers(value.at(k), 2, "[position, value]").transpose();
-  return rows;
-}
-
 Interpolation read_period(const YamlValue& value) {
-  const Eigen::MatrixXd rows = read_rows(value);
+  const Eigen::MatrixXd rows = read_rows(value, 2, "[position, value]");
   const Eigen::Index last = rows.rows() - 1;
   if (last < 3 || rows(0, 0) != 0 || rows(last, 0) != 1)
     value.fail("expected at least four rows, with positions from 0 to 1, a whole period");

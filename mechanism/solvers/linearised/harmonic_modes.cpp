@@ -39,13 +39,10 @@ void HarmonicSearch::add_shift(HarmonicModes& result) const {
 
 namespace {
 
-/// Returns the modes in the order in which they are wanted.
-std::vector<Mode> in_order(std::vector<Mode> modes, const ModeOptions& options) {
-  if (!options.near) return modes;
-  const std::complex<double> near(0, 2 * std::numbers::pi * *options.near);
+void sort_by_distance(double frequency, std::vector<Mode>& modes) {
+  const std::complex<double> near(0, 2 * std::numbers::pi * frequency);
   std::stable_sort(modes.begin(), modes.end(),
                    [&](const Mode& a, const Mode& b) { return std::abs(a.s - near) < std::abs(b.s - near); });
-  return modes;
 }
 
 /// Sorts what was found by rates.
@@ -71,7 +68,7 @@ void sort_by_rate(HarmonicModes& modes) {
 }  // namespace
 
 /// Takes the principal modes. @returns whether there are enough
-bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const {
+bool HarmonicSearch::take(Modes found, const ModeOptions& options, HarmonicModes& result) const {
   result.found.modes.clear();
   result.u.clear();
   result.w.clear();
@@ -87,7 +84,8 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
     result.found.all = result.found.all && (result.harmonics == 0 || is_complete(result));
     return enough;
   };
-  for (const Mode& mode : in_order(found.modes, options)) {
+  if (options.near) sort_by_distance(*options.near, found.modes);
+  for (Mode& mode : found.modes) {
     Eigen::MatrixXcd u = equations_.amplitudes(mode.u, result.harmonics);
     const bool rigid = mode.kind == ModeKind::rigid && shifts;
     const HarmonicSizes sizes = shapes_.sizes(u, mode.s);
@@ -98,9 +96,9 @@ bool HarmonicSearch::take(const Modes& found, const ModeOptions& options, Harmon
       result.found.all = false;
       return finish(true);
     }
-    result.found.modes.push_back(mode);
     result.w.push_back(equations_.amplitudes(mode.w, result.harmonics));
     result.u.push_back(std::move(u));
+    result.found.modes.push_back(std::move(mode));
     result.whirl.push_back(shapes_.whirl(sizes));
   }
   return finish(options.below || found.all || count >= options.count);
@@ -121,8 +119,9 @@ bool HarmonicSearch::is_phase(std::complex<double> s, const HarmonicSizes& sizes
 bool HarmonicSearch::is_complete(const HarmonicModes& modes) const {
   const LinearisedEquations& first = equations_.first();
   constexpr int most = 2000;  // limit of states for counting
+  if (first.states() > most) return false;
   const ShiftedOperator T(first, equations_.rate());
-  if (first.states() > most || !T.regular()) return false;
+  if (!T.regular()) return false;
   Eigen::Index least = 0, greatest = 0;
   for (const Mode& mode : modes.found.modes) {
     // A motion that is locked to the rotation is its own conjugate.
@@ -176,9 +175,8 @@ HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const 
     if (more > (next ? most : most_searched))
       throw ComputationError(fmt::format(
           "the modes of the periodic equations do not converge with {} harmonics of the rotation{}: ask for fewer "
-          "modes "
-          "or for a faster rotation; about as many harmonics are necessary as the rate is contained in the change of a "
-          "frequency over a turn",
+          "modes or for a faster rotation; about as many harmonics are necessary as the rate is contained in the "
+          "change of a frequency over a turn",
           h, next ? fmt::format(" (further ones change them by {:.2g})", next->change) : ""));
     continued = next.has_value();
     modes = next ? *std::move(next) : find_with(options, more);

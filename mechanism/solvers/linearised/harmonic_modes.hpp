@@ -25,7 +25,7 @@ class HarmonicSearch {
   void add_shift(HarmonicModes& result) const;
   bool is_complete(const HarmonicModes& modes) const;
   bool is_phase(std::complex<double> s, const HarmonicSizes& sizes) const;
-  bool take(const Modes& found, const ModeOptions& options, HarmonicModes& result) const;
+  bool take(Modes found, const ModeOptions& options, HarmonicModes& result) const;
 
   const PeriodicEquations& equations_;
   HarmonicShapes shapes_;

@@ -2,49 +2,20 @@
 
 import os
 import subprocess
-import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.results import Results  # noqa: E402
+from example import PROGRAM, REPOSITORY, ExampleTest
+from bielle_tools.results import Results
 
-PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
-SUPERELEMENT = os.environ["BIELLE_SUPERELEMENT"]
 AREAS, DEAD, AMBIENT = np.array([3.1e-3, 1.9e-3]), 1e-4, 101325
 STROKES = {"lift": (1.1, 1.8), "fold": (0.65, 1.05)}
 
 
-def run(folder, name, text):
-    path = os.path.join(folder, name)
-    with open(path + ".yaml", "w") as file:
-        file.write(text)
-    done = subprocess.run([PROGRAM, path + ".yaml", "-o", path + ".h5", "--quiet"], capture_output=True, text=True, timeout=600)
-    if done.returncode:
-        raise AssertionError(done.stderr)
-    return Results(path + ".h5")
-
-
-class Crane(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        os.symlink(SUPERELEMENT, os.path.join(cls.folder.name, "boom.h5"))
-        with open(os.path.join(REPOSITORY, "mechanism", "examples", "crane.yaml")) as file:
-            cls.text = file.read()
-        cls.results = run(cls.folder.name, "crane", cls.text)
-        cls.time = cls.results.rows("time")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.results.file.close()
-        cls.folder.cleanup()
-
-    def rows(self, name):
-        return np.squeeze(self.results.rows(name))
+class Crane(ExampleTest):
+    model = "crane.yaml"
+    superelement = "boom.h5"
 
     def test_it_is_what_the_valves_are_told(self):
         """At rest before the first command; the load goes up, then down while the boom is lowered."""
@@ -94,9 +65,9 @@ class Crane(unittest.TestCase):
             self.assertLess(np.abs(rate[still].mean()), 0.03 * np.abs(rate).max())
 
     def test_its_circuit_is_drawn(self):
-        folder = os.path.join(self.folder.name, "figures")
-        done = subprocess.run([os.path.join(REPOSITORY, "tools", "bielle-plot"), os.path.join(self.folder.name, "crane.h5"), "-o",
-                               folder], capture_output=True, text=True, timeout=300)
+        folder = os.path.join(self.folder, "figures")
+        done = subprocess.run([os.path.join(REPOSITORY, "tools", "bielle-plot"), self.path, "-o", folder],
+                              capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLessEqual({"hydraulics.png", "element_lift.png", "element_fold.png"}, set(os.listdir(folder)))
 
@@ -105,10 +76,15 @@ class Crane(unittest.TestCase):
         self.assertLess(np.abs(balance).max(), 1e-5 * np.abs(put_in).max())
 
     def test_half_the_step_moves_the_load_alike(self):
-        fine = run(self.folder.name, "fine", self.text.replace("step: 2.0e-3", "step: 1.0e-3"))
-        height, time = np.squeeze(fine.rows("measures/load_height")), fine.rows("time")
+        model, target = os.path.join(self.folder, "fine.yaml"), os.path.join(self.folder, "fine.h5")
+        with open(os.path.join(self.folder, self.model), encoding="utf-8") as file:
+            text = file.read()
+        with open(model, "w", encoding="utf-8") as file:
+            file.write(text.replace("step: 2.0e-3", "step: 1.0e-3"))
+        subprocess.run([PROGRAM, model, "-o", target, "--quiet"], check=True, timeout=600)
+        with Results(target) as fine:
+            height, time = np.squeeze(fine.rows("measures/load_height")), fine.time
         self.assertLess(np.abs(np.interp(self.time, time, height) - self.rows("measures/load_height")).max(), 2e-3)
-        fine.file.close()
 
 
 if __name__ == "__main__":
