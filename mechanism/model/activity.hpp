@@ -1,8 +1,8 @@
 // Activity of entries: whether the components that an entry is read into are in the equations.
 //
 // An entry that is released adds nothing: no forces, no energy, no derivatives; its constraints are switched off and
-// its multipliers are zero. Its memory stays, so that it can be activated again. The components themselves know nothing
-// of this: whoever evaluates them asks `Activities` first.
+// its multipliers are zero. Its memory stays, so that it can be activated again (Component::activate). The components
+// themselves know nothing of this: whoever evaluates them asks `Activities` first.
 #pragma once
 
 #include <cstddef>

@@ -53,6 +53,9 @@ struct EventFunction {
   /// that is farthest beyond its limit (its value is the most negative) is released first, because the others may hold
   /// without it.
   bool one_by_one = false;
+  /// The function is positive if the component's first constraint, a one-sided one, is set aside as redundant and
+  /// violated: it must take the place of another one (solvers/start/one_sided_holds.hpp).
+  bool exchanges = false;
   /// The event is located no nearer to the start of a step than this fraction of the step: positions are rounded, and
   /// the error of rates and forces that follows grows as steps become shorter, so that other events may seem to occur.
   /// 0: as near as possible.
@@ -239,6 +242,10 @@ class Component {
   /// follow from rates. Before rates are consistent, `known` is false: parts that hold depending on their rates are
   /// released. The function is called again with the rates at which the motion begins.
   virtual void begin_motion(const LocalState& /*state*/, bool /*known*/, Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Computes new values of the component's memory when an event activates its entry, before `begin_branch`. The memory
+  /// is that of the release. After the state has been made consistent, `accept` follows.
+  virtual void activate(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
 
   /// Whether the motion continues after an accepted step on another branch than that of the step, although no event was
   /// detected: the motion is then restarted there.

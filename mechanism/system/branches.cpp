@@ -61,11 +61,39 @@ void Branches::do_actions(State& state, const Environment& environment, const st
   }
 }
 
+/// @param act  takes a component, its state and its new memory
+template <class Act>
+void Branches::for_each_activated(State& state, const Environment& environment, const VectorX& before,
+                                  const Act& act) const {
+  const Activities& activities = unknowns_.activities();
+  if (!activities.any()) return;
+  VectorX memory = state.memory;
+  for (const std::size_t m : remembering_) {
+    const Slots& slots = unknowns_.slots()[m];
+    if (!unknowns_.is_active(state, m) || activities.is_active(before, unknowns_.slots(), m)) continue;
+    act(*model_.members()[m].component, local(state, m, environment),
+        memory.segment(slots.memory_begin, slots.memories));
+  }
+  state.memory = memory;
+}
+
+void Branches::accept_activated(State& state, const Environment& environment, const VectorX& before) const {
+  for_each_activated(state, environment, before,
+                     [](const Component& component, const LocalState& view, Eigen::Ref<VectorX> memory) {
+                       component.accept(view, memory);
+                     });
+}
+
 void Branches::begin(State& state, const Environment& environment, const std::vector<int>& crossed) const {
   std::vector<int> ascending = crossed, own;  // ordered by member, as the event functions are
   std::sort(ascending.begin(), ascending.end());
-  do_actions(state, environment, ascending);
   VectorX memory = state.memory;
+  do_actions(state, environment, ascending);
+  for_each_activated(state, environment, memory,
+                     [](const Component& component, const LocalState& view, Eigen::Ref<VectorX> own_memory) {
+                       component.activate(view, own_memory);
+                     });
+  memory = state.memory;
   auto next = ascending.begin();
   for (const std::size_t m : remembering_) {
     own.clear();

@@ -37,14 +37,19 @@ class Branches {
   // See the functions of the same names in System.
   void calc_event_functions(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const;
   double calc_crossing(const State& state, const Environment& environment, int crossing) const;
-  /// Does the actions of the events that occurred, then lets components begin their branch.
+  /// Does the actions of the events that occurred, then lets components begin their branch. Those that are activated
+  /// do so before.
   void begin(State& state, const Environment& environment, const std::vector<int>& crossed) const;
   void begin_motion(State& state, const Environment& environment, bool known) const;
   /// Components update their memory. @returns whether a component has left its branch
   bool accept(State& state, const Environment& environment) const;
+  void accept_activated(State& state, const Environment& environment, const VectorX& before) const;
 
  private:
   void do_actions(State& state, const Environment& environment, const std::vector<int>& ascending) const;
+  /// @param before  memory before the actions
+  template <class Act>
+  void for_each_activated(State& state, const Environment& environment, const VectorX& before, const Act& act) const;
   LocalState local(const State& state, std::size_t member, const Environment& environment) const {
     return {state, unknowns_.slots()[member], environment};
   }

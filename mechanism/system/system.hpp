@@ -104,6 +104,11 @@ class System {
   /// Components update their memory at the beginning of a branch of the motion. @param crossed  numbers of the event
   /// functions that crossed zero
   void begin_branch(State& state, const Environment& environment, const std::vector<int>& crossed = {}) const;
+  /// Components that a branch has activated update their memory by the state with which it begins.
+  /// @param before  memory before the branch began
+  void accept_activated(State& state, const Environment& environment, const VectorX& before) const {
+    branches_.accept_activated(state, environment, before);
+  }
   /// Components reset the part of their memory that depends on rates, or set it from known rates
   /// (Component::begin_motion).
   /// @returns whether constraints have been switched

@@ -105,6 +105,8 @@ void OneWay::begin_branch(const LocalState& state, std::span<const int> crossed,
   }
 }
 
+void OneWay::activate(const LocalState& state, Eigen::Ref<VectorX> memory) const { begin_motion(state, false, memory); }
+
 bool OneWay::knows_memory(const LocalState& state) const {
   const auto memory = state.memory();
   const auto is_flag = [](double value) { return value == 0 || value == 1; };
@@ -118,9 +120,26 @@ void RigidOneWay::declare(Declaration& declaration) const {
   opening.begins_on = -1;
   opening.reads_reaction = true;
   declare_one_way(declaration, opening);
+  EventFunction taking{"one-way clutch on " + coordinate().name + " holds in place of another",
+                       EventFunction::Direction::rising};
+  taking.begins_on = -1;
+  taking.exchanges = true;
+  declaration.event_functions.push_back(taking);
   Declaration::Scalar row{coordinate().name + " held one way", coordinate().force_units()};
-  row.switched = true;
+  row.switched = row.yields = true;
   declaration.multipliers.push_back(row);
+}
+
+/// If other constraints hold the coordinate as well, it has no force: its motion decides.
+void RigidOneWay::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
+  OneWay::calc_event_functions(state, values);
+  values[takes_over] = -1;
+  if (!holds(state) || !state.idle(0)) return;
+  const double v = sense() * value(state).rate, a = sense() * calc_kept_rates(state).second,
+               v_limit = velocity_at_rest(state.of(0), 1), a_limit = acceleration_at_rest(state.of(0), 1);
+  const bool moves = std::abs(v) > v_limit;
+  values[opens] = moves ? v : a - a_limit;
+  values[takes_over] = moves ? -v : -a - a_limit;
 }
 
 void RigidOneWay::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {

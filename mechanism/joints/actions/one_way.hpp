@@ -9,7 +9,13 @@
 //     elastic   N = max(0, k p + d pdot) along s, p = u_0 - u, until p falls to zero
 // Steps end when it begins to hold and when it opens: the scheme keeps its order. A multiple that is passed and left
 // again within a step is not seen. A closed constraint also transmits impulses of other parts the other way. In statics
-// it is free. Complementarity: F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts (1996), chapter 6.
+// it is free.
+//
+// The rigid form yields to drives, locks and earlier one-way clutches that hold the same motion. It then has no force,
+// and opens as soon as it is moved on. If it would be moved against its sense, it holds in place of another one-way
+// clutch (solvers/start/one_sided_holds.hpp).
+//
+// Complementarity: F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts (1996), chapter 6.
 #pragma once
 
 #include "mechanism/joints/actions/coordinate_action.hpp"
@@ -34,10 +40,11 @@ class OneWay : public CoordinateAction {
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+  void activate(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   bool knows_memory(const LocalState& state) const override;
 
  protected:
-  enum Event { closes, opens };
+  enum Event { closes, opens, takes_over };
   enum Memory { holding, held_at, has_moved, passed, memories };
   /// Declares the memory, and the event that it begins to hold; the event that it opens is that of the form.
   void declare_one_way(Declaration& declaration, EventFunction opening) const;
@@ -67,6 +74,7 @@ class RigidOneWay final : public OneWay {
  public:
   using OneWay::OneWay;
   void declare(Declaration& declaration) const override;
+  void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,

@@ -109,6 +109,13 @@ void RopeSection::for_each_slip(const LocalState& state, const Act& act) const {
     if (slip_references_[end] >= 0) act(end, slip_at(state, end), end == last_end ? 1.0 : -1.0);
 }
 
+/// The slip with which a motion begins decides itself which sections are stretched.
+bool RopeSection::is_stretched(const LocalState& state, double E) const {
+  bool begins = state.environment().statics;
+  for_each_slip(state, [&](End, const LocalState& slip, double) { begins = begins || !RopeSlip::has_begun(slip); });
+  return begins ? E >= 0 : state.memory()[taut_memory] != 0;
+}
+
 /// @param stretch  contains the states of the places
 void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
   thread_local RopeCourse course;
@@ -134,7 +141,7 @@ void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
         "t = {:.6g} s: {} '{}': no free rope is left between '{}' and '{}': one has been drawn to the other, "
         "or all rope is wound",
         state.time(), type(), name(), path_.names.front(), path_.names.back()));
-  const bool stretched = state.environment().statics ? stretch.E >= 0 : state.memory()[taut_memory] != 0;
+  const bool stretched = is_stretched(state, stretch.E);
   stretch.pull = material_.EA * (stretch.E + material_.damping * stretch.E_rate) / natural;
   stretch.stretched = stretched;
   stretch.taut = stretched && stretch.pull >= 0;
@@ -302,6 +309,7 @@ void RopeSection::accept(const LocalState& state, Eigen::Ref<VectorX> memory) co
     memory[ends_memory + 2 * end + 1] = s.ends[end].rate;
   }
   memory[time_memory] = state.time();
+  memory[taut_memory] = s.stretched ? 1 : 0;
 }
 
 bool RopeSection::leaves_branch(const LocalState& state) const {

@@ -111,6 +111,7 @@ class RopeSection final : public Component {
   void get_places(const LocalState& state, std::vector<RopePlace>& places) const;
   void remember_places(const std::vector<RopePlace>& places, Eigen::Ref<VectorX> memory) const;
   void calc_along(const LocalState& state, Stretch& stretch) const;
+  bool is_stretched(const LocalState& state, double E) const;
   template <class Act>
   void for_each_slip(const LocalState& state, const Act& act) const;
   CoordinateRate add_span(const LocalState& state, const RopeCourse& course, std::size_t s,

@@ -38,7 +38,7 @@ void RopeSlip::declare(Declaration& declaration) const {
 }
 
 double RopeSlip::passed(const LocalState& own) {
-  constexpr double just_after = 1e-6, shortest = 1e-12;  // share of the last step; a time [s]
+  constexpr double just_after = 2e-6, shortest = 1e-12;  // share of the last step; a time [s]
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   const double passed = own.time() - own.memory()[time_memory];
   const double negligible =
@@ -107,9 +107,16 @@ void RopeSlip::begin_motion(const LocalState& state, bool /*known*/, Eigen::Ref<
   memory[phase_memory] = damping_ > 0 ? begins : first_step;
 }
 
-void RopeSlip::begin_branch(const LocalState& /*state*/, std::span<const int> /*crossed*/,
+void RopeSlip::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                             Eigen::Ref<VectorX> memory) const {
+  if (!std::isnan(memory[time_memory])) memory[time_memory] = state.time();
   memory[phase_memory] = damping_ > 0 ? begins : first_step;
+}
+
+/// The tensions of a rope that is activated may be too different for its friction: without damping, it slips at once.
+void RopeSlip::activate(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const {
+  memory[time_memory] = std::numeric_limits<double>::quiet_NaN();
+  memory[mean_memory] = memory[step_memory] = memory[rate_memory] = 0;
 }
 
 bool RopeSlip::knows_memory(const LocalState& state) const {

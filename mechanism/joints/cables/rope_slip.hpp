@@ -30,6 +30,7 @@ class RopeSlip final : public Component {
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   void begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
+  void activate(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
   bool knows_memory(const LocalState& state) const override;
 
   // The following functions take the component's own local state.
@@ -52,6 +53,8 @@ class RopeSlip final : public Component {
   /// Whether the change is determined at this state: in a static analysis, within a step, and at the beginning of a
   /// branch if the rope is damped, or before the first motion.
   static bool may_change(const LocalState& own);
+  /// False at the beginning of the first motion, and when an event activates the rope.
+  static bool has_begun(const LocalState& own) { return !std::isnan(own.memory()[time_memory]); }
   /// Returns 1/h; zero outside of steps [1/s].
   static double per_time(const LocalState& own);
   /// Whether this is the beginning of a branch, at which the rate is determined.
@@ -68,7 +71,6 @@ class RopeSlip final : public Component {
   // Memory: s_0, t_0 (NaN before the first motion or static analysis), mean rate and length of the last step, rate at
   // its end, phase.
   enum : Eigen::Index { slip_memory, time_memory, mean_memory, step_memory, rate_memory, phase_memory, memories };
-  static bool has_begun(const LocalState& own) { return !std::isnan(own.memory()[time_memory]); }
   /// Returns t - t_0; zero if it is rounding, or the short time by which a branch begins after its discontinuity [s].
   static double passed(const LocalState& own);
   std::string pulley_;

@@ -15,6 +15,7 @@
 #include "mechanism/solvers/start/consistent_start.hpp"
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
+#include "mechanism/solvers/start/one_sided_holds.hpp"
 #include "mechanism/solvers/start/refused_holds.hpp"
 
 namespace bielle::mechanism {
@@ -138,10 +139,21 @@ void TimeIntegration::start_anew(double h, StartReport& report) {
 }
 
 void TimeIntegration::make_consistent_anew(StartReport& report) {
-  // The same factorisation is used for all of this.
   State& state = step_.state();
-  make_velocities_consistent(system_, environment_, state, report, correction_.saddle());
-  make_accelerations_consistent(system_, environment_, state, correction_.saddle());
+  KktMatrix& saddle = correction_.saddle();
+  const State begun = state;
+  const StartReport before = report;
+  const auto make = [&] {  // by one factorisation
+    report = before;
+    make_velocities_consistent(system_, environment_, state, report, saddle);
+    make_accelerations_consistent(system_, environment_, state, saddle);
+  };
+  make();
+  if (auto flags = exchange_one_sided(system_, environment_, begun, state, saddle)) {
+    state = begun;
+    state.idle = *std::move(flags);
+    make();
+  }
   balance_massless(system_, environment_, state, report);
   step_.take_rates();
 }
@@ -193,6 +205,7 @@ Jump TimeIntegration::begin_branch(double h, const std::vector<int>& crossed) {
     if (events.empty()) throw;
     throw ComputationError(fmt::format("{}; this is where {}", error.what(), fmt::join(events, ", ")));
   }
+  system_.accept_activated(state, environment_, memory);
   newton_.forget_factors();
   jump.after = system_.energy(state, environment_);
   jump.work = report.impulse_work;

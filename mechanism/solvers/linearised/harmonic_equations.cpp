@@ -18,18 +18,18 @@ double harmonic_function(int p, double psi) {
   return p == 0 ? 1 : p % 2 == 1 ? std::cos(m * psi) : std::sin(m * psi);
 }
 
-/// Returns the mean of e_p f_r e_q, where e are the functions f with the mean square 1.
+/// Returns the mean of e_p f_r e_q, where e are the functions f with the mean square 1. Products of two functions are
+/// sums of cosines (none is left if one or three of the functions are sines).
 double product_coefficient(int p, int r, int q) {
-  const int samples = 2 * (p + r + q + 2);
-  double sum = 0;
-  for (int k = 0; k < samples; ++k) {
-    const double psi = 2 * std::numbers::pi * k / samples;
-    sum += harmonic_function(p, psi) * harmonic_function(r, psi) * harmonic_function(q, psi);
-  }
-  constexpr double rounding = 1e-14;
+  std::array<int, 3> functions{p, r, q};
+  const auto is_sine = [](int k) { return k > 0 && k % 2 == 0; };
+  const auto sines = std::partition(functions.begin(), functions.end(), is_sine) - functions.begin();
+  if (sines % 2 == 1) return 0;
+  const auto order = [](int k) { return (k + 1) / 2; };
+  const int a = order(functions[0]), b = order(functions[1]), c = order(functions[2]);
+  const auto mean = [c](int k) { return std::abs(k) != c ? 0 : c == 0 ? 1 : 0.5; };  // of cos(k psi) cos(c psi)
   const double size = (p > 0 ? std::numbers::sqrt2 : 1) * (q > 0 ? std::numbers::sqrt2 : 1);
-  const double value = size * sum / samples;
-  return std::abs(value) < rounding ? 0 : value;
+  return size * 0.5 * (mean(a - b) + (sines == 2 ? -1 : 1) * mean(a + b));
 }
 
 /// Largest entries of a matrix over the azimuths, for each kind of row and of column.

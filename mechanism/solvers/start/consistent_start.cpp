@@ -9,6 +9,7 @@
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 #include "mechanism/solvers/start/massless_balance.hpp"
 #include "mechanism/solvers/start/massless_direction.hpp"
+#include "mechanism/solvers/start/one_sided_holds.hpp"
 #include "mechanism/solvers/start/refused_holds.hpp"
 
 namespace bielle::mechanism {
@@ -58,7 +59,14 @@ StartReport make_consistent(const System& system, const Environment& environment
   }
   begin_first_order(system, environment, state);
   refuse_holds(system, environment, state, active_holds(system, state), Overloaded::holds, saddle);
+  const State begun = state;
   make_accelerations_consistent(system, environment, state, saddle);
+  if (auto flags = exchange_one_sided(system, environment, begun, state, saddle)) {
+    state = begun;
+    state.idle = *std::move(flags);
+    make_velocities_consistent(system, environment, state, report, saddle);
+    make_accelerations_consistent(system, environment, state, saddle);
+  }
   // Start values that depend on reactions are known only now, and may change the reactions.
   constexpr int most = 20;
   for (int k = 0; k < most && begin_first_order(system, environment, state); ++k)

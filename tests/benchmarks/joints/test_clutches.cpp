@@ -229,6 +229,56 @@ TEST_CASE("a sprag clutch under an alternating torque advances as the piecewise 
   }
 }
 
+TEST_CASE("a rocker moves a winch on by a freewheel, and a pawl keeps it") {
+  // Three rigid constraints act on two angles as long as all stand still: the clutch that the motion needs holds.
+  const std::string freewheel = "  freewheel: {type: hinge, nodes: [rocker, winch], axis: [0, 0, 1], one_way: {}}\n",
+                    pawl = "  pawl: {type: hinge, nodes: [ground, winch], axis: [0, 0, 1], one_way: {}}\n";
+  const bool pawl_first = GENERATE(false, true);
+  const double h = GENERATE(0.01, 0.0137);
+  CAPTURE(pawl_first, h);
+  const std::string text = R"yaml(
+nodes: {rocker: {}, winch: {}}
+elements:
+  rocker: {type: rigid_body, node: rocker, mass: 1, inertia: [1, 1, 0.1]}
+  winch: {type: rigid_body, node: winch, mass: 1, inertia: [1, 1, 0.5]}
+joints:
+  crank: {type: hinge, nodes: [ground, rocker], axis: [0, 0, 1]}
+)yaml" + (pawl_first ? pawl + freewheel : freewheel + pawl) +
+                           R"yaml(drives:
+  swing: {joint: crank, angle: "0.5*(1 - cos(2*t))"}
+  load: {joint: pawl, torque: "-1"}
+)yaml";
+  double largest = 0;
+  move(text, h, 6, [&](const Session& session) {
+    const double t = session.time(), phase = std::fmod(t, M_PI);
+    const bool forwards = phase < M_PI / 2;
+    const double exact = std::floor(t / M_PI) + (forwards ? 0.5 * (1 - std::cos(2 * phase)) : 1);
+    largest = std::max(largest, std::abs(read(session, "pawl/coordinate") - exact));
+    if (std::min(phase, std::abs(phase - M_PI / 2)) < 2 * h) return;
+    // The winch is accelerated against its load, or rests on its pawl.
+    CHECK_THAT(read(session, "freewheel/one_way_force"), WithinAbs(forwards ? 1 + std::cos(2 * phase) : 0, 5 * h));
+    CHECK_THAT(read(session, "pawl/one_way_force"), WithinAbs(forwards ? 0 : 1, 1e-9));
+  });
+  CHECK(largest < h * h);
+}
+
+TEST_CASE("a rigid one-way clutch yields to a drive forwards, and contradicts it backwards") {
+  const auto driven = [](const char* angle) {
+    std::string text = wheel("one_way: {}", 0, "0");
+    const std::string start = "start_rate: 0, ", drive = "torque: \"0\"";
+    text.replace(text.find(start), start.size(), "");
+    return text.replace(text.find(drive), drive.size(), std::string("angle: \"") + angle + "\"");
+  };
+  move_to(driven("if(t < 0.5, 0, (t - 0.5)^2)"), 0.01, 1, [](const Session& session) {
+    CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0.25, 1e-9));
+    CHECK_THAT(read(session, "axle/drive_force"), WithinAbs(4, 1e-6));
+    CHECK(read(session, "axle/one_way_holds") == 0);
+  });
+  CHECK_THROWS_WITH(move_to(driven("-t^2"), 0.01, 1, [](const Session&) {}),
+                    Contains("held one way of joint 'axle' cannot hold: a drive"));
+  CHECK_THROWS_WITH(move_to(driven("t^2*(1 - t)"), 0.01, 1, [](const Session&) {}), Contains("cannot hold"));
+}
+
 TEST_CASE("a ratchet holds at the last tooth that it has passed, and lets go forwards") {
   // Thrown forwards at 3 rad/s against 4 N m: up to 2.25 rad, back to the last of the teeth at 0.4 rad, 2 rad. The
   // torque turns at 8 s and moves it on.
