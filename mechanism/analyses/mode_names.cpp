@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/analyses/mode_groups.hpp"
 #include "mechanism/analyses/mode_motion.hpp"
@@ -18,7 +19,7 @@ constexpr const char* coupled = "coupled mode";       // more than two parts sha
 constexpr const char* rigid_motion = "rigid motion";  // several have no own shapes
 
 /// Returns the part of a mode: the group whose deformation has most of the energy, otherwise the group with most of
-/// all energy, or two that have most of it together.
+/// all energy, or two that have most of it together, with a third one that is equal to the second.
 /// @param one  the group, if it is one
 std::string main_part(const std::vector<ModeGroup>& groups, Eigen::Index mode, const ModeGroup*& one) {
   std::vector<const ModeGroup*> sorted;
@@ -41,8 +42,14 @@ std::string main_part(const std::vector<ModeGroup>& groups, Eigen::Index mode, c
     return one->name;
   }
   if (sorted[0]->energy[mode] + sorted[1]->energy[mode] < mode_share * whole) return coupled;
-  const auto [first, second] = std::minmax(sorted[0]->name, sorted[1]->name);
-  return fmt::format("{} and {}", first, second);
+  // Equal parts are named together: rounding would decide between them.
+  constexpr double equal = 0.99;
+  std::vector<std::string> names = {sorted[0]->name, sorted[1]->name};
+  for (std::size_t k = 2; k < sorted.size() && sorted[k]->energy[mode] >= equal * sorted[1]->energy[mode]; ++k)
+    names.push_back(sorted[k]->name);
+  if (names.size() > 3) return coupled;
+  std::sort(names.begin(), names.end());
+  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
 std::string ordinal(int number) {

@@ -155,6 +155,26 @@ TEST_CASE("equal modes of equal parts keep what they have in common", "[linearis
                                           "1st boom bending about y, 1 of 2", "1st boom bending about y, 2 of 2"});
 }
 
+TEST_CASE("parts with equal shares of a mode are named together, in whatever order they are written", "[linearised]") {
+  // Two masses on springs on a mass with the frequency of theirs: w^2 = 25, 50, 100. In the slowest mode all three
+  // masses have the same energy.
+  const std::string mass = ", fixed: [y, z, rx, ry, rz]}", spring = ", stiffness: [25, 25, 25, 0, 0, 0]}";
+  for (const auto& [first, second] : {std::pair("left", "right"), std::pair("right", "left")}) {
+    const std::string a = first, b = second;
+    const std::vector<std::string> names = names_of(
+        "nodes: {s: {position: [0, 0, 0]" + mass + ", " + a + ": {position: [1, 0, 0]" + mass + ", " + b +
+            ": {position: [-1, 0, 0]" + mass + "}\nelements:\n" + "  " + a + ": {type: point_mass, node: " + a +
+            ", mass: 0.5}\n  " + b + ": {type: point_mass, node: " + b +
+            ", mass: 0.5}\n  support: {type: point_mass, node: s, mass: 2}\njoints:\n"
+            "  base: {type: bushing, nodes: [ground, s], stiffness: [100, 100, 100, 0, 0, 0]}\n  l: {type: bushing, "
+            "nodes: [s, " +
+            a + "], position: [0, 0, 0]" + spring + "\n  r: {type: bushing, nodes: [s, " + b +
+            "], position: [0, 0, 0]" + spring + "\n",
+        3);
+    CHECK(names == std::vector<std::string>{"left, right and support", "left and right", "support along x"});
+  }
+}
+
 TEST_CASE("blades and tower have the names of designers, and whirls the frequencies of the collective mode -+ the rate",
           "[linearised]") {
   constexpr double rate = 2;
