@@ -279,6 +279,28 @@ TEST_CASE("a rigid one-way clutch yields to a drive forwards, and contradicts it
   CHECK_THROWS_WITH(move_to(driven("t^2*(1 - t)"), 0.01, 1, [](const Session&) {}), Contains("cannot hold"));
 }
 
+TEST_CASE("a one-way clutch that is released while it holds engages elsewhere when it is activated") {
+  // 4 N m turn 2 kg m^2 backwards for 0.5 s, to -0.25 rad at -1 rad/s. It holds there, a ratchet at its next tooth.
+  for (const auto& [keys, place] : {std::pair("", -0.25), std::pair("pitch: 0.1", -0.3)}) {
+    const std::string text = fmt::format(R"yaml(
+nodes: {{w: {{}}}}
+elements: {{w: {{type: rigid_body, node: w, mass: 1, inertia: [1, 1, 2]}}}}
+joints:
+  axle: {{type: hinge, nodes: [ground, w], axis: [0, 0, 1]}}
+  dog: {{type: hinge, nodes: [ground, w], axis: [0, 0, 1], one_way: {{{}}}}}
+loads: {{torque: {{node: w, moment: [0, 0, -4]}}}}
+events:
+  away: {{when: t, crosses: 1, do: [{{release: dog}}]}}
+  back: {{when: t, crosses: 1.5, do: [{{activate: dog}}]}}
+)yaml",
+                                         keys);
+    move(text, 0.01, 2, [&, at = place](const Session& session) {
+      if (session.time() < 1) CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0, 1e-12));
+      if (session.time() > 1.6) CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(at, 1e-6));
+    });
+  }
+}
+
 TEST_CASE("a ratchet holds at the last tooth that it has passed, and lets go forwards") {
   // Thrown forwards at 3 rad/s against 4 N m: up to 2.25 rad, back to the last of the teeth at 0.4 rad, 2 rad. The
   // torque turns at 8 s and moves it on.
