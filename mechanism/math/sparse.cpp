@@ -29,6 +29,32 @@ klu_common defaults() {
   return common;
 }
 
+/// KLU's functions of a scalar type. Complex numbers are pairs of doubles.
+template <class Scalar>
+struct Klu;
+template <>
+struct Klu<double> {
+  static constexpr auto factor = klu_factor;
+  static constexpr auto refactor = klu_refactor;
+  static constexpr auto solve = klu_solve;
+  static constexpr auto rcond = klu_rcond;
+  static constexpr auto rgrowth = klu_rgrowth;
+  static constexpr auto flops = klu_flops;
+  static constexpr auto free_numeric = klu_free_numeric;
+};
+template <>
+struct Klu<std::complex<double>> {
+  static constexpr auto factor = klu_z_factor;
+  static constexpr auto refactor = klu_z_refactor;
+  static constexpr auto solve = klu_z_solve;
+  static constexpr auto rcond = klu_z_rcond;
+  static constexpr auto rgrowth = klu_z_rgrowth;
+  static constexpr auto flops = klu_z_flops;
+  static constexpr auto free_numeric = klu_z_free_numeric;
+};
+double* numbers(double* values) { return values; }
+double* numbers(std::complex<double>* values) { return reinterpret_cast<double*>(values); }
+
 }  // namespace
 
 /// KLU's analyses of a pattern, which the factorisation only reads.
@@ -94,12 +120,14 @@ int SparsePattern::find(int row, int column) const {
   return place != end && *place == row ? static_cast<int>(place - row_.begin()) : -1;
 }
 
-struct SparseLU::Factors {
+template <class Scalar>
+struct SparseFactors<Scalar>::Factors {
+  using Functions = Klu<Scalar>;
   klu_common common = defaults();
   klu_symbolic* symbolic = nullptr;  ///< the chosen ordering, owned by the pattern
   klu_numeric* numeric = nullptr;
   double room = 0;                ///< limit of factor entries beyond which the factorisation is given up; 0: no limit
-  std::vector<double> scaled;     ///< R D A D, with R of the last choice of pivots
+  std::vector<Scalar> scaled;     ///< R D A D, with R of the last choice of pivots
   VectorX row_size, left, right;  ///< 1/R, R D, D
   double trusted_pivots = 0;      ///< reciprocal condition number when element growth was last found harmless
   std::optional<FactorCost> known_cost;  ///< cost with these pivots
@@ -108,7 +136,7 @@ struct SparseLU::Factors {
   Factors& operator=(const Factors&) = delete;
   ~Factors() { drop_numeric(); }
   void drop_numeric() {
-    if (numeric) klu_free_numeric(&numeric, &common);
+    if (numeric) Functions::free_numeric(&numeric, &common);
     known_cost.reset();
   }
   /// Factorises `scaled` with the ordering; false if the matrix is singular, or the limit of entries is exceeded.
@@ -117,7 +145,7 @@ struct SparseLU::Factors {
     // Without a limit the memory grows by the default factor; with one, KLU fails as soon as it would have to grow.
     common.memgrow = room > 0 ? 1e30 : defaults().memgrow;
     common.initmem_amd = room > 0 ? 0.5 * room / symbolic->lnz : defaults().initmem_amd;
-    numeric = klu_factor(starts(pattern), rows(pattern), scaled.data(), symbolic, &common);
+    numeric = Functions::factor(starts(pattern), rows(pattern), numbers(scaled.data()), symbolic, &common);
     if (numeric && common.status == KLU_OK) return true;
     drop_numeric();
     if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -128,7 +156,7 @@ struct SparseLU::Factors {
   bool gave_up() const { return common.status == KLU_TOO_LARGE; }
   FactorCost cost() {
     if (!known_cost) {
-      klu_flops(symbolic, numeric, &common);
+      Functions::flops(symbolic, numeric, &common);
       known_cost = {common.flops, static_cast<double>(numeric->lnz) + static_cast<double>(numeric->unz)};
     }
     return *known_cost;
@@ -138,8 +166,9 @@ struct SparseLU::Factors {
 namespace {
 
 /// scaled = diag(left) A diag(right)
-void scale_entries(const SparsePattern& pattern, const std::vector<double>& values, const VectorX& left,
-                   const VectorX& right, std::vector<double>& scaled) {
+template <class Scalar>
+void scale_entries(const SparsePattern& pattern, const std::vector<Scalar>& values, const VectorX& left,
+                   const VectorX& right, std::vector<Scalar>& scaled) {
   scaled.resize(values.size());
   const int* row = pattern.row().data();
   for (int column = 0; column < pattern.size(); ++column) {
@@ -152,28 +181,35 @@ void scale_entries(const SparsePattern& pattern, const std::vector<double>& valu
 
 }  // namespace
 
-SparseLU::SparseLU(const SparsePattern& pattern) : pattern_(pattern), factors_(std::make_unique<Factors>()) {}
-SparseLU::SparseLU(SparseLU&&) noexcept = default;
-SparseLU::~SparseLU() = default;
+template <class Scalar>
+SparseFactors<Scalar>::SparseFactors(const SparsePattern& pattern)
+    : pattern_(pattern), factors_(std::make_unique<Factors>()) {}
+template <class Scalar>
+SparseFactors<Scalar>::SparseFactors(SparseFactors&&) noexcept = default;
+template <class Scalar>
+SparseFactors<Scalar>::~SparseFactors() = default;
 
-bool SparseLU::refactor(const std::vector<double>& values) {
+template <class Scalar>
+bool SparseFactors<Scalar>::refactor(const std::vector<Scalar>& values) {
   Factors& f = *factors_;
   if (!f.numeric) return false;
   f.left = f.row_size.cwiseInverse().cwiseProduct(f.right);
   scale_entries(used(), values, f.left, f.right, f.scaled);
   int *start = starts(used()), *row = rows(used());
-  if (!klu_refactor(start, row, f.scaled.data(), f.symbolic, f.numeric, &f.common) || f.common.status != KLU_OK ||
-      !klu_rcond(f.symbolic, f.numeric, &f.common))
+  if (!Klu<Scalar>::refactor(start, row, numbers(f.scaled.data()), f.symbolic, f.numeric, &f.common) ||
+      f.common.status != KLU_OK || !Klu<Scalar>::rcond(f.symbolic, f.numeric, &f.common))
     return false;
   // Element growth first shows in the pivots; it is measured if these have changed.
   constexpr double least_change = 1e-3, least_growth = 1e-6;
   const double change = f.common.rcond / f.trusted_pivots;
   if (change > least_change && change < 1 / least_change) return true;
   f.trusted_pivots = f.common.rcond;
-  return klu_rgrowth(start, row, f.scaled.data(), f.symbolic, f.numeric, &f.common) && f.common.rgrowth > least_growth;
+  return Klu<Scalar>::rgrowth(start, row, numbers(f.scaled.data()), f.symbolic, f.numeric, &f.common) &&
+         f.common.rgrowth > least_growth;
 }
 
-bool SparseLU::factor_afresh(const std::vector<double>& values, const VectorX* row_floor) {
+template <class Scalar>
+bool SparseFactors<Scalar>::factor_afresh(const std::vector<Scalar>& values, const VectorX* row_floor) {
   Factors& f = *factors_;
   f.drop_numeric();
   const int* row = used().row().data();
@@ -195,12 +231,13 @@ bool SparseLU::factor_afresh(const std::vector<double>& values, const VectorX* r
     singular_column_ = f.common.singular_col;
     return false;
   }
-  klu_rcond(f.symbolic, f.numeric, &f.common);
+  Klu<Scalar>::rcond(f.symbolic, f.numeric, &f.common);
   f.trusted_pivots = f.common.rcond;
   return true;
 }
 
-bool SparseLU::choose_ordering() {
+template <class Scalar>
+bool SparseFactors<Scalar>::choose_ordering() {
   Factors& f = *factors_;
   f.symbolic = used().orderings().get(used(), FillOrderings::column_minimum_degree);
   f.room = 0;
@@ -212,7 +249,8 @@ bool SparseLU::choose_ordering() {
   return true;
 }
 
-void SparseLU::try_minimum_degree() {
+template <class Scalar>
+void SparseFactors<Scalar>::try_minimum_degree() {
   Factors& f = *factors_;
   const FactorCost known = f.cost();
   Factors other;
@@ -229,10 +267,12 @@ void SparseLU::try_minimum_degree() {
   f.room = 2 * known.entries;  // pivots of later matrices may leave the diagonal
 }
 
-FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& scale, const VectorX* row_floor) {
+template <class Scalar>
+FactorStatus SparseFactors<Scalar>::factor(const std::vector<Scalar>& values, const VectorX& scale,
+                                           const VectorX* row_floor) {
   singular_column_ = -1;
   if (pattern_.size() == 0) return FactorStatus::good;
-  const std::vector<double>* present = &values;
+  const std::vector<Scalar>* present = &values;
   if (!pattern_.intermittent().empty()) {
     choose_present(values);
     present_values_.resize(present_from_.size());
@@ -248,7 +288,8 @@ FactorStatus SparseLU::factor(const std::vector<double>& values, const VectorX& 
   return refactor(*present) || factor_afresh(*present, row_floor) ? FactorStatus::good : FactorStatus::singular;
 }
 
-void SparseLU::forget() {
+template <class Scalar>
+void SparseFactors<Scalar>::forget() {
   factors_->drop_numeric();
   factors_->symbolic = nullptr;
   present_.reset();
@@ -257,16 +298,21 @@ void SparseLU::forget() {
 }
 
 /// Whether some value of a range is not zero: compares bits of many values at a time.
-bool SparseLU::any_in(const std::vector<double>& values, const Range& range) {
+template <class Scalar>
+bool SparseFactors<Scalar>::any_in(const std::vector<Scalar>& values, const Range& range) {
+  constexpr std::size_t parts = sizeof(Scalar) / sizeof(double);
+  const auto* number = reinterpret_cast<const double*>(values.data());
+  const std::size_t end = parts * static_cast<std::size_t>(range.end);
   std::uint64_t bits = 0;
-  for (int k = range.begin; k < range.end; ++k)
-    bits |= std::bit_cast<std::uint64_t>(values[static_cast<std::size_t>(k)]);
+  for (std::size_t k = parts * static_cast<std::size_t>(range.begin); k < end; ++k)
+    bits |= std::bit_cast<std::uint64_t>(number[k]);
   return (bits << 1) != 0;  // the sign bit of a zero may be set
 }
 
-void SparseLU::choose_present(const std::vector<double>& values) {
+template <class Scalar>
+void SparseFactors<Scalar>::choose_present(const std::vector<Scalar>& values) {
   const std::vector<int>& intermittent = pattern_.intermittent();
-  const auto is_zero = [&](int place) { return values[static_cast<std::size_t>(place)] == 0; };
+  const auto is_zero = [&](int place) { return values[static_cast<std::size_t>(place)] == Scalar(0); };
   const bool first = !present_;
   const bool grows = std::any_of(absent_.begin(), absent_.end(), [&](const Range& r) { return any_in(values, r); });
   const auto zeros = std::count_if(present_intermittent_.begin(), present_intermittent_.end(), is_zero);
@@ -306,10 +352,11 @@ void SparseLU::choose_present(const std::vector<double>& values) {
   present_ = std::make_unique<const SparsePattern>(std::move(start), std::move(row));
 }
 
-void SparseLU::solve(Eigen::Ref<VectorX> b) const {
+template <class Scalar>
+void SparseFactors<Scalar>::solve(Eigen::Ref<Vector> b) const {
   if (pattern_.size() == 0) return;
   b.array() *= factors_->left.array();
-  klu_solve(factors_->symbolic, factors_->numeric, pattern_.size(), 1, b.data(), &factors_->common);
+  Klu<Scalar>::solve(factors_->symbolic, factors_->numeric, pattern_.size(), 1, numbers(b.data()), &factors_->common);
   b.array() *= factors_->right.array();
 }
 
@@ -330,7 +377,8 @@ int sign_of(const int* permutation, int size) {
 
 }  // namespace
 
-int SparseLU::determinant_sign() const {
+template <class Scalar>
+int SparseFactors<Scalar>::determinant_sign() const requires std::is_same_v<Scalar, double> {
   if (pattern_.size() == 0) return 1;
   const Factors& f = *factors_;
   int sign = sign_of(f.numeric->Pnum, pattern_.size()) * sign_of(f.symbolic->Q, pattern_.size());
@@ -340,12 +388,19 @@ int SparseLU::determinant_sign() const {
   return sign;
 }
 
-FactorCost SparseLU::cost() const { return factors_->numeric ? factors_->cost() : FactorCost{}; }
+template <class Scalar>
+FactorCost SparseFactors<Scalar>::cost() const {
+  return factors_->numeric ? factors_->cost() : FactorCost{};
+}
 
-double SparseLU::reciprocal_condition() const {
+template <class Scalar>
+double SparseFactors<Scalar>::reciprocal_condition() const {
   if (pattern_.size() == 0) return 1;
-  klu_rcond(factors_->symbolic, factors_->numeric, &factors_->common);
+  Klu<Scalar>::rcond(factors_->symbolic, factors_->numeric, &factors_->common);
   return factors_->common.rcond;
 }
+
+template class SparseFactors<double>;
+template class SparseFactors<std::complex<double>>;
 
 }  // namespace bielle::mechanism

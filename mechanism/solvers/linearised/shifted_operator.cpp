@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace bielle::mechanism {
@@ -39,19 +40,10 @@ void ShiftedOperator::build(ShiftedOperator* other) {
   const SparseC D = SparseC(rates_ * shifted) + e.K.cast<Complex>();
   const SparseC moving = SparseC(e.B.cast<Complex>() * shifted) + e.S.cast<Complex>();
 
-  // The whole matrix; for a complex shift each entry is replaced by [a, -b; b, a].
-  const int parts = is_real() ? 1 : 2;
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::Triplet<Complex>> entries;
   const auto add = [&](int row, int column, Complex value) {
     if (side_ == Side::left) std::swap(row, column);
-    if (parts == 1) {
-      entries.emplace_back(row, column, value.real());
-      return;
-    }
-    entries.emplace_back(2 * row, 2 * column, value.real());
-    entries.emplace_back(2 * row + 1, 2 * column + 1, value.real());
-    entries.emplace_back(2 * row, 2 * column + 1, -value.imag());
-    entries.emplace_back(2 * row + 1, 2 * column, value.imag());
+    entries.emplace_back(row, column, value);
   };
   for (int j = 0; j < n; ++j) {
     for (SparseC::InnerIterator it(D, j); it; ++it) add(static_cast<int>(it.row()), j, it.value());
@@ -66,33 +58,43 @@ void ShiftedOperator::build(ShiftedOperator* other) {
   for (int j = 0; j < m; ++j)
     for (LinearisedEquations::Sparse::InnerIterator it(e.F, j); it; ++it)
       add(static_cast<int>(it.row()), n + j, it.value());
-  Eigen::SparseMatrix<double> whole(parts * size, parts * size);
+  SparseC whole(size, size);
   whole.setFromTriplets(entries.begin(), entries.end());
   whole.makeCompressed();
   pattern_ = std::make_unique<const SparsePattern>(
       std::vector<int>(whole.outerIndexPtr(), whole.outerIndexPtr() + whole.outerSize() + 1),
       std::vector<int>(whole.innerIndexPtr(), whole.innerIndexPtr() + whole.nonZeros()));
-  const std::vector<double> values(whole.valuePtr(), whole.valuePtr() + whole.nonZeros());
 
   set_scale(D);
-  VectorX diagonal(parts * size);
-  for (int j = 0; j < n; ++j) diagonal.segment(parts * j, parts).setConstant(scale_[j]);
+  VectorX diagonal(size);
+  diagonal.head(n) = scale_.head(n);
   for (int k = 0; k < m; ++k) {
     double most = 0;
     const Eigen::SparseVector<double> row = e.B.row(k);
     for (Eigen::SparseVector<double>::InnerIterator it(row); it; ++it)
       most = std::max(most, std::abs(it.value()) * scale_[it.index()]);
-    diagonal.segment(parts * (n + k), parts).setConstant(most > 0 ? 1 / most : 1);
+    diagonal[n + k] = most > 0 ? 1 / most : 1;
   }
-  if (other != nullptr && other->regular_ && other->pattern_->column_start() == pattern_->column_start() &&
-      other->pattern_->row() == pattern_->row()) {
-    pattern_ = std::move(other->pattern_);  // the factors refer to it
-    factors_ = std::move(other->factors_);
+  const bool follows = other != nullptr && other->regular_ && other->is_real() == is_real() &&
+                       other->pattern_->column_start() == pattern_->column_start() &&
+                       other->pattern_->row() == pattern_->row();
+  if (follows) pattern_ = std::move(other->pattern_);  // the factors refer to it
+  const auto factorise = [&](auto& factors, auto* others, const auto& values) {
+    if (follows)
+      factors = std::move(*others);
+    else
+      factors = std::make_unique<std::decay_t<decltype(*factors)>>(*pattern_);
+    regular_ = factors->factor(values, diagonal) == FactorStatus::good && factors->reciprocal_condition() > 0;
+    singular_ = factors->singular_column();
+  };
+  const std::vector<Complex> values(whole.valuePtr(), whole.valuePtr() + whole.nonZeros());
+  if (is_real()) {
+    std::vector<double> real(values.size());
+    std::transform(values.begin(), values.end(), real.begin(), [](const Complex& value) { return value.real(); });
+    factorise(factors_, other ? &other->factors_ : nullptr, real);
   } else {
-    factors_ = std::make_unique<SparseLU>(*pattern_);
+    factorise(complex_factors_, other ? &other->complex_factors_ : nullptr, values);
   }
-  regular_ = factors_->factor(values, diagonal) == FactorStatus::good && factors_->reciprocal_condition() > 0;
-  if (factors_->singular_column() >= 0) singular_ = factors_->singular_column() / parts;
 }
 
 void ShiftedOperator::set_scale(const SparseC& D) {
@@ -140,19 +142,15 @@ void ShiftedOperator::set_scale(const SparseC& D) {
 }
 
 VectorXc ShiftedOperator::solve(const VectorXc& right) const {
-  const auto size = right.size();
   if (!is_real()) {
-    VectorX both(2 * size);
-    for (Eigen::Index k = 0; k < size; ++k) both.segment<2>(2 * k) << right[k].real(), right[k].imag();
-    factors_->solve(both);
-    VectorXc x(size);
-    for (Eigen::Index k = 0; k < size; ++k) x[k] = {both[2 * k], both[2 * k + 1]};
+    VectorXc x = right;
+    complex_factors_->solve(x);
     return x;
   }
   VectorX real = right.real(), imag = right.imag();
   factors_->solve(real);
   if (!imag.isZero(0)) factors_->solve(imag);
-  VectorXc x(size);
+  VectorXc x(right.size());
   x.real() = real;
   x.imag() = imag;
   return x;

@@ -7,8 +7,8 @@
 // One sparse factorisation of the size of the equations of motion is sufficient: with a = (sigma + W) u + u_in,
 //     [(sigma M + C)(sigma + W) + K] u + (B^T + F) lambda = -(sigma M + C) u_in - M w_in,
 //     B u = 0,   B a + S u = 0  (non-holonomic),        w = a of the dofs.
-// A complex shift doubles the size of the real equations. States are scaled: such that M has a diagonal of ones, rates
-// by the shift, first-order unknowns such that they respond to motions as motions respond to them.
+// States are scaled: such that M has a diagonal of ones, rates by the shift, first-order unknowns such that they
+// respond to motions as motions respond to them.
 #pragma once
 
 #include <complex>
@@ -73,7 +73,8 @@ class ShiftedOperator {
   bool any_nonholonomic_ = false;
   int singular_ = -1;
   std::unique_ptr<const SparsePattern> pattern_;
-  std::unique_ptr<SparseLU> factors_;
+  std::unique_ptr<SparseLU> factors_;  ///< for a real shift
+  std::unique_ptr<ComplexSparseLU> complex_factors_;
 };
 
 }  // namespace bielle::mechanism

@@ -2,6 +2,7 @@
 // matrices; the ordering that is cheapest.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -108,6 +109,32 @@ TEST_CASE("a singular matrix names a column, and the factors recover") {
     CHECK(lu.singular_column() == 3);
     check_good(lu);
   }
+}
+
+TEST_CASE("complex factors solve complex equations, also with old pivots and equations of any scale") {
+  Random random(7);
+  const int n = 16;
+  const MatrixX real = saddle(random, 12, 4), imaginary = saddle(random, 12, 4);
+  const Sparse sparse(real);
+  ComplexSparseLU lu(sparse.pattern);
+  VectorX scale = VectorX::Ones(n);
+  scale.tail(4).setConstant(1e3);
+  const Eigen::VectorXcd b = random.vector(n) + std::complex<double>(0, 1) * random.vector(n);
+  for (const double share : {1.0, 0.9, -1e6, 0.0}) {
+    const Eigen::MatrixXcd A = real + std::complex<double>(0, share) * imaginary;
+    std::vector<std::complex<double>> values;
+    sparse.pattern.for_each([&](int, int row, int column) { values.push_back(A(row, column)); });
+    REQUIRE(lu.factor(values, scale) == FactorStatus::good);
+    Eigen::VectorXcd x = b;
+    lu.solve(x);
+    CHECK((A * x - b).norm() < 1e-12 * (A.norm() * x.norm() + b.norm()));
+    CHECK(lu.reciprocal_condition() > 1e-9);
+  }
+  std::vector<std::complex<double>> singular(static_cast<std::size_t>(sparse.pattern.entry_count()), {1, 2});
+  sparse.pattern.for_each([&](int k, int row, int column) {
+    if (row == 3 || column == 3) singular[static_cast<std::size_t>(k)] = 0;
+  });
+  CHECK(lu.factor(singular, scale) == FactorStatus::singular);
 }
 
 TEST_CASE("no equations have an empty solution") {
