@@ -116,6 +116,10 @@ int body(int argc, char** argv) {
   app.add_option("--keys", options.keys_of, "explain the keys of a type or section, or of `all`")->expected(1);
   app.add_flag("--schema", options.schema, "print the JSON schema of mechanism files, for editors");
   add_common_options(app, options.common);
+  app.footer(
+      "\nThe manual is in mechanism/manual of the sources, or of share/doc/bielle if installed: README.md leads to "
+      "the\n"
+      "pages. --keys TYPE and --explain MESSAGE show parts of it.");
   if (!parse_command_line(app, argc, argv)) return 0;
   if (!options.keys_of.empty()) {
     fmt::print("{}", keys_of_named(mechanism_file_keys(), options.keys_of));

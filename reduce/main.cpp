@@ -241,6 +241,10 @@ int body(int argc, char** argv) {
                "let a .geo run shell commands (SystemCall): for files that you trust");
   app.add_option("--ranks-at", ranks_at)->group("");  // from bielle-reduce-mpi, not from users
   add_common_options(app, common);
+  app.footer(
+      "\nThe manual is in reduce/manual of the sources, or of share/doc/bielle if installed: it begins with "
+      "body_file.md.\n"
+      "--keys NAME and --explain MESSAGE show parts of it.");
   if (!parse_command_line(app, argc, argv)) {
     return 0;
   }

@@ -67,7 +67,7 @@ constexpr double gained = 0.01;
 /// Newton's method determines positions to some 1e-9 of the model's size; energies below the work of the largest forces
 /// along this length are not significant [J]. Reactions do no work: they may have any size if joints act against each
 /// other.
-double energy_noise(const Session& session) {
+double force_noise(const Session& session) {
   constexpr double positions = 1e-9;
   State state = session.state();
   state.multiplier.setZero();
@@ -75,6 +75,13 @@ double energy_noise(const Session& session) {
   ResidualScale scale;
   session.system().residual(state, session.environment(), r, &scale);
   return positions * (scale[Kind::translation] * model_length(state) + scale[Kind::rotation]);
+}
+
+/// Velocities that joints stop at the start are left with rounding errors of the given ones: energies below those of
+/// this part of them are not significant [J].
+double velocity_noise(const Session& session) {
+  constexpr double velocities = 1e-12;
+  return velocities * velocities * session.system().energy(session.system().start(0), session.environment()).kinetic;
 }
 
 /// Describes sizes and iterations of the steps, and steps that were rejected or shortened.
@@ -157,7 +164,7 @@ std::string format_energy(const Session& session, const Motion& motion, const Dy
                through = energy_balance.through();
   const double largest = std::max(stored, through);
   const std::string text = format_energies(energy);
-  if (!(largest > energy_noise(session))) return text + "  nothing moved\n";
+  if (!(largest > std::max(force_noise(session), velocity_noise(session)))) return text + "  nothing moved\n";
   const Gap gap{
       balance / largest, 0 - motion.scheme_loss() / largest,
       energy_balance.largest_error() / std::max(stored, part_of_turnover * energy_balance.largest_turnover())};
@@ -277,6 +284,8 @@ void DynamicAnalysis::finish(Session& session, Motion& motion, const std::string
     summary.text += format_steps(log.steps, log.iterations, summary.records) +
                     fmt::format(", until t = {:.6g} s\n", motion.time()) + format_march(log, session.system()) +
                     format_events(motion) + format_energy(session, motion, options_);
+  else
+    summary.text += format_events(motion);  // an event at the start may have stopped the run
   for (const std::string& warning : motion.warnings()) summary.text += fmt::format("  warning: {}\n", warning);
 }
 

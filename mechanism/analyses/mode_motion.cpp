@@ -227,8 +227,8 @@ ModeMotion MotionWords::rigid_motion(const ModeGroup& group, const Amplitudes& a
           ""};
 }
 
-/// The joint whose single coordinate is the whole motion of each entry, because the other node of the joint rests:
-/// "about pivot". Empty if there is none.
+/// The joint whose single coordinate is the whole motion of each entry that moves, because the other node of the joint
+/// rests: "about pivot". Empty if there is none.
 std::string MotionWords::about_joint(const ModeGroup& group, const Amplitudes& amplitudes) const {
   const NodeShapes& shapes = amplitudes.shapes;
   const double length = model_extent(state_);
@@ -237,8 +237,17 @@ std::string MotionWords::about_joint(const ModeGroup& group, const Amplitudes& a
   };
   constexpr double rests = 1e-6;
   constexpr int but_one = 5;  // constraints of a joint with one coordinate
-  std::string words;
+  std::vector<double> sizes;
   for (const std::vector<int>& nodes : group.nodes) {
+    double& size = sizes.emplace_back(0);
+    for (const int node : nodes) size = std::max(size, motion(node));
+  }
+  const double least = rests * *std::max_element(sizes.begin(), sizes.end());
+  const bool alone = std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > least; }) == 1;
+  std::string words;
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (sizes[k] <= least) continue;
+    const std::vector<int>& nodes = group.nodes[k];
     std::string found;
     for (std::size_t m = 0; m < system_.slots().size() && found.empty(); ++m) {
       const Slots& slots = system_.slots()[m];
@@ -251,7 +260,7 @@ std::string MotionWords::about_joint(const ModeGroup& group, const Amplitudes& a
         if (coordinates.size() != 1) continue;
         const std::string& joint = member.entry.name;
         found = fmt::format("{} {}", coordinates[0].units == "rad" ? "about" : "along",
-                            group.nodes.size() == 1 ? joint : short_name(with_stars(joint)));
+                            alone ? joint : short_name(with_stars(joint)));
       }
     }
     if (found.empty() || (!words.empty() && words != found)) return {};

@@ -205,7 +205,9 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
     case Periodicity::negligible:
       return text + "  the rate is negligible compared with all frequencies: they are those at rest, as drawn\n";
     case Periodicity::constant:
-      return text + "  the equations are constant in axes that turn with it: frequencies are those seen from there\n";
+      return text +
+             "  the equations are constant in axes that turn with it: frequencies of its motions are those seen from "
+             "there, of all others those seen from what stands still\n";
     case Periodicity::multiblade:
       return text +
              "  the equations are constant in multiblade coordinates (the rotor is the same in all directions): "

@@ -46,9 +46,11 @@ std::vector<LinearisedEquations> equations_of(std::vector<Azimuth> azimuths) {
 
 PeriodicEquations periodic_equations(const System& system, const StandingState& about, const TurningEquations& turning,
                                      double rate) {
-  constexpr int most = 64;
   int count = turning.negligible ? 1 : least_azimuths;
   if (turning.orbit) count = std::max(count, 2 * (turning.orbit->deviation.harmonics + 2));
+  // Products of the motion's harmonics have higher ones, whose number is not known.
+  constexpr int usual_most = 64;
+  const int most = std::max(usual_most, 4 * count);
   for (;; count *= 2) {
     PeriodicEquations periodic(equations_of(turning.azimuths(system, about, count)), rate, model_length(about.state));
     if (turning.negligible || periodic.resolved()) return periodic;

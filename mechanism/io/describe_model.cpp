@@ -1,6 +1,8 @@
 #include "mechanism/io/describe_model.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -138,6 +140,30 @@ std::string describe_unused(const Model& model, const System& system) {
   return text;
 }
 
+/// Returns "  mass         12.5 kg, centre at [0, 0, 1.2] m"; empty without mass. Both follow from the energy of
+/// gravity, -m g . c, by unit accelerations and a unit displacement of all nodes.
+std::string describe_mass(const Model& model, const System& system, const State& state) {
+  Environment environment = model.environment;
+  const auto energy = [&](int direction, const State& at) {
+    environment.gravity = Vector3::Unit(direction);
+    return system.energy(at, environment).gravity;
+  };
+  State displaced = state;
+  for (NodeState& node : displaced.nodes) node.x += Vector3::UnitZ();
+  const double mass = energy(2, state) - energy(2, displaced);
+  if (!(mass > 0)) return {};
+  Vector3 centre;
+  double size = 0;  // largest coordinate: a component within its rounding is zero
+  for (const NodeState& node : state.nodes) size = std::max(size, node.x.cwiseAbs().maxCoeff());
+  constexpr double rounding = 1e-12;
+  for (int k = 0; k < 3; ++k) {
+    centre[k] = -energy(k, state) / mass;
+    if (std::abs(centre[k]) <= rounding * size) centre[k] = 0;
+  }
+  return fmt::format("  mass         {:.6g} kg, centre at [{:.6g}, {:.6g}, {:.6g}] m\n", mass, centre.x(), centre.y(),
+                     centre.z());
+}
+
 /// Lists directions without mass.
 std::string describe_massless(const Model& model, const System& system, const State& state) {
   std::vector<double> values;
@@ -185,6 +211,7 @@ std::string describe_model(const CheckedModel& checked) {
   text += fmt::format("  nodes        {}{}\n", model.nodes().size() - static_cast<std::size_t>(internal),
                       internal > 0 ? fmt::format(" and {} inside of elements", internal) : "");
   text += count_entries(model);
+  text += describe_mass(model, system, state);
   const Mobility mobility = count_mobility(system, model.environment, state);
   text += fmt::format("  unknowns     {}, {} of first order, {}\n",
                       counted(system.dofs(), "displacement or amplitude", "displacements and amplitudes"),

@@ -10,9 +10,9 @@
 
 namespace bielle::mechanism {
 
-/// Lists counts of nodes and components, unknowns, degrees of freedom, redundant constraints, the errors of the input
-/// positions, unused nodes, directions without mass, and every entry as its components describe it. It takes time in
-/// proportion to the model, apart from the analysis of constraints.
+/// Lists counts of nodes and components, total mass and its centre, unknowns, degrees of freedom, redundant
+/// constraints, the errors of the input positions, unused nodes, directions without mass, and every entry as its
+/// components describe it. It takes time in proportion to the model, apart from the analysis of constraints.
 /// @throws ComputationError if the mechanism cannot be assembled
 std::string describe_model(const CheckedModel& checked);
 std::string describe_model(const MechanismFile& file);

@@ -55,10 +55,10 @@ class Joint : public Component {
   /// Computes the contribution of each multiplier to the reaction. @returns (6, multipliers)
   MatrixX reaction_of_multipliers(const LocalState& state) const;
 
-  /// Use of a coordinate by other entries, recorded while the model is read: it has at most one drive, and a drive by
-  /// motion permits no lock.
+  /// Use of a coordinate by other entries, recorded while the model is read: forces of several drives add, a drive by
+  /// motion or with a sought effort is alone and permits no lock.
   struct CoordinateUse {
-    std::string driver;  ///< name of its drive; empty: there is none
+    std::string driver;  ///< name of its first drive; empty: there is none
     bool locked = false;
   };
   CoordinateUse& use(std::size_t coordinate) { return uses_[coordinate]; }

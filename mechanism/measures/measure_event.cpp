@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -37,6 +38,7 @@ void MeasureEvent::declare(Declaration& declaration) const {
   crossing.direction = direction_;
   crossing.restarts = action_ == Action::restart || record_.is_used();
   crossing.stops = action_ == Action::stop;
+  if (at_start_) crossing.begins_on = side_before();
   crossing.reads_reaction =
       measure_.reads_reactions() ||
       std::any_of(writes_.begin(), writes_.end(), [](const Write& write) { return write.value.reads_reactions(); });
@@ -51,6 +53,8 @@ bool MeasureEvent::is_armed(const LocalState& state) const {
 /// The value of an event that cannot occur is zero: it has no side that could be left.
 void MeasureEvent::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   values[0] = is_armed(state) ? measure_.value(state.of(0)) - value_ : 0;
+  // A value that is reached exactly at the start is beyond.
+  if (at_start_ && values[0] == 0 && is_armed(state)) values[0] = -side_before() * std::numeric_limits<double>::min();
 }
 
 void MeasureEvent::act(const LocalState& state, std::span<const int> /*crossed*/,
@@ -87,6 +91,7 @@ void MeasureEvent::describe(const LocalState& /*state*/, Description& descriptio
   std::string when = fmt::format("{} {} {:.6g} {}", measure_.name(), way, value_, measure_.units());
   if (after_) when += fmt::format(", after '{}'", after_->name());
   if (once_) when += ", once";
+  if (at_start_) when += ", also at the start";
   description.add(when);
   description.add(!writes_.empty()             ? effects()
                   : action_ == Action::stop    ? "stops the run"

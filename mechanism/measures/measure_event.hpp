@@ -39,6 +39,8 @@ class MeasureEvent final : public Component, public EventActions {
                Action action);
   /// Lets the event occur only once. @pre the record is in use
   void occur_once() { once_ = true; }
+  /// Lets the event occur at the start of a motion if the value is reached or exceeded there. @pre one direction
+  void occur_at_start() { at_start_ = true; }
   /// Lets the event occur only after another one has occurred.
   void occur_after(const EventRecord& other);
   References& references() { return references_; }
@@ -59,6 +61,7 @@ class MeasureEvent final : public Component, public EventActions {
 
  private:
   bool is_armed(const LocalState& state) const;
+  int side_before() const { return direction_ == EventFunction::Direction::rising ? -1 : 1; }
   std::string effects() const;
 
   References references_;
@@ -67,7 +70,7 @@ class MeasureEvent final : public Component, public EventActions {
   double value_;
   EventFunction::Direction direction_;
   Action action_;
-  bool once_ = false;
+  bool once_ = false, at_start_ = false;
   const EventRecord* after_ = nullptr;
   int of_record_, of_after_ = -1;  ///< numbers among the references
   std::vector<Write> writes_;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/activity.hpp"
 #include "mechanism/results/model_drawing.hpp"
 #include "mechanism/results/results_datasets.hpp"
 #include "mechanism/results/results_stream.hpp"
@@ -49,6 +50,21 @@ void begin_run(ResultsStream& stream, const std::string& input_text) {
   write_drawing(file, stream.model());
   file.flush();
   stream.start();
+}
+
+/// Lists the entries that are released when an analysis begins, if any can be.
+void write_released(Hdf5File& file, const std::string& group, const Model& model, const State& state,
+                    const std::vector<Slots>& slots) {
+  const std::vector<Member>& members = model.members();
+  bool any = false;
+  std::string released;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const auto* activity = dynamic_cast<const Activity*>(members[k].component.get());
+    if (activity == nullptr) continue;
+    any = true;
+    if (state.memory[slots[k].memory_begin] == 0) released += results_path(activity->entry()) + "\n";
+  }
+  if (any) file.write_attribute(group, "released", released);
 }
 
 std::string group_of(int analysis) { return fmt::format("/analysis_{}", analysis); }
@@ -107,6 +123,7 @@ void ResultsFile::begin_analysis(const std::string& type, std::size_t expected_r
 
 void ResultsFile::record(const State& state, const std::vector<Slots>& slots, const Environment& environment,
                          const StepRecord& step) {
+  if (stream_->recorded() == 0) write_released(file(), analysis_group(), stream_->model(), state, slots);
   stream_->record(state, slots, environment, step);
 }
 

@@ -169,8 +169,8 @@ Airfoil read_airfoil(const YamlValue& value) {
         value.at("chord").fail(
             fmt::format("expected a chord greater than 0, found {:.6g} m at s = {:.6g}", airfoil.chord(s), s));
       airfoil.twist(s);
-    } catch (const ComputationError& error) {
-      value.fail(error.what());
+    } catch (const ComputationError& error) {  // names the place
+      throw InputError(error.what());
     }
   }
   return airfoil;

@@ -17,13 +17,17 @@ constexpr std::size_t polar_place = 1;  // argument number of s
 
 }  // namespace
 
-AirfoilPolars::Values AirfoilPolars::Station::operator()(double alpha) const {
+AirfoilPolars::Values AirfoilPolars::Station::operator()(double s, double alpha) const {
   Values values;
   for (std::size_t k = 0; k < 3; ++k) {
     PolarValue& each = values[k];
     if (const auto* table = std::get_if<Interpolation>(&coefficients[k])) {
-      const Interpolation::Values found = (*table)(alpha);
-      each = {found.value, found.slope};
+      try {
+        const Interpolation::Values found = (*table)(alpha);
+        each = {found.value, found.slope};
+      } catch (const ComputationError& error) {
+        throw ComputationError(fmt::format("{}: angle of attack at s = {:.4g}: {} [rad]", place, s, error.what()));
+      }
     } else {
       each.value = std::get<Expression>(coefficients[k]).value_and_gradient({&alpha, 1}, {&each.slope, 1});
     }
@@ -44,12 +48,12 @@ AirfoilPolars::Values AirfoilPolars::operator()(double s, double alpha) const {
   }
   const auto next = std::upper_bound(stations_.begin(), stations_.end(), s,
                                      [](double place, const Station& station) { return place < station.at; });
-  if (next == stations_.begin()) return stations_.front()(alpha);
-  if (next == stations_.end()) return stations_.back()(alpha);
+  if (next == stations_.begin()) return stations_.front()(s, alpha);
+  if (next == stations_.end()) return stations_.back()(s, alpha);
   const Station& before = *std::prev(next);
   const double share = (s - before.at) / (next->at - before.at);
-  Values values = before(alpha);
-  const Values after = (*next)(alpha);
+  Values values = before(s, alpha);
+  const Values after = (*next)(s, alpha);
   for (std::size_t k = 0; k < 3; ++k) {
     values[k].value += share * (after[k].value - values[k].value);
     values[k].slope += share * (after[k].slope - values[k].slope);
@@ -95,7 +99,8 @@ void read_polar_table(const YamlValue& entry, AirfoilPolars::Station& station) {
   if (entry.at("angles").word() == "deg") rows.col(0) *= M_PI / 180;
   if (const double most = rows.col(0).cwiseAbs().maxCoeff(); most > 2 * M_PI)
     value.fail(fmt::format("has an alpha of {:.6g} rad, more than a turn: is it in degrees? (`angles: deg`)", most));
-  const std::string name = value.is_sequence() ? "of the polar" : value.text();
+  const std::string name = value.is_sequence() ? "alpha" : value.text();
+  station.place = fmt::format("{}:{}: {}", value.file(), value.line(), value.path());
   try {
     for (std::size_t k = 0; k < 3; ++k)
       station.coefficients[k] =
@@ -108,7 +113,7 @@ void read_polar_table(const YamlValue& entry, AirfoilPolars::Station& station) {
 AirfoilPolars::Station read_polar(const YamlValue& given) {
   const YamlValue entry = given.keyed(polar_keys());
   if (entry.has("table") == entry.has("lift")) entry.fail("a polar has either a `table`, or `lift` and other formulas");
-  AirfoilPolars::Station station{entry.at("at").number(), {}};
+  AirfoilPolars::Station station{entry.at("at").number(), {}, {}};
   if (entry.has("table")) {
     read_polar_table(entry, station);
     return station;

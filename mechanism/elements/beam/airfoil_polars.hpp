@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -26,9 +27,11 @@ class AirfoilPolars {
   /// Lift, drag, moment.
   using Values = std::array<PolarValue, 3>;
   struct Station {
-    double at;                                                            ///< s
-    std::array<std::variant<Expression, Interpolation>, 3> coefficients;  ///< of alpha
-    Values operator()(double alpha) const;
+    double at;          ///< s
+    std::string place;  ///< place in the file: "blade.yaml:6: elements.blade.airfoil.polars[1].table"
+    std::array<std::variant<Expression, Interpolation>, 3> coefficients;  ///< functions of alpha
+    /// @param s  place along the beam, for messages
+    Values operator()(double s, double alpha) const;
   };
   AirfoilPolars() = default;  ///< without forces
   /// @param formulas  coefficients by alpha and s

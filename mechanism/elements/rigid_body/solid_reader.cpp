@@ -11,6 +11,7 @@
 #include "mechanism/reading/read_frame.hpp"
 #include "mechanism/reading/read_numbers.hpp"
 #include "mechanism/reading/solid_forms.hpp"
+#include "reduce/common/input/plausible.hpp"
 #include "reduce/superelement/inertia_tensor.hpp"
 
 namespace bielle::mechanism {
@@ -91,6 +92,8 @@ Solid read_solid(const YamlValue& value) {
     solid.at(given->name).fail("the volume is too large or too small for a number; lengths are in m");
   const double density =
       solid.has("mass") ? solid.at("mass").number() / unit.properties.mass : solid.at("density").number();
+  if (const auto given_density = solid.find("density"); given_density && !solid.at("cut").boolean())
+    warn_outside(*given_density, density, plausible_density);
   const Frame frame = read_frame(solid);
   const double signed_density = solid.at("cut").boolean() ? -density : density;
   return {placed(frame, signed_density * unit.properties), density, {std::move(unit.space), frame, signed_density}};

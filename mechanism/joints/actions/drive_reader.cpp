@@ -77,14 +77,27 @@ std::size_t find_coordinate(const YamlValue& entry, const YamlValue& place, cons
                                     : names.front());
 }
 
-/// Records that the coordinate is driven. @param contradicts_lock  a clause on drives that permit no lock, or nullptr
+/// Whether a drive other than by a force acts on a coordinate.
+bool is_driven_alone(const Joint& joint, std::size_t coordinate, const Model& model) {
+  const std::vector<Component*> components = model.components_of({Section::joints, joint.name()});
+  return std::any_of(components.begin(), components.end(), [&](const Component* component) {
+    const auto* drive = dynamic_cast<const Drive*>(component);
+    return drive != nullptr && &drive->coordinate() == &joint.coordinates()[coordinate] &&
+           (dynamic_cast<const PositionDrive*>(drive) != nullptr || dynamic_cast<const RateDrive*>(drive) != nullptr ||
+            dynamic_cast<const SoughtDrive*>(drive) != nullptr);
+  });
+}
+
+/// Records that the coordinate is driven. @param contradicts_lock  a clause on drives that permit neither a lock nor
+/// another drive; nullptr for forces
 void take_coordinate(const YamlValue& entry, const std::string& name, const char* contradicts_lock, Joint& joint,
-                     std::size_t coordinate) {
+                     std::size_t coordinate, const Model& model) {
   const std::string& chosen = joint.coordinates()[coordinate].name;
   Joint::CoordinateUse& use = joint.use(coordinate);
-  if (!use.driver.empty())
-    entry.fail(fmt::format("the {} of joint '{}' is driven by '{}' already", chosen, joint.name(), use.driver));
-  use.driver = name;
+  if (!use.driver.empty() && (contradicts_lock || is_driven_alone(joint, coordinate, model)))
+    entry.fail(fmt::format("the {} of joint '{}' is driven by '{}' already: only drives by forces act together", chosen,
+                           joint.name(), use.driver));
+  if (use.driver.empty()) use.driver = name;
   if (contradicts_lock && use.locked)
     entry.fail(
         fmt::format("the {} of joint '{}' is `locked` for a time, which {}", chosen, joint.name(), contradicts_lock));
@@ -211,7 +224,7 @@ void read_drive(const std::string& name, const YamlValue& given, Model& model) {
                   by_motion ? "a drive by motion contradicts"
                   : sought  ? "leaves no effort to be sought"
                             : nullptr,
-                  *joint, coordinate);
+                  *joint, coordinate, model);
 
   const auto controller = [&] { return value.keyed(pid_keys(moves_of(joint->coordinates()[coordinate]))); };
   std::unique_ptr<Drive> drive = pid         ? make_pid(name, controller(), *joint, coordinate, model)

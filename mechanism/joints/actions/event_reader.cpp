@@ -154,6 +154,9 @@ const KeyTable& event_keys() {
         "Actions at the crossing, in place of `action`: done in the order of the list, all at the same instant."},
        {"once", boolean(), computed("`true` with `do`, otherwise `false`"),
         "Whether the event occurs only the first time; otherwise it occurs at each crossing."},
+       {"at_start", boolean(), otherwise("false"),
+        "Whether the event also occurs at the start of a motion that begins with the value reached: at or above "
+        "`crosses` with `direction: rising`, at or below it with `falling`."},
        {"after", name_of("event"), optional,
         "Event that has to occur before: crossings count from then on. A value that is beyond already has to come back "
         "and cross again."}}};
@@ -174,6 +177,9 @@ void read_event(const std::string& name, const YamlValue& given, Model& model) {
       model.add(std::make_unique<EventRecord>(name), Entry{Section::events, name}, Recorded::no));
   if (actions || once) record.use();
   const auto planned = std::make_shared<PlannedEvent>();
+  const bool at_start = entry.at("at_start").boolean();
+  if (at_start && direction == EventFunction::Direction::both)
+    entry.at("at_start").fail("needs `direction: rising` or `falling`: the value counts as reached beyond `crosses`");
   const auto after = entry.find("after");
   model.when_read(Model::Stage::connections, [=, &model] {
     if (after && after->text() == name) after->fail("an event that waits for itself never occurs");
@@ -184,6 +190,7 @@ void read_event(const std::string& name, const YamlValue& given, Model& model) {
   model.when_read(Model::Stage::formulas, [=, &model, &record] {
     auto event = std::make_unique<MeasureEvent>(record, measure_named_by(when, model), value, direction, action);
     if (once) event->occur_once();
+    if (at_start) event->occur_at_start();
     if (after) event->occur_after(event_record_named_by(*after, model));
     add_writes(planned->writes, *event, model);
     if (planned->stops) event->stop();

@@ -39,6 +39,13 @@ void check_drives(const std::optional<YamlValue>& value, const std::optional<Yam
                     drive->name(), name));
 }
 
+/// Warns of a whole number of radians beyond a turn, which is probably meant in degrees.
+void warn_of_degrees(const YamlValue& value, double angle) {
+  if (std::abs(angle) <= 2 * M_PI || angle != std::round(angle)) return;
+  value.warn(fmt::format("is {:g} rad meant, {:.3g} turns? An angle in degrees is written `{:g} deg`", angle,
+                         angle / (2 * M_PI), angle));
+}
+
 }  // namespace
 
 void read_joint_start(const std::optional<YamlValue>& value, const std::optional<YamlValue>& rate, Joint& joint,
@@ -50,6 +57,7 @@ void read_joint_start(const std::optional<YamlValue>& value, const std::optional
     condition.value = value->number();
     if (kind == JointCoordinate::Kind::rotation && std::abs(*condition.value) >= M_PI)
       value->fail("a component of a rotation vector is less than half a turn, pi");
+    if (kind == JointCoordinate::Kind::angle) warn_of_degrees(*value, *condition.value);
     joint.start_at(coordinate, *condition.value, false);
   }
   if (rate) condition.rate = rate->number();

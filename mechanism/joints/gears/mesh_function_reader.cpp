@@ -133,8 +133,8 @@ void check_positive_at(const MeshFunction& stiffness, const std::array<double, 2
   try {
     if (const double found = stiffness.value(angles); !(found > 0))
       value.fail(fmt::format("expected a stiffness greater than 0; it is {:.4g} N/m at {}", found, where));
-  } catch (const ComputationError& error) {
-    value.fail(error.what());
+  } catch (const ComputationError& error) {  // names the place
+    throw InputError(error.what());
   }
 }
 

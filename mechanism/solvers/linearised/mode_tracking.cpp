@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 namespace bielle::mechanism {
 namespace {
@@ -59,6 +61,67 @@ std::vector<int> groups_of(const std::vector<Mode>& modes) {
   return group;
 }
 
+/// Sets of modes at rest, or next to it, that mix among themselves: as many modes of either sample, of which those
+/// after are nearly in the space of those before.
+class MixedSets {
+ public:
+  MixedSets(const ModeSample& before, const ModeSample& after)
+      : M_(after.M), before_(before.modes.size()), set_(before_ + after.modes.size()), share_(after.modes.size(), 0) {
+    std::iota(set_.begin(), set_.end(), std::size_t{0});
+    for (std::size_t i = 0; i < before_; ++i)
+      for (std::size_t k = 0; k < after.modes.size(); ++k) {
+        constexpr double related = 0.05;
+        if (shape_correlation(M_, before.modes[i].u, after.modes[k].u) >= related) unite(i, before_ + k);
+      }
+    for (std::size_t i = 0; i < before_; ++i)
+      if (first_of(set_[i]) == i) add(before, after, set_[i]);
+  }
+
+  /// Returns the fraction of the shape of mode `k` that is in the space of the set before, if the shape `u` is in this
+  /// space as well; otherwise zero.
+  double share(const Shape& u, std::size_t k) const {
+    const auto space = spaces_.find(set_[before_ + k]);
+    return space != spaces_.end() && space->second.share(u) >= same_space ? share_[k] : 0;
+  }
+
+ private:
+  static constexpr double same_space = 0.9;
+
+  void unite(std::size_t a, std::size_t b) {
+    const std::size_t kept = set_[a], dropped = set_[b];
+    for (std::size_t& each : set_)
+      if (each == dropped) each = kept;
+  }
+  std::size_t first_of(std::size_t set) const {
+    return static_cast<std::size_t>(std::find(set_.begin(), set_.end(), set) - set_.begin());
+  }
+  void add(const ModeSample& before, const ModeSample& after, std::size_t set) {
+    ShapeSpace space(M_);
+    std::vector<double> share(share_.size(), 0);
+    std::ptrdiff_t excess = 0;
+    for (std::size_t i = 0; i < before_; ++i) {
+      if (set_[i] != set) continue;
+      space.add(before.modes[i].u);
+      ++excess;
+    }
+    for (std::size_t k = 0; k < share.size(); ++k) {
+      if (set_[before_ + k] != set) continue;
+      share[k] = space.share(after.modes[k].u);
+      if (share[k] < same_space) return;
+      --excess;
+    }
+    if (excess != 0) return;
+    for (std::size_t k = 0; k < share.size(); ++k) share_[k] = std::max(share_[k], share[k]);
+    spaces_.emplace(set, std::move(space));
+  }
+
+  const Sparse& M_;
+  std::size_t before_;
+  std::vector<std::size_t> set_;  ///< for each mode before, then for each mode after
+  std::vector<double> share_;
+  std::map<std::size_t, ShapeSpace> spaces_;
+};
+
 struct Pairing {
   std::size_t track, mode;
   bool conjugate;
@@ -67,8 +130,9 @@ struct Pairing {
 
 class Following {
  public:
-  Following(const std::vector<TrackedMode>& before, const ModeSample& sample)
-      : before_(before), sample_(sample), group_(groups_of(sample.modes)) {
+  /// @param mixed  sets of modes that mix; null if there are none
+  Following(const std::vector<TrackedMode>& before, const ModeSample& sample, const MixedSets* mixed)
+      : before_(before), sample_(sample), mixed_(mixed), group_(groups_of(sample.modes)) {
     for (const int group : group_) groups_ = std::max(groups_, group + 1);
     for (int group = 0; group < groups_; ++group) {
       spaces_.emplace_back(sample.M);
@@ -123,7 +187,9 @@ class Following {
         const double near = std::abs(std::abs(sample_.modes[k].s) - std::abs(track.s)) / (std::abs(track.s) + 1e-300);
         constexpr double hardly = 1e-4;
         const double score = correlation * (conjugate ? rather_not : 1.0) - hardly * std::min(near, 1.0);
-        if (correlation > least) pairings.push_back({i, k, conjugate, score, correlation});
+        const double mixed = mixed_ && !conjugate ? mixed_->share(track.u, k) : 0;
+        if (std::max(correlation, mixed) > least)
+          pairings.push_back({i, k, conjugate, score, std::max(correlation, mixed)});
       }
   }
 
@@ -150,6 +216,7 @@ class Following {
 
   const std::vector<TrackedMode>& before_;
   const ModeSample& sample_;
+  const MixedSets* mixed_;
   std::vector<int> group_;
   int groups_ = 0;
   std::vector<ShapeSpace> spaces_, mirrored_;  ///< for each group, and for the conjugate shapes
@@ -182,7 +249,13 @@ std::vector<TrackedMode> begin_tracks(const ModeSample& sample, int count) {
 }
 
 std::vector<TrackedMode> follow_tracks(const std::vector<TrackedMode>& before, const ModeSample& sample) {
-  return Following(before, sample).run();
+  return Following(before, sample, nullptr).run();
+}
+
+std::vector<TrackedMode> follow_mixed_tracks(const std::vector<TrackedMode>& before, const ModeSample& from,
+                                             const ModeSample& sample) {
+  const MixedSets mixed(from, sample);
+  return Following(before, sample, &mixed).run();
 }
 
 }  // namespace bielle::mechanism

@@ -8,6 +8,9 @@
 // If frequencies coincide (a rotor at rest, lines that cross), shapes are arbitrary within a space: a mode then
 // continues as its own projection on that space. A frequency that passes through zero, like that of a forward whirl in
 // rotating axes, continues with the conjugate shape and a negative imaginary part.
+//
+// Frequencies that nearly coincide at rest have definite shapes there, which change within a small speed: there sets of
+// modes are identified by their spaces.
 #pragma once
 
 #include <complex>
@@ -45,5 +48,13 @@ std::vector<TrackedMode> begin_tracks(const ModeSample& sample, int count);
 
 /// Finds the same modes at the next state. Each mode of the sample is assigned to at most one of them.
 std::vector<TrackedMode> follow_tracks(const std::vector<TrackedMode>& before, const ModeSample& sample);
+
+/// As `follow_tracks`, across a change that mixes shapes at once, however small it is: at rest a rotor that is nearly
+/// the same in all directions vibrates in planes, and whirls at any speed; gravity across the axis makes its blades
+/// differ at rest alone. The modes of a set are the same as a whole if as many modes after it are in its space; within
+/// it each one continues as the mode that is most similar.
+/// @param from  the sample that the tracks were found in
+std::vector<TrackedMode> follow_mixed_tracks(const std::vector<TrackedMode>& before, const ModeSample& from,
+                                             const ModeSample& sample);
 
 }  // namespace bielle::mechanism

@@ -54,6 +54,14 @@ bool any_lost(const SweepPoint& from, const SweepPoint& to) {
   return false;
 }
 
+/// Whether one of two states is at rest and the other one is not.
+bool begins_or_ends_at_rest(const SweepPoint& from, const SweepPoint& to) {
+  constexpr double rounding = 1e-12;
+  const double slow = std::min(std::abs(from.speed), std::abs(to.speed)),
+               fast = std::max(std::abs(from.speed), std::abs(to.speed));
+  return fast > 0 && slow <= rounding * fast;
+}
+
 /// Whether a mode that was lost may be faster than all modes of the sample. A slower one has changed its shape.
 bool may_be_faster(const SweepPoint& from, const SweepPoint& to, const ModeSample& sample) {
   constexpr double most_change = 2;  // a frequency that changes more is found by further values between
@@ -98,9 +106,18 @@ SweepPoint SpeedSweep::followed(const SweepPoint& from, double value) {
   return point;
 }
 
+/// Follows tracks from rest, or to it, by sets of modes that mix.
+SweepPoint SpeedSweep::followed_from_rest(const SweepPoint& from, const SweepPoint& to) {
+  const SweepSample before = sample_at(from.value), after = sample_at(to.value);
+  SweepPoint point = to;
+  point.tracks = follow_mixed_tracks(from.tracks, before.modes, after.modes);
+  return point;
+}
+
 void SpeedSweep::advance(const SweepPoint& from, SweepPoint to, int depth) {
-  if (depth >= deepest || (all_certain(from, to) && !order_changed(from, to))) {
-    accept(from, std::move(to));
+  const bool certain_to = all_certain(from, to);
+  if (depth >= deepest || (certain_to && !order_changed(from, to))) {
+    accept(from, !certain_to && begins_or_ends_at_rest(from, to) ? followed_from_rest(from, to) : std::move(to));
     return;
   }
   const double middle = 0.5 * (from.value + to.value);

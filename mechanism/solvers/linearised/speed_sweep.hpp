@@ -4,7 +4,7 @@
 // further values are inserted, down to a sixty-fourth of the distance. Frequencies that change their order with
 // constant shapes have crossed; frequencies that approach each other, turn away and exchange their shapes have veered
 // (N. C. Perkins, C. D. Mote, J. Sound Vib. 106 (1986) 451): there each number continues along its line, and denotes
-// another shape afterwards.
+// another shape afterwards. Shapes that are unlike those at rest however small the speed is are followed as spaces.
 #pragma once
 
 #include <functional>
@@ -75,6 +75,7 @@ class SpeedSweep {
   SweepSample sample_at(double value);
   SweepPoint begin();
   SweepPoint followed(const SweepPoint& from, double value);
+  SweepPoint followed_from_rest(const SweepPoint& from, const SweepPoint& to);
   void go_to(double value);
   void advance(const SweepPoint& from, SweepPoint to, int depth);
   void accept(const SweepPoint& from, SweepPoint to);

@@ -302,6 +302,17 @@ TEST_CASE("a pendulum swings about its joint, and a chain of them has modes in o
   }
 }
 
+TEST_CASE("of several pendulums the one that swings gives its joint to the name", "[linearised]") {
+  const std::vector<std::string> names = names_of(
+      "gravity: [0, 0, -9.81]\nnodes: {a1: {position: [0, 0, -1]}, a2: {position: [1, 0, -2]}}\n"
+      "elements:\n  bob1: {type: rigid_body, node: a1, mass: 1, inertia: [0.1, 0.1, 0.1]}\n"
+      "  bob2: {type: rigid_body, node: a2, mass: 1, inertia: [0.1, 0.1, 0.1]}\n"
+      "joints:\n  p: {type: hinge, nodes: [ground, a1], position: [0, 0, 0], axis: [0, 1, 0]}\n"
+      "  q: {type: hinge, nodes: [ground, a2], position: [1, 0, 0], axis: [0, 1, 0]}\n",
+      2);
+  CHECK(names == std::vector<std::string>{"bob about q", "bob about p"});  // sqrt(g l/(l^2 + 0.1)), l = 2 and 1
+}
+
 TEST_CASE("parts that share a mode are named together, and mixed directions have no word", "[linearised]") {
   // Two equal masses on a line between three equal springs: sqrt(k/m) and sqrt(3 k/m), half of the energy in each.
   const std::vector<std::string> names = names_of(

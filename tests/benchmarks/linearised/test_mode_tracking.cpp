@@ -2,6 +2,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 
@@ -135,6 +136,59 @@ TEST_CASE("a mode that no longer oscillates is lost, and told", "[linearised]") 
   CHECK(found.uncertain[0].to - found.uncertain[0].from < 0.1);
   CHECK(found.points.back().tracks[0].found);
   CHECK_FALSE(found.points.back().tracks[1].found);
+}
+
+TEST_CASE("modes of a rotor that is nearly round are followed from rest, however soon they whirl", "[linearised]") {
+  // A point on springs 100 and 100 (1 + unequal) along x and y: it vibrates in planes at rest. In motion a gyroscopic
+  // force 2 p acts across its velocity: s^4 + (k_x + k_y + 4 p^2) s^2 + k_x k_y = 0, and whirls are round for
+  // p >> 10 unequal / 4.
+  for (const double unequal : {1e-5, 1e-9, 0.0}) {
+    const double kx = at_rest, ky = at_rest * (1 + unequal);
+    const auto solve = [&](double p, int /*count*/) {
+      SweepSample sample;
+      sample.speed = p;
+      sample.modes.all = true;
+      sample.modes.M.resize(2, 2);
+      sample.modes.M.setIdentity();
+      const double half = 0.5 * (kx + ky + 4 * p * p), root = std::sqrt(std::max(0.0, half * half - kx * ky));
+      for (const double sign : {-1.0, 1.0}) {
+        Mode mode;
+        mode.s = Complex(0, std::sqrt(half + sign * root));
+        if (p == 0)
+          mode.u = sign < 0 ? Eigen::Vector2cd(1, 0) : Eigen::Vector2cd(0, 1);
+        else
+          mode.u = Eigen::Vector2cd(1, -(kx + mode.s * mode.s) / (2 * p * mode.s));
+        sample.modes.modes.push_back(mode);
+        sample.modes.whirl.push_back(p == 0 ? 0 : sign);
+      }
+      return sample;
+    };
+    for (const auto& [from, to, count] :
+         {std::tuple(0.0, 4.0, 5), std::tuple(-4.0, 0.0, 5), std::tuple(-4.0, 4.0, 2)}) {
+      const SweptModes found = SpeedSweep(solve, even(from, to, count), 2, {0.1}).run();
+      CAPTURE(unequal, from, to);
+      CHECK(found.uncertain.empty());
+      for (const SweepPoint& point : found.points)
+        for (const TrackedMode& track : point.tracks) CHECK(track.found);
+      const SweepPoint& last = found.points.back();
+      if (to > 0) {
+        CHECK(std::abs(last.tracks[0].s) * std::abs(last.tracks[1].s) == Approx(std::sqrt(kx * ky)));
+        CHECK(std::abs(std::abs(last.tracks[0].s) - std::abs(last.tracks[1].s)) == Approx(2 * to));
+      }
+    }
+  }
+}
+
+TEST_CASE("a mode that does not oscillate in motion is lost from rest, though others mix", "[linearised]") {
+  const auto solve = [](double p, int /*count*/) {
+    SweepSample sample = oscillators(p, 0);
+    if (p > 0) sample.modes.modes.pop_back();
+    return sample;
+  };
+  const SweptModes found = SpeedSweep(solve, even(0, 40, 14), 2, {3}).run();
+  REQUIRE(found.uncertain.size() == 1);
+  CHECK(found.uncertain[0].lost);
+  CHECK(found.uncertain[0].from == 0);
 }
 
 TEST_CASE("critical speeds on both sides of rest are found between two values far apart", "[linearised]") {

@@ -43,6 +43,113 @@ loads: {wind: {node: flap, force: [0, 0, push]}}
 """
 
 
+# A valve that sticks at 0.3 from the beginning: its command alone would open it.
+VALVE = """\
+hydraulics:
+  fluid: {density: 850, viscosity: 0.04, bulk_modulus: 1.4e9}
+  supplies: {pump: {pressure: 4101325}, tank: {pressure: 101325}}
+  volumes: {v: {volume: 1e-4, pressure: 1e6}}
+  lines:
+    gate: {from: pump, to: v, valve: {area: 1e-6, command: "0.3 + 0.6*min(t/0.1, 1)", DYNAMICS}}
+    out: {from: v, to: tank, orifice: {area: 1e-6}}
+events:
+  stuck: {when: t, crosses: 0, direction: rising, at_start: true, do: [{lock: gate}]}
+  free: {when: t, crosses: 0.2, do: [{unlock: gate}]}
+measures: {opening: gate.opening}
+analysis: [{type: dynamic, duration: 0.4, step: 1e-3}]
+"""
+
+BALL = """\
+gravity: [0, 0, -10]
+nodes: {ball: {position: [0, 0, HEIGHT], velocity: [0, 0, SPEED]}}
+elements: {ball: {type: point_mass, node: ball, mass: 1}}
+events: {low: {when: ball.position.z, crosses: 0.1, direction: DIRECTION, at_start: true, ACTION}}
+analysis: [{type: dynamic, duration: 0.1, step: 0.01}ANALYSIS]
+"""
+
+
+class Start(CommandTest):
+    """Events of values that are reached when a motion begins."""
+
+    program = "bielle-mechanism"
+
+    def times(self, model, analysis="analysis_1"):
+        text = self.summary(model)
+        with h5py.File(os.path.join(self.folder, "model.h5")) as file:
+            return text, list(file[analysis + "/events/time"]) if analysis + "/events" in file else []
+
+    def ball(self, height, speed=0, direction="falling", action="action: note", analysis=""):
+        return self.times(BALL.replace("HEIGHT", str(height)).replace("SPEED", str(speed)).replace("DIRECTION", direction)
+                          .replace("ACTION", action).replace("ANALYSIS", analysis), "analysis_2" if analysis else "analysis_1")
+
+    def test_a_valve_is_locked_from_the_start(self):
+        for dynamics in ("time_constant: 0", "time_constant: 0.01", "frequency: 40"):
+            with self.subTest(dynamics):
+                _, times = self.times(VALVE.replace("DYNAMICS", dynamics))
+                self.assertEqual(times[0], 0)
+                self.assertAlmostEqual(times[1], 0.2, delta=1e-9)
+                with h5py.File(os.path.join(self.folder, "model.h5")) as file:
+                    time, opening = file["time"][:], file["measures/opening"][:]
+                np.testing.assert_allclose(opening[time < 0.2], 0.3, rtol=0, atol=1e-12)
+                self.assertAlmostEqual(opening[-1], 0.9, delta=1e-3)
+
+    def test_a_value_that_is_reached_or_passed_counts_on_its_side(self):
+        for height, direction, expected in ((0.1, "falling", 1), (0.05, "falling", 1), (0.1, "rising", 1), (0.3, "rising", 1),
+                                            (0.3, "falling", 0), (0.05, "rising", 0)):
+            with self.subTest(height=height, direction=direction):
+                _, times = self.ball(height, direction=direction)
+                self.assertEqual(times, [0] * expected)
+
+    def test_it_occurs_at_each_later_crossing_and_at_the_start_of_each_motion(self):
+        _, times = self.ball(0.1, 0.25)  # rises first, and is back after 0.05 s
+        self.assertEqual(times[0], 0)
+        self.assertAlmostEqual(times[1], 0.05, delta=1e-6)
+        _, times = self.ball(0.05, analysis=", {type: dynamic, duration: 0.1, step: 0.01}")
+        self.assertEqual(times, [0.1])
+        _, times = self.ball(0.05, action="action: note, once: true", analysis=", {type: dynamic, duration: 0.1, step: 0.01}")
+        self.assertEqual(times, [])
+
+    def test_a_run_may_end_where_it_begins(self):
+        for action in ("action: stop", "do: [{stop: true}]"):
+            text, times = self.ball(0.05, action=action)
+            self.assertEqual(times, [0])
+            self.assertIn("which stopped the run", text)
+
+    def test_gears_close_at_the_start_with_an_impulse(self):
+        # 10 rad/s and rest become w and r w, with J_a (w - 10) + r J_b r w = 0.
+        text, times = self.times("""\
+nodes: {a: {angular_velocity: [0, 0, 10]}, b: {position: [1, 0, 0]}}
+elements:
+  a: {type: rigid_body, node: a, mass: 1, inertia: [0.02, 0.02, 0.02]}
+  b: {type: rigid_body, node: b, mass: 1, inertia: [0.05, 0.05, 0.05]}
+joints:
+  ha: {type: hinge, nodes: [ground, a], axis: [0, 0, 1]}
+  hb: {type: hinge, nodes: [ground, b], position: [1, 0, 0], axis: [0, 0, 1]}
+  g: {type: gear, joints: [ha, hb], ratio: -2, active: false}
+events: {e: {when: t, direction: rising, at_start: true, do: [{activate: g}]}}
+measures: {wa: ha.angle.rate, wb: hb.angle.rate}
+analysis: [{type: dynamic, duration: 0.05, step: 0.001}]
+""")
+        self.assertEqual(times, [0])
+        with h5py.File(os.path.join(self.folder, "model.h5")) as file:
+            first, second, lost = file["measures/wa"][-1], file["measures/wb"][-1], file["energy/dissipated"][-1]
+            balance = file["energy/balance"][-1]
+        ratio = second / first
+        speed = 0.02 * 10 / (0.02 + 0.05 * ratio**2)
+        self.assertAlmostEqual(abs(ratio), 0.5 if abs(ratio) < 1 else 2, places=9)
+        self.assertAlmostEqual(first, speed, places=8)
+        self.assertAlmostEqual(lost, 1 - 0.5 * (0.02 + 0.05 * ratio**2) * speed**2, places=8)
+        self.assertLess(abs(balance), 1e-9)
+
+    def test_both_directions_are_refused(self):
+        ball = BALL.replace("HEIGHT", "1").replace("SPEED", "0").replace("ACTION", "action: note").replace("ANALYSIS", "")
+        self.write("model.yaml", ball.replace("DIRECTION", "both"))
+        self.expect_refusal(1, "model.yaml", says=("model.yaml:4: events.low.at_start: needs `direction: rising` or `falling`",))
+        for value in ("maybe", "[true]", "2"):
+            self.write("model.yaml", ball.replace("at_start: true", f"at_start: {value}").replace("DIRECTION", "rising"))
+            self.expect_refusal(1, "model.yaml", says=("model.yaml:4: events.low.at_start",))
+
+
 class Events(CommandTest):
     program = "bielle-mechanism"
 

@@ -70,6 +70,25 @@ class Mechanism(CommandTest):
             done = self.run_program(option)
             self.assertEqual(done.returncode, 0)
             self.assertTrue(done.stdout.strip())
+        self.assertIn("manual", self.run_program("--help").stdout)
+
+    def test_check_tells_the_mass_and_its_centre(self):
+        # 2 kg at x = 1 on a held node, 1 kg 0.5 m above (4, 0, 0), turned, and 3 kg of beam from x = 0 to 2.
+        self.write("model.yaml", """\
+nodes:
+  held: {position: [1, 0, 0], fixed: true}
+  free: {position: [4, 0, 0], axes: {x: [0, 1, 0], y: [0, 0, 1]}}
+  a: {position: [0, 0, 0], fixed: true}
+  b: {position: [2, 0, 0]}
+elements:
+  held: {type: point_mass, node: held, mass: 2}
+  free: {type: rigid_body, node: free, mass: 1, centre: [0, 0.5, 0], inertia: [1, 1, 1]}
+  beam: {type: beam, nodes: [a, b], elements: 3, orientation: [0, 1, 0], section: {rectangle: [0.1, 0.02], young: 7e10, poisson: 0.3, density: 750}}
+joints: {j: {type: rigid, nodes: [b, free]}}
+""")
+        self.assertIn("  mass         6 kg, centre at [1.5, 0, 0.0833333] m\n", self.run_program("model.yaml", "--check").stdout)
+        self.write("model.yaml", "nodes: {a: {fixed: true}}\njoints: {}\n")
+        self.assertNotIn("  mass  ", self.run_program("model.yaml", "--check").stdout)
 
     def test_unknown_option(self):
         self.expect_refusal(1, "model.yaml", "--quite", says=["--quite", "--quiet"])

@@ -88,6 +88,60 @@ analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
         self.assertIn("nodes.c.bryant: is 90 meant? Angles are in radians",
                       self.warnings(CRANK, "c: {position: [0.5, 0, 0]}", "c: {position: [0.5, 0, 0], bryant: [90, 0, 0]}"))
 
+    def test_start_values_in_degrees(self):
+        joint = "axis: [0, 1, 0], position: [0, 0, 0]"
+        free = CRANK.replace('drives: {m: {joint: h, angle: "0.5*t"}}\n', "")
+        for start, turns in (("90", "14.3 turns"), ("-30", "-4.77 turns")):
+            text = self.warnings(free, joint, f"{joint}, start: {start}")
+            self.assertIn(f"model.yaml:7: joints.h.start: is {start} rad meant, {turns}? An angle in degrees is written "
+                          f"`{start} deg`", text)
+        for start in ("90 deg", "6", "4*pi", "12.5", "-720 deg"):
+            self.assertEqual(self.warnings(free, joint, f"{joint}, start: {start}"), "")
+        slide = free.replace("hinge", "prismatic")
+        self.assertNotIn("deg", self.warnings(slide, joint, f"{joint}, start: 90"))
+
+    def test_densities_of_solids_in_other_units(self):
+        body = BEAM.replace("{m: {type: beam, nodes: [a, b], section: {circle: 0.02, young: 210e9, poisson: 0.3, density: 7850}}}",
+                            "{m: {type: rigid_body, node: a, solid: {sphere: 0.1, density: 7850}}}")
+        self.assertEqual(self.warnings(body), "")
+        for density in ("7.8", "7.8e-9", "7.8e6"):
+            self.assertIn("model.yaml:3: elements.m.solid.density: is", self.warnings(body, "7850", density))
+
+    def test_a_failure_within_a_formula_or_polar_is_placed_once(self):
+        wheels = """\
+nodes: {a: {}, b: {position: [0.1, 0, 0]}}
+elements:
+  a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  b: {type: rigid_body, node: b, mass: 1, inertia: [0.1, 0.1, 0.1]}
+joints:
+  p: {type: hinge, nodes: [ground, a], axis: [0, 0, 1]}
+  q: {type: hinge, nodes: [ground, b], axis: [0, 0, 1]}
+  g: {type: gear_mesh, nodes: [a, b], axes: [0, 0, 1], radii: [0.05, 0.05], stiffness: "1/phi"}
+analysis: [{type: dynamic, duration: 0.01, step: 1e-3}]
+"""
+        blade = """\
+nodes: {a: {fixed: true}, b: {position: [2, 0, 0]}}
+elements:
+  blade: {type: beam, nodes: [a, b], elements: 2, orientation: [0, 1, 0], section: {rectangle: [0.3, 0.02], young: 7e10, poisson: 0.3, density: 1000},
+    airfoil: {chord: "1/s", lift: 1}}
+analysis: [{type: static}]
+"""
+        for model, line, says in ((wheels, 8, "joints.g.stiffness: formula '1/phi' at phi = 0, phi_2 = 0: division by zero"),
+                                  (blade, 4, "elements.blade.airfoil.chord: formula '1/s' at s = 0: division by zero")):
+            error = self.refuse(model, "", "", f"model.yaml:{line}: {says}")
+            self.assertEqual(error.stderr.count("model.yaml"), 1)
+
+    def test_an_angle_of_attack_outside_a_polar_names_its_place(self):
+        self.write("model.yaml", """\
+nodes: {a: {fixed: true}, b: {position: [2, 0, 0]}}
+elements:
+  blade: {type: beam, nodes: [a, b], elements: 2, orientation: [0, 1, 0], section: {rectangle: [0.3, 0.02], young: 7e10, poisson: 0.3, density: 1000},
+    airfoil: {chord: 0.4, twist: 0.03, wind: [0, 10, 0], polars: [{at: 0.2, table: [[-0.01, 1, 0, 0], [0.01, 1, 0, 0]]}]}}
+analysis: [{type: static}]
+""")
+        self.expect_refusal(2, "model.yaml", says=("model.yaml:4: elements.blade.airfoil.polars[1].table: angle of attack at s = 0.",
+                                                   "is outside the table 'alpha', which runs from -0.01 to 0.01 [rad]"))
+
     def test_drives_and_motions_that_jump(self):
         text = self.warnings(CRANK, '"0.5*t"', '"0.5*pulse(t, 0.002, 1)"')
         self.assertIn("drives.m.angle: the angle jumps by 0.5 at t = 0.002 s", text)

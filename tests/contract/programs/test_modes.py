@@ -1,6 +1,7 @@
 """Messages of `bielle-mechanism` about modes: instability, states that are not stationary, impossible computations."""
 
 import os
+import re
 import unittest
 
 import h5py
@@ -82,6 +83,44 @@ analysis: [{type: eigen}]
         self.assertIn("constant in axes that turn with it", text)
         with h5py.File(os.path.join(self.folder, "model.h5")) as file:
             self.assertEqual([name.decode() for name in file["/eigen/name"]], ["rod across the axis, rigid"])
+
+    def test_frequencies_of_what_turns_and_of_what_stands_are_told_apart(self):
+        # The shaft is round; the mass on a film stands, and nothing of its motion is seen from the shaft.
+        text = self.summary("""\
+nodes: {shaft: {position: [0, 0, 0]}, body: {position: [0, 0, 0], fixed: [z, rx, ry, rz]}}
+elements:
+  shaft: {type: rigid_body, node: shaft, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}
+  body: {type: point_mass, node: body, mass: 2}
+joints:
+  main: {type: hinge, nodes: [ground, shaft], axis: [0, 0, 1]}
+  seal: {type: bushing, nodes: [ground, body], axis: [0, 0, 1], stiffness: [6e4, 6e4, 0, 0, 0, 0]}
+analysis: [{type: eigen, rotation: {joint: main, rate: 200}}]
+""")
+        self.assertIn("frequencies of its motions are those seen from there, of all others those seen from what stands "
+                      "still", text)
+
+    def test_a_motion_of_many_harmonics_has_modes(self):
+        # An unbalanced rotor shakes a mass on a spring whose force rises with the ninth power: the stiffness along the
+        # motion has several times as many harmonics as the motion. The exponents of this degree of freedom add up to -damping/mass,
+        # whatever the stiffness is (Liouville).
+        text = self.summary("""\
+gravity: [0, 0, 0]
+nodes: {tower: {position: [0, 0, 0], fixed: [x, z, rx, ry, rz]}, hub: {position: [0, 0, 0]}}
+elements:
+  tower: {type: point_mass, node: tower, mass: 4}
+  hub: {type: rigid_body, node: hub, mass: 1, centre: [0, 0.3, 0], inertia: [0.1, 0.1, 0.1]}
+joints:
+  base: {type: prismatic, nodes: [ground, tower], axis: [0, 1, 0], stiffness: "2000*q + 1e16*q^9", damping: 5}
+  shaft: {type: hinge, nodes: [tower, hub], axis: [1, 0, 0]}
+drives: {turn: {joint: shaft, rate: 10}}
+analysis: [{type: eigen, rotation: {joint: shaft, rate: 10}}]
+""")
+        self.assertGreater(int(re.search(r"\((\d+) harmonics\)", text)[1]), 14)
+        with h5py.File(os.path.join(self.folder, "model.h5")) as file:
+            exponents = file["/eigen/eigenvalue"][:]  # (modes, real and imaginary part)
+        self.assertEqual(len(exponents), 2)  # the first one turns the shaft
+        self.assertGreater(exponents[1, 1], 0)
+        self.assertAlmostEqual(2 * exponents[1, 0], -5 / 5, delta=1e-6)
 
     def test_wrong_keys_are_refused(self):
         for analysis, says in (("{type: eigen, cuont: 3}", ("'cuont'", "did you mean 'count'")),

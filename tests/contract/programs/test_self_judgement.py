@@ -175,6 +175,33 @@ class SelfJudgement(CommandTest):
         self.assertAlmostEqual(gap, scheme + errors, delta=0.02 * errors)
         self.assertIn("take smaller steps, or give a `tolerance`", text)
 
+    def test_a_motion_that_joints_stop_at_the_start_leaves_rounding_that_is_not_judged(self):
+        # Two gears of different ratio let neither wheel turn: 1 J at 10 rad/s becomes some 1e-30 J.
+        text = self.summary("""\
+nodes: {a: {position: [0, 0, 0], angular_velocity: [0, 0, 10]}, b: {position: [1, 0, 0]}}
+elements:
+  a: {type: rigid_body, node: a, mass: 1, inertia: [0.02, 0.02, 0.02]}
+  b: {type: rigid_body, node: b, mass: 1, inertia: [0.05, 0.05, 0.05]}
+joints:
+  ha: {type: hinge, nodes: [ground, a], axis: [0, 0, 1]}
+  hb: {type: hinge, nodes: [ground, b], position: [1, 0, 0], axis: [0, 0, 1]}
+  g1: {type: gear, joints: [ha, hb], ratio: -2}
+  g2: {type: gear, joints: [ha, hb], ratio: -3}
+events: {e: {when: t, crosses: 0.02, do: [{release: g2}]}}
+analysis: [{type: dynamic, duration: 0.06, step: 0.001}]
+""")
+        self.assertIn("  nothing moved\n", text)
+        self.assertNotIn("warning", text)
+
+    def test_a_slow_motion_is_judged(self):
+        # A micrometre per second is no rounding.
+        text = self.summary("""\
+nodes: {a: {position: [0, 0, 0], velocity: [1e-6, 0, 0]}}
+elements: {a: {type: point_mass, node: a, mass: 1e-6}}
+analysis: [{type: dynamic, duration: 0.06, step: 0.001}]
+""")
+        self.assertNotIn("nothing moved", text)
+
     def test_statics_end_at_no_time(self):
         text = self.summary(FOUR_BAR.format(tilt=0.09).replace("type: dynamic, duration: 0.05, step: 1e-3",
                                                                "type: static"))

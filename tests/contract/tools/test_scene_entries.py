@@ -5,6 +5,7 @@ import subprocess
 import sys
 import unittest
 
+import h5py
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -87,6 +88,19 @@ class Released(Entries):
             with self.subTest(entry + " in the next analysis"):
                 self.assertTrue((self.shown(last, entry) == expected).all())
         self.assertEqual([first.notes, last.notes], [[], []])
+
+    def test_an_analysis_knows_what_is_released_at_its_start(self):
+        """Without the events before it, as in the file of a session that goes on from another one."""
+        path = self.run_model()
+        with h5py.File(path, "r+") as file:
+            self.assertEqual(file["analysis_1"].attrs["released"].splitlines(), ["elements/spring", "joints/never"])
+            self.assertEqual(sorted(file["analysis_2"].attrs["released"].splitlines()),
+                             ["elements/spring", "joints/never", "joints/pair", "joints/rope"])
+            del file["analysis_1/events"]
+        last = self.scene(path, 2)
+        for entry, expected in (("joints/rope", False), ("elements/spring", False), ("joints/never", False), ("joints/pair", False), ("joints/axle", True)):
+            with self.subTest(entry):
+                self.assertTrue((self.shown(last, entry) == expected).all())
 
     def test_both_layouts_agree(self):
         self.write("model.yaml", MODEL)

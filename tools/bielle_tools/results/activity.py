@@ -1,4 +1,4 @@
-"""Times in which entries of a model act: events release and activate them, `active: false` lets them begin released."""
+"""Times in which entries of a model act: events release and activate them, and an analysis may begin with some of them released."""
 
 import re
 
@@ -21,6 +21,9 @@ class Activity:
                         if place.partition("/")[0] in RELEASABLE and entry.get("active") == "false"}
         self._changes = {}
         for number, group in _analyses_until(results):
+            if number is None and "released" in group.attrs:  # files of earlier versions do not have it
+                paths = str(group.attrs["released"]).splitlines()
+                self._starts = {path.partition("/")[2]: False for path in paths if path.partition("/")[0] in RELEASABLE}
             for time, acts, name in _actions(results, group):
                 if number is None:
                     self._changes.setdefault(name, []).append((time, acts))

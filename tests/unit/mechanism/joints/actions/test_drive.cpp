@@ -55,6 +55,13 @@ TEST_CASE("a torque drive accelerates its joint") {
   CHECK(angle == Approx(0.5 * 1.5 / 0.5).epsilon(1e-9));
 }
 
+TEST_CASE("drives by forces on one coordinate add, in any number") {
+  const ReadyModel model(
+      arm("torque: \"2.5\"}, second: {joint: axle, torque: -0.7}, third: {joint: axle, torque: \"-0.3\""));
+  const State state = integrate(model, Scheme::generalized_alpha(0.8), 1e-3, 1.0);
+  CHECK(recorded(model, state).first == Approx(0.5 * 1.5 / 0.5).epsilon(1e-9));
+}
+
 TEST_CASE("drives refuse what they cannot drive, in one sentence") {
   using Catch::Contains;
   const auto refuse = [](const std::string& drive) { ReadyModel model(arm(drive)); };
@@ -64,6 +71,8 @@ TEST_CASE("drives refuse what they cannot drive, in one sentence") {
                "`torque`, `pid` or `motor`"));
   CHECK_THROWS_WITH(refuse("angle: \"t\", torque: \"1\""), Contains("one law"));
   CHECK_THROWS_WITH(refuse("angle: 1}, second: {joint: axle, torque: 2"),
+                    Contains("the angle of joint 'axle' is driven by 'motor' already"));
+  CHECK_THROWS_WITH(refuse("torque: 2}, second: {joint: axle, torque: 1}, third: {joint: axle, rate: 2"),
                     Contains("the angle of joint 'axle' is driven by 'motor' already"));
   CHECK_THROWS_WITH(refuse("angel: \"t\""), Contains("did you mean 'angle'"));
   CHECK_THROWS_WITH(refuse("angle: \"t*speeed\""), Contains("speeed"));
