@@ -39,7 +39,7 @@ def wanted(found, requests, path):
 def quantity(deck, name, kind, values, labels=None):
     """A quantity of a matrix, and notes; None with a note if nothing names the units of its rows.
 
-    @param kind: of a request; None: a usual matrix @param values: (k,n) @param labels: names of the rows if no table gives them"""
+    @param kind: the requested one; None: a usual matrix @param values: (k,n) @param labels: names of the rows if no table gives them"""
     count = len(values)
     groups = groups_of(deck, name, count)
     _, unit, points = USUAL.get(name, ("", None, False))
