@@ -10,6 +10,7 @@
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/input/yaml_file.hpp"
+#include "reduce/fe/relative_weights.hpp"
 #include "reduce/mesh/foreign_mesh.hpp"
 #include "reduce/mesh/length_unit.hpp"
 #include "reduce/mesh/place.hpp"
@@ -166,7 +167,11 @@ std::string DeckReader::requested_nodes(const DeckTie& tie, const YamlValue& key
   const std::string group = "nodes of " + tie.name;
   if (std::none_of(mesh_.nodes.begin(), mesh_.nodes.end(),
                    [&](const NodeSelection& selection) { return selection.group == group; }))
-    mesh_.nodes.push_back({group, tie.nodes, tie.weights, key.path()});
+    try {
+      mesh_.nodes.push_back({group, tie.nodes, relative_weights(tie.weights), key.path()});
+    } catch (const InputError& error) {
+      key.fail(fmt::format("{}: {}", tie.name, error.what()));
+    }
   return group;
 }
 

@@ -1,6 +1,9 @@
 #include "reduce/body_file/matrix_body.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -29,7 +32,44 @@ ForeignMatrices read_files(const YamlValue& value) {
   if (const auto units = value.find("units")) files.units = units->text();
   if (const auto names = value.find("names"))
     for (const auto& [matrix, name] : names->entries()) files.names[matrix] = name.text();
+  if (const auto quantities = value.find("quantities"))
+    for (const auto& [name, quantity] : quantities->entries()) {
+      check_name(name, quantity);
+      files.quantities[name] = {quantity.at("matrix").text(), quantity.at("kind").word()};
+    }
   return files;
+}
+
+/// Names of rows: a list for all of them, or a map to the numbers of some.
+QuantityRows read_rows(const YamlValue& value) {
+  QuantityRows rows;
+  rows.subject = value.path();
+  std::set<std::string> names;
+  const auto add = [&](const std::string& name, const YamlValue& at) {
+    check_name(name, at);
+    if (!names.insert(name).second) at.fail(fmt::format("there are two rows '{}'", name));
+  };
+  if (value.is_sequence())
+    for (const YamlValue& item : value.items()) {
+      add(item.text(), item);
+      rows.all.push_back(item.text());
+    }
+  else
+    for (const auto& [name, number] : value.entries()) {
+      add(name, number);
+      rows.chosen.emplace_back(name, number.integer());
+    }
+  if (names.empty()) value.fail("expected the name of at least one row");
+  return rows;
+}
+
+std::map<std::string, QuantityRows> read_quantity_rows(const YamlValue& matrices) {
+  std::map<std::string, QuantityRows> result;
+  const auto quantities = matrices.is_map() ? matrices.find("quantities") : std::nullopt;
+  if (quantities)
+    for (const auto& [name, quantity] : quantities->entries())
+      if (const auto rows = quantity.find("rows")) result[name] = read_rows(*rows);
+  return result;
 }
 
 std::vector<double> read_weights(const YamlValue& value, std::size_t nodes) {
@@ -93,9 +133,8 @@ NodePoint read_node_point(const std::string& name, const YamlValue& value) {
 
 /// Refuses keys that only a geometry has.
 void refuse_other_keys(const YamlValue& root) {
-  for (const char* key :
-       {"geometry", "length_unit", "volume", "volumes", "glue", "mesh", "materials", "mass_unit", "integration",
-        "regions", "inertia_relief", "loads", "masses", "lumped", "recovery", "pieces"})
+  for (const char* key : {"geometry", "length_unit", "volume", "volumes", "glue", "mesh", "materials", "mass_unit",
+                          "integration", "regions", "loads", "masses", "lumped", "recovery", "pieces"})
     if (root.has(key))
       root.at(key).fail(
           "it belongs to a geometry, and this body is given by `matrices`: remove this key. Units of the matrices are "
@@ -103,6 +142,22 @@ void refuse_other_keys(const YamlValue& root) {
 }
 
 }  // namespace
+
+const KeyTable& quantity_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      "a recovered quantity",
+      "Numbers that a matrix of the file computes from its unknowns, an output transformation matrix.",
+      {{"matrix", text(), required, "Name of the matrix in the file: `MES1`, `OTM1`."},
+       {"kind",
+        word({"stress", "strain", "force", "moment", "displacement", "rotation", "number"}, "a kind of quantity"),
+        required, "Kind of the numbers, by which they are converted to SI units."},
+       {"rows",
+        {list_of(text()), entries("row", {integer().at_least(1)})},
+        computed("names by a table of the file, or `row_1`, `row_2` .."),
+        "Names of all rows, or a map from a name to the number of a row, which chooses some."}}};
+  return table;
+}
 
 const KeyTable& matrices_keys() {
   using namespace keys;
@@ -121,6 +176,9 @@ const KeyTable& matrices_keys() {
         "Units of length, mass and time of the numbers: `mm-t-s` for millimetres, tonnes and seconds (N, MPa)."},
        {"names", entries("matrix", {text()}), optional,
         "Names of the matrices in the file, if they are not the usual ones: `{stiffness: KAAX, mass: MAAX}`."},
+       {"quantities", entries("quantity", {nested(quantity_keys)}), optional,
+        "Further numbers that matrices of the file recover, such as the stress of gauges: a mechanism records them on "
+        "request."},
        {"format", text(), computed("known by the file"), "Name of the format, if the ending is not enough."}}};
   return table;
 }
@@ -129,6 +187,7 @@ MatrixBody read_matrix_body(const YamlValue& root) {
   refuse_other_keys(root);
   MatrixBody body;
   body.files = read_files(root.at("matrices"));
+  body.files.in_body_file = true;
   MatrixOptions& options = body.options;
   options.name = root.at("body").text();
   options.input_text = root.source_text();
@@ -151,6 +210,8 @@ MatrixBody read_matrix_body(const YamlValue& root) {
   }
   if (const auto points = root.find("points"))
     for (const auto& [name, value] : points->entries()) options.points.push_back(read_node_point(name, value));
+  options.quantity_rows = read_quantity_rows(root.at("matrices"));
+  options.inertia_relief = root.at("inertia_relief").boolean();
   if (const auto spin = root.find("spin")) options.spin = spin->vector3();
   return body;
 }

@@ -19,6 +19,8 @@ namespace bielle::reduce {
 
 /// Returns the keys of `matrices`.
 const KeyTable& matrices_keys();
+/// Returns the keys of an entry of `matrices: {quantities: ..}`.
+const KeyTable& quantity_keys();
 
 /// @param root  the body file, which has the key `matrices` @throws InputError `file:line: key: what was expected`
 MatrixBody read_matrix_body(const YamlValue& root);

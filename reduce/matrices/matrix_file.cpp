@@ -109,6 +109,27 @@ SparseColumns read_sparse(const Hdf5File& file, const std::string& group, Eigen:
   return result;
 }
 
+/// Cells by gmsh's element type. @param count  of the places that they connect
+std::map<int, Eigen::MatrixXi> read_cells(const Hdf5File& file, const std::string& group, std::size_t count) {
+  std::map<int, Eigen::MatrixXi> result;
+  if (!file.has(group)) return result;
+  for (const std::string& type : file.names_in(group)) {
+    const std::string dataset = group + "/" + type;
+    const Shape shape = file.shape(dataset);
+    const Integers nodes = file.read_integers(dataset);
+    if (shape.size() != 2 || !std::all_of(nodes.begin(), nodes.end(), [&](std::int64_t node) {
+          return node >= 0 && node < static_cast<std::int64_t>(count);
+        }))
+      refuse_matrices(file, dataset + ": names places that the file does not have");
+    Eigen::MatrixXi cells(static_cast<Eigen::Index>(shape[1]), static_cast<Eigen::Index>(shape[0]));
+    std::transform(nodes.begin(), nodes.end(), cells.data(), [](std::int64_t node) { return static_cast<int>(node); });
+    int number = 0;
+    std::from_chars(type.data(), type.data() + type.size(), number);
+    result[number] = std::move(cells);
+  }
+  return result;
+}
+
 NodalShapes read_shapes(const Hdf5File& file, std::size_t n) {
   NodalShapes shapes;
   shapes.numbers = file.read_integers("/shapes/numbers");
@@ -121,22 +142,22 @@ NodalShapes read_shapes(const Hdf5File& file, std::size_t n) {
     shapes.masses = file.read_vector("/shapes/masses");
   }
   if (file.has("/shapes/inertias")) shapes.inertias = tensors(file, "/shapes/inertias", p);
-  if (!file.has("/shapes/cells")) return shapes;
-  for (const std::string& type : file.names_in("/shapes/cells")) {
-    const std::string dataset = "/shapes/cells/" + type;
-    const Shape shape = file.shape(dataset);
-    const Integers nodes = file.read_integers(dataset);
-    if (shape.size() != 2 || !std::all_of(nodes.begin(), nodes.end(), [&](std::int64_t node) {
-          return node >= 0 && node < static_cast<std::int64_t>(p);
-        }))
-      refuse_matrices(file, dataset + ": names points that are not in /shapes/points");
-    Eigen::MatrixXi cells(static_cast<Eigen::Index>(shape[1]), static_cast<Eigen::Index>(shape[0]));
-    std::transform(nodes.begin(), nodes.end(), cells.data(), [](std::int64_t node) { return static_cast<int>(node); });
-    int number = 0;
-    std::from_chars(type.data(), type.data() + type.size(), number);
-    shapes.cells[number] = cells;
+  shapes.cells = read_cells(file, "/shapes/cells", p);
+  if (!file.has("/shapes/stress")) return shapes;
+  const Integers stressed = file.read_integers("/shapes/stress_points");
+  shapes.stress = matrix_of(file, "/shapes/stress", 6 * stressed.size(), n);
+  for (const std::int64_t point : stressed) {
+    if (point < 0 || point >= static_cast<std::int64_t>(p))
+      refuse_matrices(file, fmt::format("/shapes/stress_points: {} is no point", point));
+    shapes.stress_points.push_back(static_cast<int>(point));
   }
   return shapes;
+}
+
+/// Finite numbers in quantities that fit the unknowns.
+void read_set_quantities(const Hdf5File& file, MatrixSet& set) {
+  set.quantities = read_quantities(file);
+  if (const std::string fault = fault_of(set.quantities, set.size()); !fault.empty()) refuse_matrices(file, fault);
 }
 
 void read_stated_mass(const Hdf5File& file, MatrixSet& set) {
@@ -185,6 +206,8 @@ MatrixSet read_matrix_set(const std::string& path) {
   if (file.has("/geometric_stiffness")) set.geometric_stiffness = read_sparse(file, "/geometric_stiffness", n);
   read_inertia_components(file, set);
   read_stated_mass(file, set);
+  set.cells = read_cells(file, "/nodes/cells", set.numbers.size());
+  read_set_quantities(file, set);
   if (file.has("/shapes")) set.shapes = read_shapes(file, static_cast<std::size_t>(n));
   if (file.has("/interfaces")) {
     const std::vector<std::string> names = file.read_names("/interfaces/names");

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,6 +37,13 @@ struct NodePoint {
   std::string subject;                   ///< "points.tip"
 };
 
+/// Names of the rows of a recovered quantity: of all rows in order, or of some by their number from 1.
+struct QuantityRows {
+  std::vector<std::string> all;
+  std::vector<std::pair<std::string, std::int64_t>> chosen;
+  std::string subject;  ///< "matrices.quantities.gauges.rows"
+};
+
 struct MatrixOptions {
   std::string name;  ///< name of the body; empty: that of the file
   std::string input_text;
@@ -44,6 +53,8 @@ struct MatrixOptions {
   std::vector<double> damping_ratios;  ///< as in ReductionOptions; without both: the file's damping, if it has one
   std::optional<std::array<double, 2>> rayleigh;
   std::vector<NodePoint> points;
+  std::map<std::string, QuantityRows> quantity_rows;  ///< by quantity; those that are missing keep the file's names
+  bool inertia_relief = false;  ///< residual vectors for the accelerations of the body itself (inertia_loads.hpp)
   /// Angular velocity about one axis of the body to which the file's geometric stiffness belongs [rad/s].
   std::optional<Eigen::Vector3d> spin;
 };

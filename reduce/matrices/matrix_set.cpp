@@ -53,7 +53,9 @@ Eigen::Index remove_empty_unknowns(MatrixSet& set) {
     if (matrix->size() > 0) *matrix = submatrix(*matrix, kept, kept);
   for (Eigen::MatrixXd& matrix : set.inertia_components)
     if (matrix.size() > 0) matrix = Eigen::MatrixXd(matrix(kept, kept));
+  for (auto& [name, quantity] : set.quantities) quantity.matrix = Eigen::MatrixXd(quantity.matrix(Eigen::all, kept));
   if (set.shapes) {
+    if (set.shapes->stress.size() > 0) set.shapes->stress = Eigen::MatrixXd(set.shapes->stress(Eigen::all, kept));
     set.shapes->displacement = Eigen::MatrixXd(set.shapes->displacement(Eigen::all, kept));
     if (set.shapes->rotation.size() > 0) set.shapes->rotation = Eigen::MatrixXd(set.shapes->rotation(Eigen::all, kept));
   }

@@ -11,6 +11,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "reduce/superelement/recovered_quantity.hpp"
+
 namespace bielle::reduce {
 
 using SparseColumns = Eigen::SparseMatrix<double>;
@@ -34,6 +36,8 @@ struct NodalShapes {
   Eigen::VectorXd masses;                 ///< (p) point masses whose sum is the mass of the body [kg]; empty: not known
   std::vector<Eigen::Matrix3d> inertias;  ///< (p) about the points, body axes [kg m^2]; empty: none
   std::map<int, Eigen::MatrixXi> cells;   ///< by gmsh element type: nodes per cell x cells, indices of points
+  Eigen::MatrixXd stress;                 ///< (6s,n): xx yy zz yz xz xy at some points, body axes; empty: not known
+  std::vector<int> stress_points;         ///< (s) indices of these points
 };
 
 /// Mass properties that a file states besides its matrices.
@@ -58,6 +62,8 @@ struct MatrixSet {
   std::array<Eigen::MatrixXd, 6> inertia_components;  ///< S_11 S_22 S_33 S_23 S_13 S_12; empty if the file has none
   std::optional<StatedMass> stated;
   std::optional<NodalShapes> shapes;
+  std::map<int, Eigen::MatrixXi> cells;  ///< between nodes, for drawings: as NodalShapes::cells, indices of nodes
+  RecoveredQuantities quantities;        ///< further numbers in terms of the unknowns
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(unknowns.size()); }
   Eigen::Index scalars() const;

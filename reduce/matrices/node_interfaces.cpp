@@ -11,6 +11,7 @@
 #include "reduce/common/counted.hpp"
 #include "reduce/common/direction_words.hpp"
 #include "reduce/common/error.hpp"
+#include "reduce/fe/relative_weights.hpp"
 #include "reduce/fe/weighted_nodes.hpp"
 #include "reduce/reduction/ties.hpp"
 
@@ -178,12 +179,13 @@ class NodeTieMaker {
     std::vector<std::size_t> order(nodes.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
+    const std::vector<double> weights = relative_weights(request.weights);
     Mesh mesh;
     mesh.points = set_.positions;
     Group& group = mesh.groups["nodes"];
     for (const std::size_t k : order) {
       group.nodes.push_back(nodes[k]);
-      group.weights.push_back(request.weights.empty() ? 1.0 : request.weights[k]);
+      group.weights.push_back(weights.empty() ? 1.0 : weights[k]);
     }
     return integrate_tied(mesh, "nodes");
   }

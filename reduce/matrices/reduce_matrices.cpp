@@ -13,11 +13,13 @@
 #include "reduce/dense/symmetric_factors.hpp"
 #include "reduce/fe/elasticity.hpp"
 #include "reduce/matrices/held_matrices.hpp"
+#include "reduce/matrices/inertia_loads.hpp"
 #include "reduce/matrices/matrix_basis.hpp"
 #include "reduce/matrices/node_interfaces.hpp"
 #include "reduce/matrices/rigid_boundary.hpp"
 #include "reduce/matrices/set_algebra.hpp"
 #include "reduce/matrices/set_points.hpp"
+#include "reduce/matrices/set_recovery.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
@@ -142,6 +144,22 @@ void add_spin_stiffness(const MatrixSet& set, const MatrixOptions& options, cons
   body.spin_stiffness[static_cast<std::size_t>(axis)] = (reduced + reduced.transpose()) / 2;
 }
 
+Eigen::MatrixXd relief_loads(const MatrixSet& set, const MatrixOptions& options, const NodeTies& ties,
+                             const MatrixBasis& basis) {
+  if (!options.inertia_relief) return {};
+  return inertia_loads(set, ties, basis, set.positions.rowwise().mean());
+}
+
+std::string told_relief(const MatrixSet& set, Eigen::Index residual_vectors) {
+  if (set.scalars() > 0)
+    return "inertia_relief: amplitudes of modes do not tell how centrifugal fields act on them, so that only the six "
+           "rigid accelerations are relieved, as far as the modes of the file allow";
+  if (residual_vectors == 0)
+    return "inertia_relief: no residual vectors are needed, the modes have the answer to all accelerations";
+  return fmt::format("inertia_relief: with {}, the answer to all accelerations is complete",
+                     counted(residual_vectors, "residual vector"));
+}
+
 std::vector<Check> checks_of(const Superelement& body) {
   std::vector<Check> checks;
   for (const Check& check : check_superelement(body))
@@ -156,13 +174,16 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
                              ReductionReport* report) {
   progress.start("matrices");
   prepare(set, progress);
+  name_rows(options.quantity_rows, set.quantities);
   const NodeTies ties = tie_nodes(set, options.interfaces.empty() ? default_interfaces(set) : options.interfaces);
   progress.start("factorisation");
   const HeldMatrices held(set, ties, threads);
   MatrixBasis basis = matrix_basis(set, ties, held, options, progress, threads);
   const PointMotions motions = point_motions(set);
   const std::vector<SetPoint> points = set_points(set, motions, options.points);
-  const Eigen::Index residual_vectors = add_residual_vectors(set, ties, held, points, basis);
+  const Eigen::Index residual_vectors =
+      add_residual_vectors(set, ties, held, points, relief_loads(set, options, ties, basis), basis);
+  if (options.inertia_relief) progress.note(told_relief(set, residual_vectors));
 
   progress.start("reduced matrices");
   const Eigen::MatrixXd& T = basis.shapes;
@@ -191,6 +212,7 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   const FreeModes free = free_modes(body.stiffness, body.mass, rigid);
   const BodyInertia inertia = body_inertia(set, T, body.interfaces, body.mass, properties, rigid, free.vectors);
   body.inertia_components = inertia.components;
+  body.inertia_answer = inertia_answer_of(set, ties, held, basis, body.centre);
   body.effective_mass = (body.mass.bottomLeftCorner(modes, kept) * rigid.topRows(kept)).cwiseAbs2();
   body.damping = about(
       "damping", [&] { return damping_of(set, options, T, free, body, rigid); }, Subject::hidden);
@@ -198,6 +220,10 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   progress.note(inertia.told());
   progress.start("points and recovery");
   add_recovery(motions, T, body);
+  add_set_recovery(set, T, body);
+  if (body.stress_recovery.size() == 0)
+    progress.note(
+        "no stress is recovered at nodes: the file has no matrix for it, and stiffness and mass do not tell it");
   for (const SetPoint& point : points)
     body.points[point.request.name] = {point.position, product(point.rows, T), point.request.residual};
 

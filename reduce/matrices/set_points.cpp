@@ -30,6 +30,19 @@ Eigen::MatrixXd rows_of_node(const MatrixSet& set, int node, bool rotations) {
   return result;
 }
 
+/// Cells whose nodes are all points. @param point_of  point of each node, or -1
+std::map<int, Eigen::MatrixXi> cells_of(const std::map<int, Eigen::MatrixXi>& cells, const std::vector<int>& point_of) {
+  std::map<int, Eigen::MatrixXi> result;
+  for (const auto& [type, block] : cells) {
+    const Eigen::MatrixXi points = block.unaryExpr([&](int node) { return point_of[static_cast<std::size_t>(node)]; });
+    std::vector<Eigen::Index> whole;
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+      if (points.col(k).minCoeff() >= 0) whole.push_back(k);
+    if (!whole.empty()) result[type] = points(Eigen::all, whole);
+  }
+  return result;
+}
+
 /// Unit forces and moments (n, k) of the requested directions.
 Eigen::MatrixXd loads_of(const SetPoint& point) {
   std::vector<int> wanted;
@@ -63,6 +76,7 @@ PointMotions point_motions(const MatrixSet& set) {
     for (SparseColumns::InnerIterator entry(all, k); entry; ++entry)
       if (const int point = point_of[static_cast<std::size_t>(entry.row() / 3)]; point >= 0)
         entries.emplace_back(3 * point + static_cast<int>(entry.row() % 3), static_cast<int>(k), entry.value());
+  result.cells = cells_of(set.cells, point_of);
   result.displacement.resize(3 * result.points.cols(), set.size());
   result.displacement.setFromTriplets(entries.begin(), entries.end());
   return result;
@@ -93,14 +107,19 @@ std::vector<SetPoint> set_points(const MatrixSet& set, const PointMotions& motio
 }
 
 Eigen::Index add_residual_vectors(const MatrixSet& set, const NodeTies& ties, const HeldMatrices& held,
-                                  const std::vector<SetPoint>& points, MatrixBasis& basis) {
+                                  const std::vector<SetPoint>& points, const Eigen::MatrixXd& inertia,
+                                  MatrixBasis& basis) {
   Eigen::MatrixXd loads(set.size(), 0);
-  std::vector<std::string> subjects;  // one for each load
+  std::vector<std::string> subjects;  // one for each load of a point
   for (const SetPoint& point : points) {
     const Eigen::MatrixXd more = loads_of(point);
     loads.conservativeResize(Eigen::NoChange, loads.cols() + more.cols());
     loads.rightCols(more.cols()) = more;
     subjects.insert(subjects.end(), static_cast<std::size_t>(more.cols()), point.request.subject);
+  }
+  if (inertia.cols() > 0) {
+    loads.conservativeResize(Eigen::NoChange, loads.cols() + inertia.cols());
+    loads.rightCols(inertia.cols()) = inertia;
   }
   if (loads.cols() == 0) return 0;
   const Eigen::MatrixXd inside = ties.inside.transpose() * loads;

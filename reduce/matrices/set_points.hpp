@@ -34,9 +34,11 @@ struct SetPoint {
 std::vector<SetPoint> set_points(const MatrixSet& set, const PointMotions& motions,
                                  const std::vector<NodePoint>& requests);
 
-/// Appends residual vectors for the loads that points request. @returns their number
-/// @throws InputError about a request of whose loads nothing is left
+/// Appends residual vectors for the loads that points request, and for those of inertia. @returns their number
+/// @param inertia  (n,k) loads of the body's own inertia, of which nothing may be left
+/// @throws InputError about a request of a point of whose loads nothing is left
 Eigen::Index add_residual_vectors(const MatrixSet& set, const NodeTies& ties, const HeldMatrices& held,
-                                  const std::vector<SetPoint>& points, MatrixBasis& basis);
+                                  const std::vector<SetPoint>& points, const Eigen::MatrixXd& inertia,
+                                  MatrixBasis& basis);
 
 }  // namespace bielle::reduce

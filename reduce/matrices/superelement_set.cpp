@@ -23,12 +23,15 @@ MatrixSet matrix_set_of(const Superelement& body) {
   set.damping = body.damping.sparseView();
   set.inertia_components = body.inertia_components;
   set.stated = StatedMass{body.total_mass, body.centre, body.inertia};
+  set.quantities = body.quantities;
   if (body.displacement_recovery.size() == 0) return set;
   NodalShapes shapes;
   shapes.points = body.mesh.points;
   for (Eigen::Index p = 0; p < shapes.points.cols(); ++p) shapes.numbers.push_back(p);
   shapes.displacement = body.displacement_recovery;
   shapes.cells = body.mesh.cells;
+  shapes.stress = body.stress_recovery;
+  shapes.stress_points = body.stress_nodes;
   set.shapes = std::move(shapes);
   return set;
 }

@@ -75,6 +75,7 @@ Verification verify(MatrixSet set, int threads) {
     result.subjects.push_back(verify_units(study));  // positions of a wrong unit have a finding of their own
   result.subjects.push_back(verify_modes(study));
   result.subjects.push_back(verify_parts(study));
+  result.subjects.push_back(verify_recovery(study));
   return result;
 }
 

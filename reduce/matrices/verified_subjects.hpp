@@ -35,4 +35,7 @@ VerifiedSubject verify_modes(const MatrixStudy& study);
 /// Damping matrix and inertia components.
 VerifiedSubject verify_parts(const MatrixStudy& study);
 
+/// Stress and forces of recovered rows under rigid motions.
+VerifiedSubject verify_recovery(const MatrixStudy& study);
+
 }  // namespace bielle::reduce

@@ -86,7 +86,7 @@ void verify_frequencies(const MatrixStudy& study, VerifiedSubject& subject) {
   }
   const Eigen::VectorXd& values = study.modes->eigenvalues;
   if (values.size() < 7) {
-    subject.lines.push_back("the body has no elastic modes");
+    subject.lines.emplace_back("the body has no elastic modes");
     return;
   }
   std::string list;

@@ -60,9 +60,9 @@ VerifiedSubject verify_units(const MatrixStudy& study) {
   const bool certain = found > 0 && likely != unit_systems.begin();
   add_finding(
       subject, {"units", certain ? found : 0.0, 0, "the numbers are plausible in metres, kilograms and seconds"},
-      fmt::format("the file declares no units, and in SI units the body would be {:.3g} m long with a density of "
-                  "{:.3g} kg/m^3 and a first elastic frequency of {:.3g} Hz; its units are probably those of "
-                  "--units {}",
+      fmt::format("the file declares no units, and in SI units the body would be {0:.3g} m long with a density of "
+                  "{1:.3g} kg/m^3 and a first elastic frequency of {2:.3g} Hz; its units are probably {3}: "
+                  "`--units {3}`, or `units: {3}` in a body file, converts them",
                   sizes.length, sizes.density, sizes.frequency, likely->name));
   if (!certain)
     subject.lines.emplace_back("the file declares no units: its numbers are taken as metres, kilograms and seconds");

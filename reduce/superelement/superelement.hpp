@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "reduce/superelement/adequacy.hpp"
+#include "reduce/superelement/recovered_quantity.hpp"
 
 namespace bielle {
 
@@ -116,6 +117,7 @@ struct Superelement {
   Eigen::MatrixXd stress_recovery;  ///< (6 s,n): xx yy zz yz xz xy [Pa] at the nodes `stress_nodes`; may be empty
   std::vector<int> stress_nodes;    ///< (s) node numbers of the rows of stress_recovery
   StressOrigin stress_origin;
+  RecoveredQuantities quantities;        ///< further numbers that another program's file recovers, by name
   std::map<std::string, double> checks;  ///< numbers of every check that the reduction made, by name
   std::optional<Adequacy> adequacy;      ///< its accuracy; absent in files of other programs
 

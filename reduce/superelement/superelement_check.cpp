@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -166,6 +167,8 @@ std::string fault_of(const Superelement& superelement) {
     check_mass_properties(superelement);
     check_mesh(superelement);
     check_stress_origin(superelement);
+    if (std::string fault = fault_of(superelement.quantities, superelement.size()); !fault.empty())
+      throw Fault{std::move(fault)};
   } catch (const Fault& fault) {
     return fault.message;
   }

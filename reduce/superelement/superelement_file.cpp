@@ -186,6 +186,7 @@ void write_all(Hdf5File& file, const Superelement& body) {
   write_named_points(body.points, file);
   write_mesh(file, body.mesh);
   write_recovery(file, body);
+  write_quantities(body.quantities, file);
   for (const auto& [name, value] : body.checks) file.write("/checks/" + link_name(name), value, "SI");
   if (body.adequacy) write_adequacy(*body.adequacy, file);
   file.write_attribute("/", "checksum", sum_of(body));
@@ -417,6 +418,7 @@ Superelement read_superelement(const Hdf5File& file) {
     body.stress_nodes = reader.nodes("/recovery/stress_nodes");
     read_stress_origin(file, reader, body.stress_origin);
   }
+  body.quantities = read_quantities(file);
   for (const std::string& link : reader.members("/checks"))
     body.checks[name_of_link(link)] = file.read_number("/checks/" + link);
   body.adequacy = read_adequacy(file);

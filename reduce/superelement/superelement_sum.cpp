@@ -81,6 +81,14 @@ std::int64_t sum_of(const Superelement& body) {
   for (const Eigen::MatrixXd* matrix :
        {&body.mode_turns, &body.strains, &body.inertia_answer.whole, &body.inertia_answer.missing})
     if (matrix->size() > 0) add(sum, *matrix);
+  for (const auto& [name, quantity] : body.quantities) {
+    sum.add(name);
+    for (std::size_t row = 0; row < quantity.rows.size(); ++row) {
+      sum.add(quantity.rows[row]);
+      sum.add(quantity.units[row]);
+    }
+    add(sum, quantity.matrix);
+  }
   if (body.residual_vectors > 0) sum.add(static_cast<double>(body.residual_vectors));
   if (body.adequacy) add_adequacy(sum, *body.adequacy);
   return sum.value();

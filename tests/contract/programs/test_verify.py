@@ -90,7 +90,7 @@ class Verify(CommandTest):
             positions *= 1e3
 
         self.write_matrices("beam.h5", units=False, change=in_mm_t_s)
-        self.assertIn("its units are probably those of --units mm-t-s", self.verified(1, "beam.h5"))
+        self.assertIn("its units are probably mm-t-s: `--units mm-t-s`, or `units: mm-t-s` in a body file, converts them", self.verified(1, "beam.h5"))
         said = self.verified(0, "beam.h5", "--units", "mm-t-s")
         self.assertIn("mass 0.2 kg", said)
         self.expect_refusal(1, "--verify", "beam.h5", "--units", "mm-t-m", says=["'m' is no unit of time; did you mean 'ms'"])

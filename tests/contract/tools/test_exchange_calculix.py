@@ -1,11 +1,13 @@
 """Matrices of CalculiX: files as they are written, and of runs of the program where it is installed."""
 
+import itertools
 import os
 import shutil
 import subprocess
 import unittest
 
 import numpy as np
+import scipy.linalg
 
 from exchange_bodies import Exchange, cloud_body, rigid_of
 
@@ -32,6 +34,21 @@ PLATE = """*NODE
 *SHELL SECTION, ELSET=E, MATERIAL=M
 0.1
 """
+
+
+def tetrahedra(cubes):
+    """Deck of cubes in a row, each of six tetrahedra with ten nodes around a diagonal."""
+    numbers, elements = {}, []
+    for x in range(cubes):
+        for path in itertools.permutations(np.eye(3, dtype=int)):
+            corners = np.cumsum([np.array([x, 0, 0]), *path], axis=0)
+            if np.linalg.det(corners[1:] - corners[0]) < 0:
+                corners = corners[[0, 2, 1, 3]]
+            middles = [(corners[a] + corners[b]) / 2 for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))]
+            elements.append([numbers.setdefault(tuple(map(float, place)), len(numbers) + 1) for place in (*corners, *middles)])
+    nodes = "".join(f"{number}, {x}, {y}, {z}\n" for (x, y, z), number in numbers.items())
+    cells = "".join(f"{k}, {', '.join(map(str, element))}\n" for k, element in enumerate(elements, 1))
+    return f"*NODE\n{nodes}*ELEMENT, TYPE=C3D10, ELSET=E\n{cells}*SOLID SECTION, ELSET=E, MATERIAL=M\n{MATERIAL}"
 
 
 class Files(Exchange):
@@ -130,6 +147,37 @@ class Runs(Exchange):
         inertia = np.array([[yy + zz, -xy, 0], [-xy, xx + zz, 0], [0, 0, xx + yy]])
         self.check_rigid(found, mass, (a / 2, b / 2, 0), inertia, 1e-6)
         self.assertEqual(set(np.round(found.positions[:, 2], 9)), {-0.05, 0, 0.05})
+
+    def own_frequencies(self, count):
+        """The frequencies [Hz] that CalculiX prints."""
+        rows = []
+        with open(self.path("job.dat"), encoding="utf-8") as file:
+            for line in file:
+                words = line.split()
+                if len(words) == 5 and words[0] == str(len(rows) + 1) and len(rows) < count:
+                    rows.append(float(words[3]))
+        self.assertEqual(len(rows), count)
+        return np.array(rows)
+
+    def test_frequencies_are_those_of_calculix(self):
+        """Eigenvalues of the matrices that are read, against those of CalculiX' own step; its prints have seven digits."""
+        solid = tetrahedra(3)
+        for told, deck in (("C3D10", solid), ("S8", PLATE + MATERIAL)):
+            with self.subTest(told):
+                self.run_job(deck + EXPANDED.replace("1\n*NODE", "12\n*NODE") + STORE)
+                found = self.read("calculix", self.path("job.sti"))
+                # Integrated at four points, the mass of these tetrahedra is singular: K + M is not.
+                K, M = found.stiffness.toarray(), found.mass.toarray()
+                values = 1 / scipy.linalg.eigh(M, K + M, eigvals_only=True)[::-1][6:12] - 1
+                np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), self.own_frequencies(12)[6:], rtol=1e-6)
+                (kind, cells), = found.cells.items()  # CalculiX expands S8 to C3D20
+                self.assertEqual((kind, cells.shape), (11, (18, 10)) if told == "C3D10" else (17, (2, 20)))
+                block = found.positions[cells]
+                first, rest = block[:, :4 if kind == 11 else 8], block[:, 4 if kind == 11 else 8:]
+                # Each further node is the middle of an edge, in gmsh's order.
+                ends = ((0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (3, 1)) if kind == 11 else (
+                    (0, 1), (0, 3), (0, 4), (1, 2), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 7), (5, 6), (6, 7))
+                np.testing.assert_allclose(rest, np.stack([(first[:, a] + first[:, b]) / 2 for a, b in ends], axis=1), atol=1e-6)
 
     def test_plate_without_its_nodes(self):
         self.run_job(PLATE + MATERIAL + STORE)

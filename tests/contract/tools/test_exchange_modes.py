@@ -3,9 +3,10 @@
 import re
 import unittest
 
+import h5py
 import numpy as np
 
-from exchange_bodies import Exchange, cloud_body, turned
+from exchange_bodies import Exchange, cloud_body, rigid_of, turned
 from bielle_tools.exchange import formats
 from bielle_tools.exchange.free_modes import free_modes, moments, rigid_moments
 from bielle_tools.exchange.inertia_moments import components_of, moments_of, moments_of_points
@@ -209,6 +210,38 @@ class Exudyn(Modes):
         for got, old in [(found.stiffness.toarray(), body.stiffness.toarray()), (found.mass.toarray(), body.mass.toarray()),
                          *zip(found.inertia_components, body.inertia_components)]:
             np.testing.assert_allclose(L.T @ got @ L, old, rtol=0, atol=1e-10 * np.abs(old).max())
+
+    def test_hdf5_with_stress(self):
+        """The same body in HDF5, as SaveDictToHDF5 writes it, with stress modes, (p,6m)."""
+        body = cloud_body(nodes=2, scalars=6, damping=False)
+        random = np.random.default_rng(6)
+        rigid = np.concatenate([rigid_of(body.positions), np.zeros((body.scalars, 6))])
+        elastic = np.eye(body.size) - rigid @ np.linalg.pinv(rigid)
+        body.shapes.stress, body.shapes.stress_points = random.normal(size=(72, body.size)) @ elastic, np.arange(12)
+        found = self.read_back("exudyn", body, self.path("a.hdf5"), interfaces=[1, 2, 3])
+        plain = self.read_back("exudyn", body, self.path("a.npz"), interfaces=[1, 2, 3])
+        self.same(found, plain, damping=False)
+        self.assertEqual((plain.shapes.stress, list(found.shapes.stress_points)), (None, list(range(9))))
+        with h5py.File(self.path("a.hdf5")) as file:
+            kinds = {name: member.attrs["datatype"] for name, member in file.items()}
+            stress, modes = file["postProcessingModes/matrix"][()], file["modeBasis"][()].reshape(12, 3, -1)
+        self.assertEqual((kinds["type"], kinds["modeBasis"], kinds["totalMass"], kinds["postProcessingModes"]), ("str", "ndarray", "float", "dict"))
+        # A mode of the file, in the unknowns that were read, has the stress of the file at the points that are left.
+        for k in range(modes.shape[2]):
+            target = np.concatenate([modes[:3, :, k].ravel(), modes[3:, :, k].ravel()])
+            at = np.zeros((9, found.size))
+            for row, (node, component) in enumerate(zip(found.unknown_nodes, found.unknown_components)):
+                if node >= 0:
+                    at[3 * node + component, row] = 1
+            y = np.linalg.lstsq(np.concatenate([at, found.shapes.displacement]), target, rcond=None)[0]
+            np.testing.assert_allclose(found.shapes.stress @ y, stress.reshape(12, -1, 6)[3:, k].ravel(), atol=1e-8 * np.abs(stress).max())
+        with h5py.File(self.path("a.hdf5"), "a") as file:
+            del file["postProcessingModes/outputVariableType"]
+            file["postProcessingModes/outputVariableType"] = 1 << 28  # strain
+        self.assertIsNone(self.read("exudyn", self.path("a.hdf5"), interfaces=[1, 2, 3]).shapes.stress)
+        with open(self.path("a.hdf5"), "r+b") as file:
+            file.truncate(3000)
+        self.refuse("exudyn", self.path("a.hdf5"), "is no readable HDF5 file", interfaces=[1, 2, 3])
 
     def test_the_definitions(self):
         """Every key by the products of Exudyn's FEM.py, with the matrix of point masses."""

@@ -6,7 +6,8 @@ import numpy as np
 import scipy.sparse
 
 from ..messages import InputError
-from .matrix_set import Shapes, sparse
+from .matrix_set import sparse
+from .recovery import with_columns
 
 
 def in_body_axes(matrices):
@@ -21,9 +22,9 @@ def in_body_axes(matrices):
         turned["inertia_components"] = np.einsum("ia,kij,jb->kab", back, matrices.inertia_components, back)
     if matrices.shapes is not None:
         shapes = matrices.shapes
-        turned["shapes"] = Shapes(shapes.numbers, shapes.points, shapes.displacement @ back,
-                                  None if shapes.rotation is None else shapes.rotation @ back, shapes.masses, shapes.inertias, shapes.cells)
-    return replace(matrices, axes=None, **turned)
+        turned["shapes"] = replace(shapes, **{name: getattr(shapes, name) @ back for name in ("displacement", "rotation", "stress")
+                                              if getattr(shapes, name) is not None})
+    return replace(matrices, axes=None, quantities=with_columns(matrices.quantities, back), **turned)
 
 
 def _turn(matrices):

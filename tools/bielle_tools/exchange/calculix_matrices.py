@@ -14,6 +14,7 @@ import scipy.sparse
 from ..messages import InputError, counted
 from ..text_lines import lines_of
 from .abaqus_matrices import read_substructure, write_substructure
+from .deck_cells import blocks_of_results
 from .entries import matrix_of
 from .job_files import stem, used_nodes
 from .matrix_set import MatrixSet, sparse
@@ -141,4 +142,4 @@ def _expanded(path, dofs, starts, size):
                          "*NODE FILE needs "
                          "OUTPUT=3D, and no node may be held in all directions")
     order = np.argsort(numbers, kind="stable")
-    return Nodes(path, np.array(numbers, np.int64)[order], np.array(positions)[order])
+    return Nodes(path, np.array(numbers, np.int64)[order], np.array(positions)[order], blocks=blocks_of_results(path))

@@ -6,15 +6,17 @@ import numpy as np
 import scipy.sparse
 
 from ..decks.nastran_cards import read_cards
-from ..messages import InputError
+from ..messages import InputError, counted
+from . import nastran_quantities
 from .dmig_cards import arrays, read_dmig
 from .dmig_writer import write  # noqa: F401  (the second half of this format)
 from .matrix_set import sparse
-from .nastran_matrices import blocks_of_rows, matrix_set, shapes_of
+from .nastran_matrices import RECTANGULAR, add_stress, blocks_of_rows, matrix_set, shapes_of
 from .nastran_roles import left_out, matrices_by_role
 from .nastran_unknowns import SCALAR, Deck
 
 
+MOST_ROWS = 1_000_000
 POINTS = ("GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S")
 
 
@@ -28,13 +30,22 @@ def read(path, options):
     if options.nodes:
         cards = read_cards(options.nodes) + [card for card in cards if card.name not in POINTS]
     deck = Deck(cards)
-    squares = {role: matrix for role, matrix in chosen.items() if role != "shapes"}
+    squares = {role: matrix for role, matrix in chosen.items() if role not in RECTANGULAR}
     unknowns = _unknowns(deck, list(squares.values()))
     places = {pair: place for place, pair in enumerate(unknowns)}
     members = {role: _square(matrix, places) for role, matrix in squares.items()}
-    notes = left_out(found, chosen) + _cut_off(path)
+    asked = nastran_quantities.wanted(found, options.quantities, path)
+    notes = left_out(found, {**chosen, **{f"quantity {name}": matrix for name, (matrix, _) in asked.items()}}) + _cut_off(path)
     if "shapes" in chosen:
-        members["shapes"], more = _shapes(deck, chosen["shapes"], places)
+        blocks, values = _rows_of_points(chosen["shapes"], places)
+        members["shapes"], more = shapes_of(deck, blocks, values)
+        notes += more
+    if "stress" in chosen:
+        notes += add_stress(members.get("shapes"), *_rows_of_points(chosen["stress"], places), chosen["stress"].name)
+    members["quantities"] = {}
+    for name, (matrix, kind) in asked.items():
+        values, labels = _rows(matrix, places)
+        members["quantities"][name], more = nastran_quantities.quantity(deck, matrix.name, kind, values, labels)
         notes += more
     result = matrix_set(deck, unknowns, members, options, path, "Nastran DMIG")
     result.notes += notes
@@ -99,8 +110,8 @@ def _refuse(matrix, entry, told):
     raise InputError(f"'{matrix.header.path}': DMIG {matrix.name}, column {column[0]} {column[1]}, row {row[0]} {row[1]}: {told}")
 
 
-def _shapes(deck, matrix, places):
-    """Shapes and notes. Columns of a rectangular matrix are counted in the order of the unknowns."""
+def _columns(matrix, places):
+    """Places of the columns of a matrix of recovery. Those of a rectangular one are counted in the order of the unknowns."""
     if matrix.rectangular:
         columns = {(number, 0): number - 1 for number in range(1, len(places) + 1)}
     else:
@@ -109,12 +120,40 @@ def _shapes(deck, matrix, places):
     if strange is not None:
         raise InputError(f"'{matrix.header.path}': DMIG {matrix.name} has the column {strange[0]} {strange[1]}, which is none of the "
                          f"{len(places)} unknowns of the stiffness")
+    if matrix.rectangular and matrix.width not in (0, len(places)):
+        raise InputError(f"'{matrix.header.path}': line {matrix.header.line}: DMIG {matrix.name} has {counted(matrix.width, 'column')} for "
+                         f"{counted(len(places), 'unknown')}")
+    return columns
+
+
+def _values(matrix, places, rows):
+    """The rows of a matrix of recovery (scipy.sparse). @param rows: their places by pair"""
+    columns = _columns(matrix, places)
+    kept = [entry for entry in matrix.entries if entry[0] in rows]
+    return scipy.sparse.coo_matrix(([value for _, _, value in kept], ([rows[row] for row, _, _ in kept], [columns[column] for _, column, _ in kept])),
+                                   shape=(len(rows), len(places)))
+
+
+def _rows_of_points(matrix, places):
+    """Rows of each grid point, and the values."""
     pairs = sorted({row for row, _, _ in matrix.entries if row[1] != SCALAR})
     rows = {pair: row for row, pair in enumerate(pairs)}
-    kept = [entry for entry in matrix.entries if entry[0] in rows]
-    values = scipy.sparse.coo_matrix(([value for _, _, value in kept], ([rows[row] for row, _, _ in kept], [columns[column] for _, column, _ in kept])),
-                                     shape=(len(pairs), len(places)))
-    return shapes_of(deck, blocks_of_rows(rows), values)
+    return blocks_of_rows(rows), _values(matrix, places, rows)
+
+
+def _rows(matrix, places):
+    """Values (k,n) and labels of the rows. Rows without components are counted; others are named by point and component, and those
+    without entries are not known."""
+    pairs = sorted({row for row, _, _ in matrix.entries})
+    if all(component == 0 for _, component in pairs):
+        if pairs and pairs[-1][0] > MOST_ROWS:
+            raise InputError(f"'{matrix.header.path}': DMIG {matrix.name} has the row {pairs[-1][0]}; rows of a quantity are counted from 1 to "
+                             f"{MOST_ROWS} at most")
+        pairs = [(number, 0) for number in range(1, pairs[-1][0] + 1)] if pairs else [(1, 0)]
+        labels = [f"row_{number}" for number, _ in pairs]
+    else:
+        labels = [f"row_{number}_{component}" for number, component in pairs]
+    return _values(matrix, places, {pair: row for row, pair in enumerate(pairs)}).toarray(), labels
 
 
 def _by_name(places):

@@ -1,11 +1,11 @@
 """Writes a MatrixSet as DMIG cards with their points, as EXTSEOUT(DMIGPCH) of Nastran does."""
 
-import numpy as np
 import scipy.sparse
 
 from ..messages import counted
 from .matrix_set import sparse
-from .nastran_deck import SYMMETRIC, Numbering, form_of, left_out_of_deck, number_of, point_cards, wide_number
+from .nastran_deck import SYMMETRIC, Numbering, form_of, left_out_of_deck, named_quantities, number_of, point_cards, shape_rows, wide_number
+from .nastran_quantities import STRESS_AT_POINTS
 
 NAMES = {"stiffness": "KAAX", "mass": "MAAX", "damping": "BAAX", "geometric_stiffness": "KDAAX"}
 SHAPES, RECTANGULAR = "MUG1", 9
@@ -25,14 +25,18 @@ def write(matrices, path, _options=None):
         if getattr(matrices, member) is not None:
             cards.square(name, sparse(getattr(matrices, member))[order][:, order], pairs)
     if shapes is not None:
-        rows, values = _shape_rows(matrices, numbering, shapes)
+        rows, values = shape_rows(matrices, numbering, shapes)
         cards.rectangular(SHAPES, rows, values[:, order])
+        if shapes.stress is not None:
+            pairs_of_stress = [(int(number), component) for number in numbering.shapes[shapes.stress_points] for component in range(1, 7)]
+            cards.rectangular(STRESS_AT_POINTS, pairs_of_stress, shapes.stress[:, order])
+    for name, (told, quantity) in named_quantities(matrices).items():
+        cards.lines += told
+        cards.rectangular(name, [(k + 1, 0) for k in range(len(quantity.rows))], quantity.matrix[:, order])
     with open(path, "w", encoding="ascii", errors="replace") as file:
         told = matrices.name.replace("\n", " ")
         file.write(f"$ {told}: {counted(matrices.size, 'unknown')}\n" + "\n".join(point_cards(matrices, numbering, shapes) + cards.lines) + "\n")
     matrices.notes += numbering.notes + left_out_of_deck(matrices)
-    if shapes is not None and shapes.cells:
-        matrices.notes.append("left out: the cells between the points of the shapes")
     matrices.notes.append(f"fields of 16 characters hold the numbers of the matrices to {cards.error:.1g} of each")
     return [path]
 
@@ -65,16 +69,3 @@ class _Cards:
                 text = wide_number(float(value))
                 self.error = max(self.error, abs(number_of(text) / value - 1))
                 self.lines.append(f"*       {rows[row][0]:15d}{rows[row][1]:16d} {text:>16s}")
-
-
-def _shape_rows(matrices, numbering, shapes):
-    """Pairs of the rows, and the shapes in axes of the points."""
-    parts = [shapes.displacement] + ([] if shapes.rotation is None else [shapes.rotation])
-    values = np.stack([part.reshape(len(shapes.points), 3, -1) for part in parts], axis=1)  # point, kind, component, unknown
-    if matrices.axes is not None:
-        rows = {number: row for row, number in enumerate(numbering.nodes)}
-        for k, number in enumerate(numbering.shapes):
-            if number in rows:
-                values[k] = matrices.axes[rows[number]].T @ values[k]
-    pairs = [(int(number), component) for number in numbering.shapes for component in range(1, 3 * len(parts) + 1)]
-    return pairs, values.reshape(len(pairs), -1)

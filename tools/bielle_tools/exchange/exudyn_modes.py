@@ -1,17 +1,20 @@
-"""Exudyn's reduced body of a floating frame (.npz): the file of ObjectFFRFreducedOrderInterface.SaveToFile.
+"""Exudyn's reduced body of a floating frame (.npz, .hdf5): the file of ObjectFFRFreducedOrderInterface.SaveToFile.
 
 modeBasis (3p,m) are the shapes at all nodes, xRef their places, and the other keys inertia integrals with the mass of
-the mesh, which is equal in all directions. Written are all free modes at the nodes and recovery points. (Exudyn,
+the mesh, which is equal in all directions. postProcessingModes may hold the stress xx yy zz yz xz xy of each node and mode, (p,6m); an
+.npz file holds it as a Python object, which is not read. Written are all free modes at the nodes and recovery points. (Exudyn,
 FEM.py, GetDictionary; A. Zwoelfer, J. Gerstmayr, "The nodal-based floating frame of reference formulation with modal
 reduction", Acta Mech. 232 (2021) 835.)
 """
 
 import os
 
+import h5py
 import numpy as np
 
 from ..mesh.cells import BY_GMSH, SOLIDS, boundary_faces, permutation, solid_faces, triangles_of
 from ..messages import InputError, note
+from ..results.results_file import reading
 from .free_modes import free_modes, moments
 from .inertia_moments import EPSILON, Moments, components_of, inertia_about, second_moment
 from .job_files import stem
@@ -23,17 +26,53 @@ SHAPES = {"modeBasis": 2, "massMatrixReduced": 2, "stiffnessMatrixReduced": 2, "
           "mPhitTPsi": 2, "mXRefTildePsi": 2, "mXRefTildePsiTilde": 2, "mPsiTildePsiTilde": 2}  # key: number of its dimensions
 
 
+STRESS = ("OutputVariableType.StressLocal", 1 << 29)  # the name and the number of Exudyn's output variable
+
+
 def recognises(path):
     """Whether the file has Exudyn's keys."""
-    return "massMatrixReduced" in names_in(path)
+    return _is_hdf5(path) or "massMatrixReduced" in names_in(path)
+
+
+def _is_hdf5(path):
+    return os.path.splitext(path)[1].lower() in (".hdf5", ".h5")
+
+
+def _load(path):
+    """Arrays by name, and the stress of each node, component and mode (p,6,m) or None. @raises InputError"""
+    if not _is_hdf5(path):
+        if "massMatrix" in names_in(path):
+            _refuse_interface(path)
+        return load(path, SHAPES), None
+    with _opened(path) as file, reading(path, "/"):
+        if "massMatrix" in file:
+            _refuse_interface(path)
+        arrays = {name: np.asarray(file[name][()]) for name in SHAPES if isinstance(file.get(name), h5py.Dataset)}
+        stress = file.get("postProcessingModes")
+        if not isinstance(stress, h5py.Group) or "matrix" not in stress:
+            return arrays, None
+        kind = stress["outputVariableType"][()] if "outputVariableType" in stress else b""
+        if (kind.decode() if isinstance(kind, bytes) else int(kind)) not in STRESS:
+            note(f"{path}: postProcessingModes are no stress: they are left out")
+            return arrays, None
+        return arrays, np.asarray(stress["matrix"][()])
+
+
+def _opened(path):
+    try:
+        return h5py.File(path, "r")
+    except (OSError, RuntimeError, ValueError) as error:
+        raise InputError(f"'{path}': is no readable HDF5 file: {str(error).splitlines()[0]}") from None
+
+
+def _refuse_interface(path):
+    raise InputError(f"'{path}': holds Exudyn's FEMinterface; reduce it, and save the "
+                     "ObjectFFRFreducedOrderInterface")
 
 
 def read(path, options):
     """@raises InputError"""
-    if "massMatrix" in names_in(path):
-        raise InputError(f"'{path}': holds Exudyn's FEMinterface; reduce it, and save the "
-                         "ObjectFFRFreducedOrderInterface")
-    arrays = load(path, SHAPES)
+    arrays, stress = _load(path)
     for name, dimensions in SHAPES.items():
         array = arrays.get(name)
         if array is None:
@@ -48,13 +87,17 @@ def read(path, options):
         if arrays[name].shape != shape or rows % 3 or not modes:
             raise InputError(f"'{path}': '{name}' has the shape {arrays[name].shape}, expected {shape} for "
                              f"{rows // 3} nodes and {modes} modes")
+    if stress is not None and (stress.dtype.kind not in "iuf" or stress.shape != (rows // 3, 6 * modes) or not np.isfinite(stress).all()):
+        raise InputError(f"'{path}': the stress of postProcessingModes has the shape {stress.shape}; {(rows // 3, 6 * modes)} finite numbers "
+                         "are expected")
     inertia = _moments(path, arrays, modes)
     shapes = np.zeros((rows // 3, 6, modes))
     shapes[:, :3] = arrays["modeBasis"].reshape(-1, 3, modes)
     coupling = np.column_stack([inertia.linear, inertia.turning()])
     mass = np.block([[rigid_mass(inertia), coupling.T], [coupling, arrays["massMatrixReduced"]]])
     body = body_of_modes(path, options, np.arange(1, rows // 3 + 1), arrays["xRef"].reshape(-1, 3), shapes,
-                         arrays["stiffnessMatrixReduced"], mass, None, components_of(inertia))
+                         arrays["stiffnessMatrixReduced"], mass, None, components_of(inertia),
+                         None if stress is None else stress.reshape(-1, modes, 6).transpose(0, 2, 1))
     body.name, body.source = options.name or stem(path), f"Exudyn, {os.path.basename(path)}"
     body.mass_properties = MassProperties(inertia.mass, inertia.centre, inertia_about(inertia.inertia, -inertia.mass, inertia.centre))
     return body
@@ -83,8 +126,40 @@ def write(matrices, path, options):
     if free.damping is not None:
         note("Exudyn's file has no damping: it is left out; the object has factors for it")
     places, shapes = free.positions[points], (free.motions[points, :3] @ free.modes).reshape(-1, free.modes.shape[1])
-    np.savez(path, **_dictionary(known, free, places, shapes, _triangles(free.body)))
+    values = _dictionary(known, free, places, shapes, _triangles(free.body))
+    values["postProcessingModes"] = _stress(free)
+    if _is_hdf5(path):
+        with h5py.File(path, "w") as file:
+            _write_dictionary(file, values)
+    else:
+        np.savez(path, **values)
     return [path]
+
+
+def _stress(free):
+    """Exudyn's postProcessingModes of the recovery points; empty if the body has no stress."""
+    inside = free.body.shapes
+    if inside is None or inside.stress is None:
+        return {}
+    modes = free.modes.shape[1]
+    stress = np.zeros((len(inside.points), modes, 6))
+    stress[inside.stress_points] = (inside.stress @ free.modes).reshape(-1, 6, modes).transpose(0, 2, 1)
+    if len(inside.stress_points) < len(inside.points):
+        note("points without stress have zeros in Exudyn's postProcessingModes")
+    return {"matrix": stress.reshape(len(inside.points), -1), "outputVariableType": STRESS[0]}
+
+
+def _write_dictionary(group, values):
+    """Writes values as Exudyn's SaveDictToHDF5 does: each has its type as an attribute."""
+    for key, value in values.items():
+        if isinstance(value, dict):
+            inner = group.create_group(key)
+            inner.attrs["datatype"] = "dict"
+            _write_dictionary(inner, value)
+            continue
+        value = float(value) if isinstance(value, np.floating) else value
+        group[key] = value
+        group[key].attrs["datatype"] = "ndarray" if isinstance(value, np.ndarray) else type(value).__name__
 
 
 def _triangles(body):
@@ -105,7 +180,7 @@ def _dictionary(known, free, places, shapes, triangles):
     squares = np.trace(outer, axis1=2, axis2=3)[..., None, None] * eye - outer
     fifth = -np.einsum("abc,bcjk->jak", EPSILON, known.square)
     return {
-        "modeBasis": shapes, "trigList": triangles, "postProcessingModes": {}, "massMatrixReduced": np.diag(np.diag(free.mass)),
+        "modeBasis": shapes, "trigList": triangles, "massMatrixReduced": np.diag(np.diag(free.mass)),
         "stiffnessMatrixReduced": np.diag(np.diag(free.stiffness)), "infoList": np.array([modes, len(places), 3, 4, 7, 7 + modes]),
         "rigidBodyNodeType": "NodeType.RotationEulerParameters", "xRef": places.ravel(), "inertiaLocal": known.inertia,
         "Mtt": known.mass * eye, "totalMass": known.mass, "chiU": known.centre, "chiUtilde": -np.einsum("abc,c->ab", EPSILON, known.centre),

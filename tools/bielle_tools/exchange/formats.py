@@ -9,6 +9,7 @@ import os
 from dataclasses import dataclass, field
 
 from ..messages import InputError, did_you_mean
+from .recovery import Request
 
 # By name: module, endings. The first format that has the ending and recognises the file reads it (`recognises(path)`, where the
 # module has it).
@@ -23,7 +24,7 @@ FORMATS = {
     "matrix_input": ("abaqus_matrix_input", [".mtx"]),
     "matrix_market": ("matrix_market", [".mtx"]),
     "npz": ("npz_matrices", [".npz"]),
-    "exudyn": ("exudyn_modes", [".npz"]),
+    "exudyn": ("exudyn_modes", [".npz", ".hdf5"]),
     "mbdyn": ("mbdyn_modes", [".fem"]),
     "simscape": ("simscape_matrices", [".mat"]),
     "fedem": ("fedem_matrices", [".fmx"]),
@@ -31,9 +32,9 @@ FORMATS = {
 
 # Members of `Options`, besides the name of the body, that the reader of a format uses; it uses none if it is not here.
 TAKES = {
-    "dmig": ("nodes", "mass", "names"),
-    "op4": ("nodes", "mass", "names"),
-    "op4-text": ("nodes", "mass", "names"),
+    "dmig": ("nodes", "mass", "names", "quantities"),
+    "op4": ("nodes", "mass", "names", "quantities"),
+    "op4-text": ("nodes", "mass", "names", "quantities"),
     "calculix": ("nodes", "mass"),
     "abaqus": ("nodes", "mass", "unknowns"),
     "matrix_input": ("nodes", "mass", "unknowns"),
@@ -45,18 +46,20 @@ TAKES = {
 
 
 # Parts of a MatrixSet for which a format has no place, besides those that its writer reports itself.
-BESIDES = ("geometric_stiffness", "inertia_components", "mass_properties", "shapes", "names")
+BESIDES = ("geometric_stiffness", "inertia_components", "mass_properties", "shapes", "stress", "quantities", "names", "cells")
 LOSES = {
-    "dmig": ("names",), "op4": ("names",), "op4-text": ("names",),
+    "dmig": ("names", "cells"), "op4": ("names", "cells"), "op4-text": ("names", "cells"),
     "calculix": BESIDES, "abaqus": BESIDES, "matrix_input": BESIDES, "matrix_market": BESIDES, "simscape": BESIDES,
     "fedem": ("damping", *BESIDES),
-    "npz": ("geometric_stiffness",), "mbdyn": ("geometric_stiffness", "names"), "exudyn": ("geometric_stiffness", "names"),
+    "npz": ("geometric_stiffness", "cells"), "mbdyn": ("geometric_stiffness", "stress", "quantities", "names", "cells"),
+    "exudyn": ("geometric_stiffness", "quantities", "names", "cells"),
 }
 TOLD = {
     "damping": "the damping", "geometric_stiffness": "the geometric stiffness",
     "inertia_components": "the inertia components, without which the inertia of large rotations is an estimate",
     "mass_properties": "the mass properties, which follow from the mass matrix", "shapes": "the displacements inside the body",
-    "names": "the names of the interfaces",
+    "stress": "the stress inside the body", "quantities": "the recovered quantities",
+    "names": "the names of the interfaces", "cells": "the cells between the points",
 }
 
 
@@ -65,6 +68,12 @@ def losses(name, matrices):
     def is_there(part):
         if part == "names":
             return any(given != f"node_{matrices.numbers[row]}" for given, row in matrices.interfaces.items())
+        if part == "stress":
+            return matrices.shapes is not None and matrices.shapes.stress is not None
+        if part == "quantities":
+            return bool(matrices.quantities)
+        if part == "cells":
+            return bool(matrices.cells or matrices.shapes is not None and matrices.shapes.cells)
         member = getattr(matrices, part)
         return member is not None and getattr(member, "nnz", 1) > 0
 
@@ -80,6 +89,7 @@ class Options:
     mass: str = ""                         # another file with the mass matrix
     names: dict[str, str] = field(default_factory=dict)  # names of matrices in the file: {"stiffness": "KAAX", "mass": "MAAX"}
     name: str = ""                         # name of the body
+    quantities: dict[str, Request] = field(default_factory=dict)  # recovered quantities by name
     unknowns: str = ""                     # a table of the order of the unknowns (node, component)
     interfaces: list[int] = field(default_factory=list)  # numbers of the nodes whose unknowns replace amplitudes of modes
 

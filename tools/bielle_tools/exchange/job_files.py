@@ -6,6 +6,7 @@ import numpy as np
 
 from ..messages import InputError
 from ..text_lines import lines_of
+from .deck_cells import cells_between
 from .matrix_set import COMPONENTS
 
 
@@ -15,10 +16,12 @@ def first_line(path, comment=None):
 
 
 def used_nodes(nodes, place):
-    """Numbers and positions of the nodes that have unknowns, and the row of the node of each unknown, -1 for scalars."""
+    """Numbers and positions of the nodes that have unknowns, the row of the node of each unknown, -1 for scalars, and the cells between
+    them."""
     used = np.unique(place[place >= 0])
     return {"numbers": nodes.numbers[used], "positions": nodes.positions[used],
-            "unknown_nodes": np.where(place < 0, -1, np.searchsorted(used, place))}
+            "unknown_nodes": np.where(place < 0, -1, np.searchsorted(used, place)),
+            "cells": cells_between(nodes.blocks, nodes.numbers[used])}
 
 
 def stem(path):

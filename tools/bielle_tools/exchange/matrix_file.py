@@ -10,7 +10,9 @@ import scipy.sparse
 
 from ..results.results_file import open_hdf5, reading
 from .matrix_set import MassProperties, MatrixSet, Shapes
+from .recovery import Quantity
 
+PARTS_OF_SHAPES = ("numbers", "points", "displacement", "rotation", "masses", "inertias", "stress", "stress_points")
 FORMAT, VERSION = "bielle matrices", 1
 MATRICES = {"stiffness": "stiffness", "mass": "mass", "damping": "damping", "geometric_stiffness": "geometric_stiffness"}
 
@@ -40,6 +42,10 @@ def write(matrices, path, _options=None):
                 file[f"mass_properties/{name}"] = getattr(matrices.mass_properties, name)
         if matrices.shapes is not None:
             _write_shapes(file, matrices.shapes)
+        _write_cells(file, "nodes/cells", matrices.cells)
+        for name, quantity in matrices.quantities.items():
+            file[f"quantities/{name}/rows"], file[f"quantities/{name}/units"] = list(quantity.rows), list(quantity.units)
+            file[f"quantities/{name}/matrix"] = quantity.matrix
     return [path]
 
 
@@ -66,7 +72,9 @@ def read(path, _options=None):
             inertia_components=array("inertia_components"),
             mass_properties=MassProperties(*(array(f"mass_properties/{name}") for name in ("mass", "centre", "inertia")))
             if "mass_properties" in file else None,
-            shapes=_read_shapes(file) if "shapes" in file else None,
+            shapes=_read_shapes(file) if "shapes" in file else None, cells=_read_cells(file, "nodes/cells"),
+            quantities={name: Quantity(list(group["rows"].asstr()[()]), list(group["units"].asstr()[()]), group["matrix"][()])
+                        for name, group in file.get("quantities", {}).items()},
             length_unit=file.attrs.get("length_unit"), mass_unit=file.attrs.get("mass_unit"),
             **{attribute: _read_sparse(file, group) for group, attribute in MATRICES.items()})
 
@@ -88,15 +96,23 @@ def _read_sparse(file, name):
 
 
 def _write_shapes(file, shapes):
-    for name in ("numbers", "points", "displacement", "rotation", "masses", "inertias"):
+    for name in PARTS_OF_SHAPES:
         if getattr(shapes, name) is not None:
             file[f"shapes/{name}"] = getattr(shapes, name)
-    for kind, cells in shapes.cells.items():
-        file[f"shapes/cells/{kind}"] = np.asarray(cells, np.int64)
+    _write_cells(file, "shapes/cells", shapes.cells)
 
 
 def _read_shapes(file):
     group = file["shapes"]
     found = {name: group[name][()] if name in group else None
-             for name in ("numbers", "points", "displacement", "rotation", "masses", "inertias")}
-    return Shapes(**found, cells={int(kind): cells[()] for kind, cells in group.get("cells", {}).items()})
+             for name in PARTS_OF_SHAPES}
+    return Shapes(**found, cells=_read_cells(file, "shapes/cells"))
+
+
+def _write_cells(file, path, cells):
+    for kind, block in cells.items():
+        file[f"{path}/{kind}"] = np.asarray(block, np.int64)
+
+
+def _read_cells(file, path):
+    return {int(kind): block[()] for kind, block in file.get(path, {}).items()}

@@ -7,6 +7,7 @@ import numpy as np
 import scipy.sparse
 
 from ..messages import InputError, counted
+from . import recovery
 
 COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
 
@@ -22,6 +23,8 @@ class Shapes:
     masses: np.ndarray | None = None     # (p) point masses, whose sum is the body's mass
     inertias: np.ndarray | None = None   # (p,3,3) about each point, body axes
     cells: dict[int, np.ndarray] = field(default_factory=dict)  # by gmsh's element type: (cells, nodes), rows of `points`
+    stress: np.ndarray | None = None     # (6s,n): xx yy zz yz xz xy at some of the points, body axes
+    stress_points: np.ndarray | None = None  # (s) rows of these in `points`
 
 
 @dataclass
@@ -56,6 +59,8 @@ class MatrixSet:
     inertia_components: np.ndarray | None = None  # (6,n,n) S_11 S_22 S_33 S_23 S_13 S_12, if the file has them
     mass_properties: MassProperties | None = None
     shapes: Shapes | None = None
+    cells: dict[int, np.ndarray] = field(default_factory=dict)  # between nodes, for drawings: as in Shapes, rows of `numbers`
+    quantities: dict[str, recovery.Quantity] = field(default_factory=dict)  # further recovered numbers, by name
     length_unit: str | None = None      # as `length_unit` of a body file, if the file declares one
     mass_unit: str | None = None        # as `mass_unit` of a body file
     notes: list[str] = field(default_factory=list)  # whatever was left out
@@ -84,10 +89,21 @@ class MatrixSet:
                 raise InputError(f"the {name} has {matrix.shape[0]} x {matrix.shape[1]} entries for {counted(n, 'unknown')}")
             if not np.isfinite(matrix.data).all():
                 raise InputError(f"the {name} holds numbers that are not finite")
+        for name, quantity in self.quantities.items():
+            recovery.check(name, quantity, n)
+        if self.shapes is not None and self.shapes.stress is not None:
+            self._check_stress()
         places = list(zip(self.unknown_nodes, self.unknown_components))
         if len(set(places)) < n:
             twice = next(place for place in places if places.count(place) > 1)
             raise InputError(f"the unknown {self.name_of(*twice)} stands twice")
+
+    def _check_stress(self):
+        points = np.asarray(self.shapes.stress_points)
+        if self.shapes.stress.shape != (6 * len(points), self.size) or not np.isfinite(self.shapes.stress).all():
+            raise InputError("holds a stress that does not fit its points and unknowns, or is no numbers")
+        if len(set(points.tolist())) < len(points) or len(points) and not 0 <= points.min() <= points.max() < len(self.shapes.points):
+            raise InputError("holds the stress of points that it does not have, or twice that of one")
 
     def _check_axes(self):
         if self.axes.shape != (len(self.numbers), 3, 3) or not np.isfinite(self.axes).all():

@@ -82,9 +82,9 @@ def rigid_mass(moments):
     return np.block([[moments.mass * np.eye(3), coupling], [coupling.T, moments.inertia]])
 
 
-def body_of_modes(path, options, numbers, positions, shapes, stiffness, mass, damping=None, components=None):
+def body_of_modes(path, options, numbers, positions, shapes, stiffness, mass, damping=None, components=None, stress=None):
     """A MatrixSet without its name. @param shapes: (p,6,m) motions of the nodes; stiffness, damping: (m,m); mass: (6+m,6+m) with rigid
-    motions about the origin; components: (6,6+m,6+m) S_kl, or None. @raises InputError"""
+    motions about the origin; components: (6,6+m,6+m) S_kl, or None; stress: (p,6,m) of the nodes, or None. @raises InputError"""
     size = len(mass)
     for what, matrix in (("the mass", mass), ("the stiffness", stiffness)):
         if not np.isfinite(matrix).all():
@@ -109,4 +109,11 @@ def body_of_modes(path, options, numbers, positions, shapes, stiffness, mass, da
         damping=None if damping is None else elastic(damping),
         inertia_components=None if components is None else np.array([unknowns.inverse.T @ each @ unknowns.inverse for each in components]),
         shapes=Shapes(numbers[rest], positions[rest], inner[:, :3].reshape(-1, size),
-                      inner[:, 3:].reshape(-1, size) if turned else None) if len(rest) else None)
+                      inner[:, 3:].reshape(-1, size) if turned else None, **_stress_of(stress, rest, unknowns)) if len(rest) else None)
+
+
+def _stress_of(stress, rest, unknowns):
+    """Stress at the points as a function of the unknowns, as keywords of Shapes; rigid motions cause none."""
+    if stress is None:
+        return {}
+    return {"stress": (stress[rest] @ unknowns.inverse[6:]).reshape(-1, unknowns.inverse.shape[1]), "stress_points": np.arange(len(rest))}

@@ -112,6 +112,25 @@ def set_cards(pairs, held):
     return lines + narrow("QSET1", [number for number, component in pairs if component == SCALAR], "0")
 
 
+def shape_rows(matrices, numbering, shapes):
+    """Pairs of the rows, and the shapes in axes of the points."""
+    parts = [shapes.displacement] + ([] if shapes.rotation is None else [shapes.rotation])
+    values = np.stack([part.reshape(len(shapes.points), 3, -1) for part in parts], axis=1)  # point, kind, component, unknown
+    if matrices.axes is not None:
+        rows = {number: row for row, number in enumerate(numbering.nodes)}
+        for k, number in enumerate(numbering.shapes):
+            if number in rows:
+                values[k] = matrices.axes[rows[number]].T @ values[k]
+    pairs = [(int(number), component) for number in numbering.shapes for component in range(1, 3 * len(parts) + 1)]
+    return pairs, values.reshape(len(pairs), -1)
+
+
+def table_cards(name, groups):
+    """DTI of the rows of a matrix. @param groups: type, number, count of rows and first row from 1 of each"""
+    fields = ["TYPE", "ID", "COMP", "ROW"] + [str(number) for group in groups for number in group] + ["ENDREC"]
+    return [f"DTI     {name:8s}{2:<8d}"] + [f"{'':8s}" + "".join(f"{field:8s}" for field in fields[k:k + 8]).rstrip() for k in range(0, len(fields), 8)]
+
+
 def wide(name, *fields):
     """A card of fields of 16 characters: numbers of points, and reals."""
     texts = [wide_number(value) if isinstance(value, float) else f"{value} " for value in fields]
@@ -133,6 +152,17 @@ def form_of(matrix):
     matrix = scipy.sparse.csr_matrix(matrix)
     largest = abs(matrix).max() if matrix.nnz else 0.0
     return SYMMETRIC if not matrix.nnz or abs(matrix - matrix.T).max() <= ROUNDING * largest else SQUARE
+
+
+def named_quantities(matrices):
+    """Recovered quantities by the names of their matrices: comments with the names of their rows, and the quantity. Notes on them are added."""
+    named = {}
+    for k, (name, quantity) in enumerate(matrices.quantities.items(), 1):
+        matrix = f"OTM{k}"
+        told = [f"$ {matrix}: {name}"] + [f"$ row {row + 1}: {label} [{unit}]" for row, (label, unit) in enumerate(zip(quantity.rows, quantity.units))]
+        named[matrix] = ([line.encode("ascii", "replace").decode() for line in told], quantity)
+        matrices.notes.append(f"the quantity '{name}' is the matrix {matrix}, whose rows comments name")
+    return named
 
 
 def left_out_of_deck(matrices):

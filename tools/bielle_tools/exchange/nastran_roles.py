@@ -8,6 +8,7 @@ ROLES = {
     "damping": ("BAAX", "BAA", "BXX", "BXX1", "BGG", "B2GG", "B2PP"),
     "geometric_stiffness": ("KGGD", "KDGG", "KDAAX", "KDAA"),
     "shapes": ("MUG1",),
+    "stress": ("MGS1",),
 }
 STRUCTURAL = ("K4AAX", "K4AA", "K4XX", "K4XX1", "K4GG")  # structural damping
 NEEDED = ("stiffness", "mass")

@@ -8,7 +8,7 @@ stand in another order.
 
 import csv
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -31,27 +31,28 @@ class Nodes:
     numbers: np.ndarray    # (N)
     positions: np.ndarray  # (N,3)
     scalars: frozenset = frozenset()  # numbers of nodes without a place
+    blocks: list = field(default_factory=list)  # (meshio type, (n,k) numbers of nodes in VTK's order) of the cells between them
 
 
 def read_nodes(path):
     """Nodes of a table or deck. @raises InputError"""
-    scalars = frozenset()
+    scalars, blocks = frozenset(), []
     if os.path.splitext(path)[1].lower() == ".csv":
         rows = _table(path, NODE_COLUMNS)
         numbers = [_label(path, line, words[0]) for line, words in rows]
         positions = [[_number(path, line, word) for word in words[1:]] for line, words in rows]
     else:
-        numbers, positions, scalars = _nodes_of_deck(path)
+        numbers, positions, scalars, blocks = _nodes_of_deck(path)
     if len(set(numbers)) < len(numbers):
         twice = next(each for each in numbers if numbers.count(each) > 1)
         raise InputError(f"'{path}': node {twice} stands twice")
     if not numbers:
         raise InputError(f"'{path}': holds no nodes")
-    return Nodes(path, np.array(numbers, np.int64), np.array(positions, float).reshape(-1, 3), scalars)
+    return Nodes(path, np.array(numbers, np.int64), np.array(positions, float).reshape(-1, 3), scalars, blocks)
 
 
 def _nodes_of_deck(path):
-    """Numbers, positions and the set SCALARS. @raises InputError for decks whose unknowns or numbers are not those of the matrices"""
+    """Numbers, positions, the set SCALARS and blocks of cells. @raises InputError for decks whose unknowns or numbers are not those of the matrices"""
     deck = read_deck(path)
     if deck.constraints.transforms:
         raise InputError(f"{deck.constraints.transforms[0].where}: *TRANSFORM turns the unknowns of nodes: matrices "
@@ -62,7 +63,7 @@ def _nodes_of_deck(path):
         raise InputError(f"'{path}': several instances have nodes, whose numbers are not those of the matrices: give "
                          "a table of nodes "
                          "(node,x,y,z)")
-    return numbers, deck.points, frozenset(deck.labels_of("NSET", "SCALARS") if "SCALARS" in deck.sets["NSET"] else ())
+    return numbers, deck.points, frozenset(deck.labels_of("NSET", "SCALARS") if "SCALARS" in deck.sets["NSET"] else ()), [(kind, nodes) for kind, _, nodes in deck.blocks]
 
 
 def read_unknowns(path, numbers):

@@ -13,6 +13,8 @@
 | inertia_components | 6, n, n | S_11 S_22 S_33 S_23 S_13 S_12 of the superelement file; default: found or estimated |
 | points, displacement | p, 3; 3p, n | points inside, and x y z of each as functions of the unknowns; may be absent |
 | point_numbers, point_masses | p | their numbers (default 1, 2, ..), and masses that sum up to the body's |
+| stress, stress_points | 6s, n; s | xx yy zz yz xz xy, body axes, at points, and their numbers; may be absent |
+| quantity.NAME.matrix, .rows, .units | k, n; k; k | a recovered quantity, names of its rows (default: row_1 ..) and their units (Pa, N, N m, m, rad, -) |
 | length_unit, mass_unit | | texts; default: as the command says |
 
 Without unknown_nodes and unknown_components, the rows are x y z (rx ry rz if they are enough) of all nodes in order,
@@ -20,6 +22,7 @@ then scalar coordinates.
 """
 
 import os
+import re
 import zipfile
 import zlib
 
@@ -27,6 +30,7 @@ import numpy as np
 import scipy.sparse
 
 from ..messages import InputError, counted, did_you_mean
+from . import recovery
 from .job_files import stem
 from .matrix_set import MassProperties, MatrixSet, Shapes, sparse
 
@@ -34,7 +38,8 @@ MATRICES = {"K": "stiffness", "M": "mass", "C": "damping"}
 PARTS = ("data", "indices", "indptr")
 KEYS = [*MATRICES, *(f"{name}.{part}" for name in MATRICES for part in PARTS), "positions", "nodes", "axes", "unknown_nodes",
         "unknown_components", "interface_names", "interface_nodes", "mass", "centre", "inertia", "inertia_components",
-        "points", "displacement", "point_numbers", "point_masses", "length_unit", "mass_unit", "name"]
+        "points", "displacement", "point_numbers", "point_masses", "stress", "stress_points", "length_unit", "mass_unit", "name"]
+QUANTITY = re.compile(r"quantity\.(\w+)\.(matrix|rows|units)").fullmatch
 FAULTS = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error, KeyError, TypeError, NotImplementedError,
           RuntimeError, MemoryError, SyntaxError, OverflowError, IndexError, AttributeError)
 
@@ -75,7 +80,7 @@ def matrices_of(path, arrays, name, source):
     """A MatrixSet of arrays with the keys above. @param path: for messages; name: of the body; empty: as the arrays or the file say
     @raises InputError"""
     for key in arrays:
-        if key not in KEYS:
+        if key not in KEYS and not QUANTITY(key):
             raise InputError(f"'{path}': there is no key '{key}'{did_you_mean(key, KEYS)}")
     arrays = {key: np.asarray(array) for key, array in arrays.items()}
     matrices = {attribute: _matrix(path, arrays, key) for key, attribute in MATRICES.items()}
@@ -93,7 +98,7 @@ def matrices_of(path, arrays, name, source):
     axes = _numbers(path, arrays, "axes", (count, 3, 3)) if "axes" in arrays else None
     return MatrixSet(name=name or _text(arrays, "name") or stem(path), source=source, numbers=numbers, positions=positions,
                      axes=axes, unknown_nodes=nodes, unknown_components=components, **matrices,
-                     interfaces=interfaces, **_inside(path, arrays, size),
+                     interfaces=interfaces, **_inside(path, arrays, size), quantities=_quantities(path, arrays, size),
                      length_unit=_text(arrays, "length_unit"), mass_unit=_text(arrays, "mass_unit"))
 
 
@@ -127,7 +132,40 @@ def _inside(path, arrays, size):
         count = len(points)
         numbers = _whole_numbers(path, arrays, "point_numbers", (count,), np.arange(1, count + 1))
         found["shapes"] = Shapes(numbers, points, _numbers(path, arrays, "displacement", (3 * count, size)),
-                                 masses=_numbers(path, arrays, "point_masses", (count,)) if "point_masses" in arrays else None)
+                                 masses=_numbers(path, arrays, "point_masses", (count,)) if "point_masses" in arrays else None,
+                                 **_stress(path, arrays, numbers, size))
+    elif "stress" in arrays or "stress_points" in arrays:
+        raise InputError(f"'{path}': 'stress' belongs to 'points' with their 'displacement', which are missing")
+    return found
+
+
+def _stress(path, arrays, numbers, size):
+    """Stress at points and their rows, if the file has it."""
+    if "stress" not in arrays and "stress_points" not in arrays:
+        return {}
+    labels = _whole_numbers(path, arrays, "stress_points", (-1,))
+    place = {int(number): row for row, number in enumerate(numbers)}
+    for label in labels:
+        if int(label) not in place:
+            raise InputError(f"'{path}': 'stress_points' names the point {label}, which 'point_numbers' does not")
+    return {"stress": _numbers(path, arrays, "stress", (6 * len(labels), size)), "stress_points": np.array([place[int(label)] for label in labels], np.int64)}
+
+
+def _quantities(path, arrays, size):
+    """Recovered quantities by name."""
+    found = {}
+    for name in dict.fromkeys(match[1] for match in map(QUANTITY, arrays) if match):
+        key = f"quantity.{name}"
+        matrix = _numbers(path, arrays, f"{key}.matrix", (-1, size))
+        rows = [str(row) for row in arrays.get(f"{key}.rows", [f"row_{k + 1}" for k in range(len(matrix))])]
+        units = [str(unit) for unit in np.ravel(arrays.get(f"{key}.units", recovery.UNKNOWN))]
+        found[name] = recovery.Quantity(rows, units * len(matrix) if len(units) == 1 else units, matrix)
+        if not recovery.is_name(name):
+            raise InputError(f"'{path}': '{name}' is no name of a quantity: {recovery.NAME} are expected")
+        try:
+            recovery.check(name, found[name], size)
+        except InputError as error:
+            raise InputError(f"'{path}': {error}") from None
     return found
 
 
@@ -229,6 +267,9 @@ def write(matrices, path, options):
         shapes = matrices.shapes
         arrays |= {"points": shapes.points, "displacement": shapes.displacement, "point_numbers": shapes.numbers}
         arrays |= {"point_masses": shapes.masses} if shapes.masses is not None else {}
+        arrays |= {"stress": shapes.stress, "stress_points": shapes.numbers[shapes.stress_points]} if shapes.stress is not None else {}
+    for name, quantity in matrices.quantities.items():
+        arrays |= {f"quantity.{name}.{part}": np.array(getattr(quantity, part)) for part in ("matrix", "rows", "units")}
     arrays |= {name: getattr(matrices, name) for name in ("length_unit", "mass_unit") if getattr(matrices, name)}
     np.savez(path, **arrays)
     return [path]

@@ -2,23 +2,21 @@
 
 Matrices of the g-set (KGG) hold the unknowns of all points of the deck by ascending numbers, others those of the a-set
 (ASET ..), or of all points if the deck declares none. DTI,TUG1 of the deck names the rows of MUG1: displacements of grid
-points in their own axes.
+points in their own axes; DTI,TES1 those of MES1 and so on (nastran_tables).
 """
 
 import os
 
 from ..decks.nastran_cards import read_cards
 from ..messages import InputError, counted
-from . import op4_binary, op4_text
+from . import nastran_quantities, op4_binary, op4_text
 from .matrix_set import mirrored, sparse
-from .nastran_matrices import matrix_set, shapes_of
+from .nastran_matrices import RECTANGULAR, add_stress, matrix_set, shapes_of
 from .nastran_roles import left_out, matrices_by_role
+from .nastran_tables import GRID, groups_of, table_of
 from .nastran_unknowns import Deck
 from .op4_writer import write  # noqa: F401  (the second half of this format)
 from .op4_writer import nodes_beside
-
-TUG1_HEADING = ["TYPE", "ID", "COMP", "ROW"]
-GRID_TYPE = 1
 
 
 def read(path, options):
@@ -31,11 +29,20 @@ def read(path, options):
     # One row of zeros stands for a matrix that does not exist.
     empty = [matrix for matrix in found.values() if matrix.entries.shape[0] == 1 != len(unknowns) and not matrix.entries.nnz]
     chosen = {role: matrix for role, matrix in chosen.items() if matrix not in empty}
+    asked = {name: pair for name, pair in nastran_quantities.wanted(found, options.quantities, path).items() if pair[0] not in empty}
     notes = [] if options.nodes else [f"the order of the unknowns is that of '{nodes}'"]
-    notes += left_out({name: matrix for name, matrix in found.items() if matrix not in empty}, chosen)
-    members = {role: _square(matrix, len(unknowns), path, notes) for role, matrix in chosen.items() if role != "shapes"}
+    used = {**chosen, **{f"quantity {name}": matrix for name, (matrix, _) in asked.items()}}
+    notes += left_out({name: matrix for name, matrix in found.items() if matrix not in empty}, used)
+    members = {role: _square(matrix, len(unknowns), path, notes) for role, matrix in chosen.items() if role not in RECTANGULAR}
     if "shapes" in chosen:
         members["shapes"], more = _shapes(deck, chosen["shapes"], len(unknowns), path)
+        notes += more
+    if "stress" in chosen:
+        notes += _add_stress(deck, chosen["stress"], members.get("shapes"), len(unknowns), path)
+    members["quantities"] = {}
+    for name, (matrix, kind) in asked.items():
+        _check_columns(matrix, len(unknowns), path)
+        members["quantities"][name], more = nastran_quantities.quantity(deck, matrix.name, kind, matrix.entries.toarray())
         notes += more
     result = matrix_set(deck, unknowns, members, options, path, "Nastran OUTPUT4")
     result.notes += notes
@@ -93,22 +100,26 @@ def _square(matrix, size, path, notes):
     return sparse(matrix.entries)
 
 
+def _check_columns(matrix, size, path):
+    if matrix.entries.shape[1] != size:
+        raise InputError(f"'{path}': {matrix.name} has {counted(matrix.entries.shape[1], 'column')} for {counted(size, 'unknown')}")
+
+
 def _shapes(deck, matrix, size, path):
     """Shapes by the rows that DTI,TUG1 names, or None, and notes."""
-    card = next((card for card in deck.cards if card.name == "DTI" and card.fields[1:3] == ["TUG1", "2"]), None)
-    if card is None:
-        return None, [f"left out: the shapes {matrix.name}: the deck has no DTI,TUG1, which names their rows"]
-    rows, columns = matrix.entries.shape
-    if columns != size:
-        raise InputError(f"'{path}': {matrix.name} has {counted(columns, 'column')} for {counted(size, 'unknown')}")
-    filled = [k for k in card.filled(3) if card.fields[k] not in (*TUG1_HEADING, "ENDREC")]
-    if len(filled) % 4:
-        raise InputError(f"'{card.path}': line {card.line}: DTI,TUG1,2 has {len(filled)} fields; expected groups of 4: type, point, components, row")
-    blocks = {}
-    for kind, point, count, row in zip(*(filled[k::4] for k in range(4))):
-        first, components = card.integer(row), card.integer(count)
-        if card.integer(kind) == GRID_TYPE:
-            if not (0 < components <= 6 and 0 < first <= rows - components + 1):
-                card.fail(row, f"rows of {matrix.name}, which has {rows}")
-            blocks[card.integer(point)] = {k + 1: first - 1 + k for k in range(components)}
+    groups = groups_of(deck, matrix.name, matrix.entries.shape[0])
+    if groups is None:
+        return None, [f"left out: the shapes {matrix.name}: the deck has no DTI,{table_of(matrix.name)}, which names their rows"]
+    _check_columns(matrix, size, path)
+    blocks = {group.number: {k + 1: group.first + k for k in range(min(group.count, 6))} for group in groups if group.kind == GRID}
     return shapes_of(deck, blocks, matrix.entries)
+
+
+def _add_stress(deck, matrix, shapes, size, path):
+    """Adds stress at points to their shapes. @returns notes"""
+    groups = groups_of(deck, matrix.name, matrix.entries.shape[0])
+    if groups is None:
+        return [f"left out: the stress {matrix.name}: the deck has no DTI,{table_of(matrix.name)}, which names its rows"]
+    _check_columns(matrix, size, path)
+    blocks = {group.number: {k + 1: group.first + k for k in range(group.count)} for group in groups if group.kind == GRID}
+    return add_stress(shapes, blocks, matrix.entries, matrix.name)

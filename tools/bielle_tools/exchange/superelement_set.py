@@ -6,6 +6,7 @@ import numpy as np
 
 from ..results.results_file import open_hdf5, reading
 from .matrix_set import MassProperties, MatrixSet, Shapes, sparse
+from .recovery import Quantity
 
 
 def read(path, _options=None):
@@ -25,14 +26,16 @@ def read(path, _options=None):
             damping=sparse(file["reduced/damping"][()]), inertia_components=file["reduced/inertia_components"][()],
             interfaces={name: k for k, name in enumerate(names)},
             mass_properties=MassProperties(*(file[f"mass_properties/{name}"][()] for name in ("mass", "centre", "inertia"))),
-            shapes=shapes, length_unit="m", mass_unit="kg", notes=notes_on(file))
+            shapes=shapes, quantities=quantities_of(file), length_unit="m", mass_unit="kg", notes=notes_on(file))
 
 
 def notes_on(file):
     """A note on the parts of a superelement that a MatrixSet does not hold."""
     parts = {"reduced/geometric_stiffness": "geometric stiffness of spins and loads", "loads": "load patterns", "points": "named points",
-             "recovery/stress": "stress", "adequacy": "measures of its accuracy"}
+             "adequacy": "measures of its accuracy"}
     found = [told for group, told in parts.items() if group in file]
+    if "recovery/stress" in file and "recovery/displacement" not in file:
+        found.append("stress, whose points have no displacements")
     return [f"left out of the superelement: {', '.join(found)}"] if found else []
 
 
@@ -44,5 +47,15 @@ def shapes_of(file):
     row[kept] = np.arange(len(kept))
     cells = {int(kind): row[block[()]] for kind, block in file.get("mesh/cells", {}).items()}
     cells = {kind: block[(block >= 0).all(axis=1)] for kind, block in cells.items()}
-    return Shapes(numbers=kept + 1, points=points[kept], displacement=file["recovery/displacement"][()],
+    stress = {}
+    if "recovery/stress" in file:
+        places = row[file["recovery/stress_nodes"][()]]
+        stress = {"stress": file["recovery/stress"][()][np.repeat(places >= 0, 6)], "stress_points": places[places >= 0]}
+    return Shapes(numbers=kept + 1, points=points[kept], displacement=file["recovery/displacement"][()], **stress,
                   cells={kind: block for kind, block in cells.items() if len(block)})
+
+
+def quantities_of(file):
+    """Recovered quantities by name."""
+    return {name: Quantity(list(group["rows"].asstr()[()]), list(group["units"].asstr()[()]), group["matrix"][()])
+            for name, group in file.get("quantities", {}).items()}

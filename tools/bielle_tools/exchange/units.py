@@ -13,6 +13,7 @@ import scipy.sparse
 
 from ..messages import InputError, did_you_mean
 from .matrix_set import MassProperties
+from .recovery import converted_quantity
 
 # The words of length and mass are those of `length_unit` and `mass_unit` in a body file.
 METRES = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "um": 1e-6, "km": 1e3, "in": 0.0254, "ft": 0.3048}
@@ -93,15 +94,17 @@ def converted(matrices, units, to=SI):
         inertia_components=None if components is None else moment * components / np.outer(unknowns, unknowns),
         mass_properties=None if properties is None else
         MassProperties(mass * properties.mass, length * properties.centre, moment * properties.inertia),
-        shapes=None if matrices.shapes is None else _converted_shapes(matrices.shapes, unknowns, length, mass),
+        shapes=None if matrices.shapes is None else _converted_shapes(matrices.shapes, unknowns, length, mass, time),
+        quantities={name: converted_quantity(quantity, unknowns, (length, mass, time)) for name, quantity in matrices.quantities.items()},
         length_unit=to.length, mass_unit=to.mass)
 
 
-def _converted_shapes(shapes, unknowns, length, mass):
+def _converted_shapes(shapes, unknowns, length, mass, time):
     def scaled(values, factor):
         return None if values is None else factor * values
 
     return dataclasses.replace(
         shapes, points=length * shapes.points, displacement=length * shapes.displacement / unknowns,
         rotation=None if shapes.rotation is None else shapes.rotation / unknowns,
+        stress=None if shapes.stress is None else mass / (length * time**2) * shapes.stress / unknowns,
         masses=scaled(shapes.masses, mass), inertias=scaled(shapes.inertias, mass * length**2))

@@ -48,7 +48,8 @@ class Columns:
         self.axes = [[str(k + 1) for k in range(size)] for size in shape]
         self.units = units_in(units, shape[-1]) if shape else [units]
         six = bool(shape) and shape[-1] == 6
-        self.is_stress = six and ("stress" in field or "strain" in field) and "," not in units
+        of_rows = bool(shape) and all(re.fullmatch(r"[A-Za-z_]\w*", name) for name in names_in(description, shape[-1]))  # names of its own
+        self.is_stress = six and ("stress" in field or "strain" in field) and "," not in units and not of_rows
         along = place.startswith("joints/") and field == "force"  # those of a gear are on coordinates, one each
         if along:
             description = description.rpartition(" on ")[2]
