@@ -11,7 +11,7 @@ import stat
 import h5py
 
 from box_mesh import REPOSITORY, InFolder
-from python_tool import leave_layout_out, run_python_tool
+from python_tool import prepare_figures, run_python_tool
 
 # The modules of bielle-study are imported here, so that each of its calls has them.
 import bielle_tools.figures.plot_style  # noqa: F401
@@ -82,7 +82,7 @@ class WithStandIn(InFolder):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        leave_layout_out()
+        prepare_figures()
         cls.results = stand_in_results()
 
     def setUp(self):

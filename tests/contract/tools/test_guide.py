@@ -14,7 +14,7 @@ TOOLS = os.path.join(ROOT, "tools")
 sys.path[:0] = [TOOLS, os.path.join(HERE, "..")]
 
 from bielle_tools.manual import pages  # noqa: E402
-from python_tool import leave_layout_out  # noqa: E402
+from python_tool import prepare_figures  # noqa: E402
 from quick_tools import quick_tools  # noqa: E402
 
 COMMANDS = ["bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-loads",
@@ -32,7 +32,7 @@ def run_lines(path):
 
 class Guide(unittest.TestCase):
     def test_commands_print_what_the_pages_show(self):
-        leave_layout_out()
+        prepare_figures()
         with quick_tools() as tools:
             environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "BIELLE_BIN": PROGRAMS, "OPENBLAS_NUM_THREADS": "1"}
             for path in guide():

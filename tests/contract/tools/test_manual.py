@@ -19,7 +19,7 @@ sys.path[:0] = [os.path.join(ROOT, "tools"), os.path.join(HERE, "..", "programs"
 
 from bielle_tools.manual import pages, site  # noqa: E402
 from bielle_tools.messages import InputError  # noqa: E402
-from python_tool import leave_layout_out  # noqa: E402
+from python_tool import prepare_figures  # noqa: E402
 from quick_tools import quick_tools  # noqa: E402
 from test_schema import load  # noqa: E402
 
@@ -59,7 +59,7 @@ class Manual(unittest.TestCase):
     def test_getting_started_prints_what_it_shows(self):
         started = sorted(glob.glob(os.path.join(MANUAL, "getting_started", "*.md")))
         self.assertGreaterEqual(len(started), 5)
-        leave_layout_out()
+        prepare_figures()
         with quick_tools() as tools:
             environment = {**pages.environment_of(ROOT, PROGRAMS, tools), "OPENBLAS_NUM_THREADS": "1"}
             for path in started:  # later ones use files of earlier ones

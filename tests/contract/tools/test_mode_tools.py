@@ -12,7 +12,7 @@ import numpy as np
 from PIL import Image
 
 from box_mesh import REPOSITORY, InFolder
-from python_tool import import_tools, leave_layout_out, run_python_tool  # box_mesh knows where
+from python_tool import import_tools, prepare_figures, run_python_tool  # box_mesh knows where
 from synthetic_modes import OMEGA, SIGMA, write_whirl
 
 from bielle_tools.bodies.superelement_body import superelement_of  # noqa: E402
@@ -52,7 +52,7 @@ class Tools(InFolder):
     def setUpClass(cls):
         super().setUpClass()
         import_tools()
-        leave_layout_out()
+        prepare_figures()
 
     def run_tool(self, tool, *arguments):
         return run_python_tool(os.path.join(REPOSITORY, "tools", tool), arguments, self.folder, {**os.environ, "DISPLAY": ""})

@@ -10,7 +10,7 @@ import matplotlib.pyplot  # noqa: F401  (loaded once for all runs of the tool)
 import numpy as np
 
 from box_mesh import REPOSITORY, InFolder
-from python_tool import import_tools, leave_layout_out, run_python_tool  # box_mesh knows where
+from python_tool import import_tools, prepare_figures, run_python_tool  # box_mesh knows where
 from study_stand_in import STUDY, WithStandIn
 
 from bielle_tools.messages import InputError
@@ -126,7 +126,7 @@ class Command(InFolder):
     def setUpClass(cls):
         super().setUpClass()
         import_tools()
-        leave_layout_out()
+        prepare_figures()
 
     def run_tool(self, *arguments):
         return run_python_tool(TOOL, arguments, self.folder, {**os.environ, "DISPLAY": ""})

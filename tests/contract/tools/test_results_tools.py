@@ -15,7 +15,7 @@ import numpy as np
 
 import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
-from python_tool import import_tools, leave_layout_out, run_python_tool  # box_mesh knows where
+from python_tool import import_tools, prepare_figures, run_python_tool, users_style  # box_mesh knows where
 
 
 class ResultsTool(InFolder):
@@ -23,7 +23,7 @@ class ResultsTool(InFolder):
     def setUpClass(cls):
         super().setUpClass()
         import_tools()
-        leave_layout_out()
+        prepare_figures()
 
     def setUp(self):
         super().setUp()
@@ -195,7 +195,7 @@ class ParaView(ResultsTool):
 
 class Plots(ResultsTool):
     def test_every_figure_is_there_and_not_blank(self):
-        with matplotlib.rc_context({"figure.constrained_layout.use": True}):  # as users have it
+        with matplotlib.rc_context(users_style):
             done = self.succeed("bielle-plot", self.path("run.h5"), "-o", self.path("plots"))
         written = done.stdout.split()
         expected = {"energy", "joints", "reactions", "drives", "paths", "rotations", "body_rod", "beam_shaft", "element_ram", "solver"}

@@ -1,12 +1,16 @@
 """bielle-table: its numbers are those that h5py reads, its peaks those of the data, and its RPC files read back."""
 
 import csv
+import importlib.util
 import io
 import os
 import re
 import struct
 import subprocess
+import sys
+import types
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -15,6 +19,7 @@ import synthetic_results as synthetic
 from box_mesh import REPOSITORY, InFolder
 from python_tool import run_python_tool  # box_mesh knows where
 
+from bielle_tools.messages import InputError
 from bielle_tools.quantities.rpc_file import write_rpc
 from bielle_tools.quantities.table_file import write_columns
 
@@ -176,19 +181,47 @@ class OfSynthetic(TableTool):
         self.refuse(("few.h5", "--rpc", "few.rsp"), "there is one time only")
         self.refuse(("few.h5", "--quantity", "rod.radiated_power"), "velocities need several")
 
+    def test_parquet_by_the_library_if_it_is_installed(self):
+        columns = [("time [s]", np.array([0.0, 0.1, 0.2])), ("main, angle [rad]", np.array([1 / 3, np.nan])), ("time [s]", np.array([5.0]))]
+        try:
+            import pyarrow.parquet
+        except ImportError:
+            self.parquet_by_a_stand_in(columns)
+            return
+        write_columns(self.path("x.parquet"), columns)
+        table = pyarrow.parquet.read_table(self.path("x.parquet"))
+        self.assertEqual(table.column_names, [name for name, _ in columns])
+        self.assertEqual([column.to_pylist() for column in table.columns], [[0.0, 0.1, 0.2], [1 / 3, None, None], [5.0, None, None]])
+
+    def parquet_by_a_stand_in(self, columns):
+        """Calls of the library, by the signatures that its reference documents."""
+        library, parquet = types.ModuleType("pyarrow"), types.ModuleType("pyarrow.parquet")
+        library.parquet = parquet
+        library.array = lambda values, mask: [None if left_out else value for value, left_out in zip(values.tolist(), mask)]
+        library.Table = types.SimpleNamespace(from_arrays=lambda arrays, names: dict(enumerate(zip(names, arrays))))
+        parquet.write_table = lambda table, where: where.write(repr(table).encode())
+        with unittest.mock.patch.dict(sys.modules, {"pyarrow": library, "pyarrow.parquet": parquet}):
+            write_columns(self.path("x.parquet"), columns)
+            with self.assertRaisesRegex(InputError, "is an input"):
+                write_columns(self.path("x.parquet"), columns, [self.path("x.parquet")])
+        with open(self.path("x.parquet"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), repr(dict(enumerate(zip([name for name, _ in columns], ([0.0, 0.1, 0.2], [1 / 3, None, None], [5.0, None, None]))))))
+
     def test_slips_are_answered_with_one_sentence(self):
         self.write("empty.h5", "")
         with h5py.File(self.path("run.h5"), "r+") as file:
             file["elements/ram/pressure"][3, 1] = np.nan
         for arguments, part in ((("run.h5", "--quantity", "main.angel"), "did you mean 'main.angle'?"), (("empty.h5",), "it is empty"), (("no.h5",), "does not exist"),
                                 (("run.h5", "--peaks", "--list"), "say one of"), (("run.h5", "--span", "0:1"), "the list has none"),
-                                (("run.h5", "--quantity", "main.angle", "--csv", "x.parquet"), "Debian has no library that writes Parquet"),
+                                (("run.h5", "--peaks", "--csv", "x.parquet"), "is written as CSV"),
                                 (("run.h5", "--peaks", "--csv", "run.h5"), "is an input"), (("run.h5", "--quantity", "time", "--rpc", "-"), "say a name"),
                                 (("run.h5", "--csv", "no/x.csv"), "cannot write 'no/x.csv'"), (("run.h5", "--analysis", "7"), "holds no analysis 7"),
                                 (("run.h5", "box.h5"), "a superelement"), (("run.h5", "--quantity", "time", "--every", "-1"), "from 1 on")):
             with self.subTest(arguments=arguments):
                 self.refuse(arguments, part)
         self.refuse(("run.h5", "--quantity", "main.angle", "--csv", "/dev/full"), "No space left on device", 2)
+        if not importlib.util.find_spec("pyarrow"):
+            self.refuse(("run.h5", "--quantity", "main.angle", "--csv", "x.parquet"), "Parquet needs the Python package pyarrow")
         done = self.run_tool("run.h5", "--quantity", "ram.pressure", "--rpc", "x.rsp")
         self.assertIn("'ram.pressure[2]' has no number at 0.0075 s", done.stderr)
         self.assertFalse(os.path.exists(self.path("x.rsp")))

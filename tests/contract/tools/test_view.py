@@ -10,6 +10,7 @@ import sys
 import time
 import unittest
 import zlib
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -21,11 +22,13 @@ from page_driver import WHY_NOT, Pages
 sys.path.insert(0, os.path.join(REPOSITORY, "tests", "contract"))
 from python_tool import import_tools, run_python_tool
 
+from bielle_tools.bodies.stress_invariants import von_mises  # noqa: E402
 from bielle_tools.bodies.superelement_body import SuperelementBody  # noqa: E402
 from bielle_tools.results import Results  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
 from bielle_tools.scene.stress_scale import stress_colours  # noqa: E402
 from bielle_tools.scene.transforms import placed  # noqa: E402
+from bielle_tools.view.body_data import BodyData  # noqa: E402
 
 TOOL = os.path.join(REPOSITORY, "tools", "bielle-view")
 PROGRAMS = os.environ.get("BIELLE_PROGRAMS", os.path.join(REPOSITORY, "build", "release", "bin"))
@@ -105,6 +108,20 @@ class Command(InFolder):
         self.assertEqual(self.described(text)["runs"][0]["created_by"], "", "these results do not tell")
         for word in ("<script src", "<link", "@import", "<img", "<iframe"):
             self.assertNotIn(word, text.replace("<script>", ""), word)
+
+
+class Peaks(unittest.TestCase):
+    def test_largest_stresses_are_those_of_every_row(self):
+        random = np.random.default_rng(3)
+        stress, q = 1e9 * random.normal(size=(7, 5000, 6)), 1e-3 * random.normal(size=(70, 7))
+        body = SimpleNamespace(shapes=random.normal(size=(7, 5000, 3)), stress=stress, stressed=np.ones(5000, bool))
+        for size, rows in ((1.0, 70), (1e25, 33), (1e-25, 1), (0.0, 3), (1.0, 0)):
+            with self.subTest(size=size, rows=rows):
+                found = BodyData(body, 1.0).peaks(size * q[:rows], SimpleNamespace(add=lambda values, kind: np.asarray(values)))
+                exact = von_mises(np.tensordot(size * q[:rows], stress, axes=1)).max(axis=0, initial=0)
+                step = found["peak"]["step"]
+                np.testing.assert_allclose(found["peak"]["low"] + step * (found["peak"]["data"].astype(float) + 32767), exact, rtol=1e-5, atol=step)
+                self.assertAlmostEqual(found["largest"], exact.max(), delta=1e-6 * exact.max())
 
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)
@@ -350,6 +367,43 @@ class Viewed(Pages, InFolder):
         self.run_script("bielle.camera.height /= 1000; bielle.player.toggle()")
         self.settled()
         self.assertEqual(self.run_script(drawn)[0], 0)
+        self.no_errors()
+
+    def test_twenty_bodies_share_shapes_and_send_only_points_that_are_drawn(self):
+        synthetic.write_superelement(self.path("box.h5"), (16, 8, 8))
+        synthetic.write_results(self.path("run.h5"), "box.h5")
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            for k in range(1, 20):
+                file.copy("elements/rod", file["elements"], f"rod{k}")
+        self.page(self.path("run.h5"))
+        self.assertEqual(self.run_script("const all = bielle.shown.flexible; return [all.length, bielle.data.bodies.length, new Set(all.map(f => f.body)).size, new Set(all.map(f => f.geometry.index)).size]"),
+                         [20, 1, 1, 1])
+        levels = self.run_script("return bielle.body(0).levels.map(level => [level.cell, level.count, level.index.count / 3])")
+        self.run_script("""const gl = bielle.renderer.getContext(), send = gl.bufferSubData.bind(gl); bielle.draw = () => {}; bielle.sent = 0;
+            gl.bufferSubData = (target, start, data, ...more) => { bielle.sent += data.byteLength; send(target, start, data, ...more); };""")
+        self.run_script("for (const part of bielle.shown.layout.parts) part.opacity = 1; bielle.repaint()")
+        self.settled()
+        for stress, numbers in (("none", 3), ("von_mises", 4)):
+            for cell, count, triangles in levels:
+                sent, drawn, passes = self.run_script("""bielle.settings.stress = arguments[0]; for (const f of bielle.shown.flexible) f.detail(arguments[1]);
+                    bielle.player.go(3); bielle.sent = 0; bielle.render(); const b = bielle.shown.batch;
+                    return [bielle.sent, bielle.renderer.info.render.triangles - b.triangles.length / 3, b.passes.map(objects => objects[0].visible)];""", stress, cell)
+                self.assertEqual((sent, drawn, passes), (20 * count * numbers * 4, 20 * triangles, [True, False]))
+        # A second pass over rigid parts is made while some of them are transparent.
+        transparent = "return [bielle.shown.batch.passes.map(objects => objects[0].visible), bielle.shown.batch.looks.data.filter((v, k) => k % 4 === 3 && v > 0 && v < 0.99).length > 0]"
+        self.run_script("bielle.entries.toggle(bielle.shown.layout.parts[0].entry, 'faint')")
+        self.assertEqual(self.run_script(transparent), [[True, True], True])
+        self.run_script("bielle.entries.toggle(bielle.shown.layout.parts[0].entry, 'faint')")
+        self.assertEqual(self.run_script(transparent), [[True, False], False])
+        self.no_errors()
+
+    def test_a_slow_machine_has_less_resolution_then_fewer_triangles(self):
+        self.page(self.every())
+        steps = self.run_script("const q = bielle.quality, all = []; bielle.draw = () => {}; for (const step of ['coarser', 'finer']) for (let k = 0; k < 30; k++) { q[step](); all.push([q.moving, q.cell]); } return all;")
+        for a, b in zip(steps[:30], steps[1:30]):
+            self.assertTrue(a[0] >= b[0] and a[1] <= b[1] and (b[1] == 2 or a[0] == 0.5), (a, b))
+        self.assertEqual((steps[29], steps[-1]), ([0.5, 4], [1, 2]))
+        self.assertTrue(all(cell == 2 or ratio == 0.5 for ratio, cell in steps))
         self.no_errors()
 
     def beam(self):

@@ -1,5 +1,5 @@
-"""Files of columns of numbers: CSV with one header line. Numbers have the shortest form that reads back to the
-bit."""
+"""Files of columns of numbers: CSV with one header line, or Parquet. Numbers in CSV have the shortest form that reads back
+to the bit."""
 
 import contextlib
 import csv
@@ -30,15 +30,14 @@ def output(path, inputs, mode="w"):
         with open(path, mode, **kind) as file:
             yield file
     else:
+        if "b" not in mode and is_parquet(path):
+            raise InputError(f"'{path}': this table has texts and is written as CSV, not as Parquet")
         _check(path, inputs)
         with replacing(path) as partial, open(partial, mode, **kind) as file:
             yield file
 
 
 def _check(path, inputs):
-    if path.lower().endswith(".parquet"):
-        raise InputError(f"'{path}': Debian has no library that writes Parquet (neither pyarrow nor fastparquet is a "
-                         "package of it); --csv writes CSV, which pandas and the like convert")
     if not os.path.exists(path):
         return
     if any(os.path.samefile(path, given) for given in inputs):
@@ -52,8 +51,11 @@ def _check(path, inputs):
 
 
 def write_columns(path, columns, inputs=()):
-    """Writes columns [(header, values)] as CSV; cells of shorter columns and of values that are no numbers are empty.
-    inputs: files that may not be replaced"""
+    """Writes columns [(header, values)] as CSV, or as Parquet to a name that ends so; cells of shorter columns and of
+    values that are no numbers are empty. inputs: files that may not be replaced"""
+    if is_parquet(path):
+        _write_parquet(path, columns, inputs)
+        return
     with output(path, inputs) as file:
         csv.writer(file, lineterminator="\n").writerow([header for header, _ in columns])
         longest = max((len(values) for _, values in columns), default=0)
@@ -61,6 +63,25 @@ def write_columns(path, columns, inputs=()):
             count = min(ROWS_AT_ONCE, longest - begin)
             cells = [_texts(values[begin:begin + count], count) for _, values in columns]
             file.writelines(",".join(row) + "\n" for row in zip(*cells))
+
+
+def is_parquet(path):
+    """Tells whether the name of a file asks for Parquet."""
+    return path.lower().endswith(".parquet")
+
+
+def _write_parquet(path, columns, inputs):
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise InputError(f"'{path}': Parquet needs the Python package pyarrow, which Debian does not have: install it for "
+                         "/usr/bin/python3, or write CSV, which pandas and the like convert") from None
+    longest = max((len(values) for _, values in columns), default=0)
+    padded = [np.pad(np.asarray(values, float), (0, longest - len(values)), constant_values=np.nan) for _, values in columns]
+    table = pyarrow.Table.from_arrays([pyarrow.array(values, mask=np.isnan(values)) for values in padded], names=[name for name, _ in columns])
+    with output(path, inputs, "wb") as file:
+        pyarrow.parquet.write_table(table, file)
 
 
 def _texts(values, count):

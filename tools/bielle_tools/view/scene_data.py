@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from ..bodies.stress_invariants import von_mises
 from ..scene.arrows import arrows_of
 from ..scene.style import marked, muted
-from .pack import quantised
+from .body_data import BodyData
 from .tracks import Tracks, in_units
 
 UNIT_TRACK = 127  # normals are bytes
@@ -16,7 +15,7 @@ class SceneData:
 
     def __init__(self, pack, centre, size):
         self.pack, self.centre, self.size = pack, centre, size
-        self.bodies, self._numbers = [], {}
+        self.bodies, self._numbers, self._data = [], {}, []
         self._errors = {"position": 0.0, "rotation": 0.0, "shape": 0.0, "stress": 0.0, "of stress": 0.0}
 
     def described(self, scene, rows, arrows=True):
@@ -78,55 +77,24 @@ class SceneData:
     def _flexible(self, part, rows, tracks):
         frame, q = part.frame(rows), part.coordinates(rows)
         pose = np.concatenate([frame, np.ones((len(frame), 1))], axis=1)[:, None]
-        number = self._body(part.body, q)
+        known = q[np.isfinite(q).all(axis=1)]
+        number = self._body(part.body)
+        self._largest(**self._data[number].errors(known))
         return {"entry": part.entry, "type": part.type, "colour": part.colour, "marked": marked(part.colour), "muted": muted(part.colour), "opacity": part.opacity, "group": "body", "body": number,
                 "track": tracks.add(in_units(pose, self.centre, self.size))[0], "coordinates": self.pack.add(np.nan_to_num(q), "f4"),
-                "missing": [int(row) for row in np.flatnonzero(~np.isfinite(q).all(axis=1))], **self._peaks(part.body, q)}
+                "missing": [int(row) for row in np.flatnonzero(~np.isfinite(q).all(axis=1))], **self._data[number].peaks(known, self.pack)}
 
-    def _body(self, body, q):
+    def _body(self, body):
+        """The number of a body among those of the page."""
         key = (body.path, body.piece)
         if key not in self._numbers:
             self._numbers[key] = len(self.bodies)
-            add = self.pack.add
-            shapes, scale = self._quantised(body.shapes / self.size)
+            add, data = self.pack.add, BodyData(body, self.size)
             levels = [{"cell": level.cell / self.size, "count": level.count, "triangles": add(level.triangles, "i4")} for level in body.levels]
-            found = {"points": add(body.points / self.size, "f4"), "levels": levels, "shapes": add(shapes, "i2"),
-                     "scale": add(scale, "f4"), "count": len(body.shapes), "nodes": add(body.nodes, "i4")}
-            if body.stress is not None:
-                stress, stress_scale = self._quantised(body.stress)
-                found.update(stress=add(stress, "i2"), stress_scale=add(stress_scale, "f4"), stressed=add(body.stressed, "u1"))
-            self.bodies.append(found)
-        self._judge(body, q)
+            self.bodies.append({"points": add(body.points / self.size, "f4"), "levels": levels, "count": len(body.shapes), "nodes": add(body.nodes, "i4"),
+                                **data.describe(self.pack)})
+            self._data.append(data)
         return self._numbers[key]
-
-    @staticmethod
-    def _quantised(shapes):
-        """(integers, factors): shape k is factor k times its integers."""
-        scale = np.abs(shapes).reshape(len(shapes), -1).max(axis=1, initial=0).astype(np.float32) / np.float32(32767)
-        whole = np.round(shapes / np.where(scale > 0, scale, 1)[:, None, None])
-        return np.clip(whole, -32767, 32767).astype(np.int16), scale
-
-    def _judge(self, body, q):
-        """Measures the error of deformation and stress by quantised shapes at up to eight rows."""
-        known = q[np.isfinite(q).all(axis=1)]
-        known = known[np.unique(np.linspace(0, len(known) - 1, 8).astype(int))] if len(known) else known
-        for name, shapes in (("shape", body.shapes / self.size), ("stress", body.stress)):
-            if shapes is None or not len(known) or not shapes.size:
-                continue
-            whole, scale = self._quantised(shapes)
-            exact = np.tensordot(known, shapes, axes=1)
-            error = np.abs(np.tensordot(known, whole * scale.astype(float)[:, None, None], axes=1) - exact).max()
-            self._largest(**{name: error, "of stress": np.abs(exact).max(initial=0) if name == "stress" else 0})
-
-    def _peaks(self, body, q):
-        """Largest von Mises stress of each point over the rows [Pa], and of all."""
-        if body.stress is None:
-            return {}
-        peak = np.zeros(len(body.points))
-        for block in np.array_split(q[np.isfinite(q).all(axis=1)], max(1, len(q) // 16)):
-            peak = np.maximum(peak, von_mises(np.tensordot(block, body.stress, axes=1)).max(axis=0, initial=0))
-        whole, low, step = quantised(peak, (0,))
-        return {"peak": {"data": self.pack.add(whole, "i2"), "low": float(low[0]), "step": float(step[0])}, "largest": float(peak.max(initial=0))}
 
     def _anchors(self, scene, parts):
         numbers = {id(part): tracks for part, tracks in parts}

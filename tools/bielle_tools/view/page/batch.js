@@ -26,12 +26,13 @@ class Batch {
                      stresses: {value: stresses.table.texture}, stressSize: {value: stresses.table.size}, scale: {value: scale}, range: {value: this.range}};
     const solid = this.geometry(arrays.at(b.normals), this.triangles), lines = this.geometry(arrays.at(b.normals), arrays.at(b.lines));
     this.group = new THREE.Group();
+    this.passes = [[], []];  // objects that draw opaque, and transparent parts
     for (const clear of [0, 1]) {
       const uniforms = {...this.uniforms, clear: {value: clear}};
       const options = {uniforms, vertexShader: RIGID_VERTEX, side: THREE.DoubleSide, transparent: clear > 0, depthWrite: !clear};
       const faces = new THREE.Mesh(solid, new THREE.ShaderMaterial({...options, fragmentShader: RIGID_FRAGMENT, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}));
       const edges = new THREE.LineSegments(lines, new THREE.ShaderMaterial({...options, fragmentShader: LINE_FRAGMENT}));
-      for (const object of [faces, edges]) { object.frustumCulled = false; object.renderOrder = clear; this.group.add(object); }
+      for (const object of [faces, edges]) { object.frustumCulled = false; object.renderOrder = clear; this.passes[clear].push(object); this.group.add(object); }
     }
     const pick = {uniforms: {...this.uniforms, first: {value: 1}}, vertexShader: PICK_VERTEX, fragmentShader: PICK_FRAGMENT, side: THREE.DoubleSide};
     this.pickable = new THREE.Mesh(solid, new THREE.ShaderMaterial(pick));
@@ -57,9 +58,15 @@ class Batch {
     this.bones.texture.needsUpdate = true;
   }
 
-  /// look(part): [r, g, b, opacity]
+  /// look(part): [r, g, b, opacity]. All points pass the shaders of each object, so one without parts is not drawn.
   paint(look) {
-    this.parts.forEach((part, k) => this.looks.data.set(look(part), 4 * k));
+    const drawn = [false, false];
+    this.parts.forEach((part, k) => {
+      const found = look(part);
+      this.looks.data.set(found, 4 * k);
+      drawn[found[3] < CLEAR ? 1 : 0] ||= found[3] > HIDDEN;
+    });
+    this.passes.forEach((objects, clear) => { for (const object of objects) object.visible = drawn[clear]; });
     this.looks.texture.needsUpdate = true;
   }
 

@@ -19,6 +19,12 @@ function addShapes(out, shapes, factors, n, count) {
 /// A factor of 16-bit numbers, or 0 if its shape nowhere exceeds a limit.
 function seen(factor, limit) { return Math.abs(factor) * 32767 < limit ? 0 : factor; }
 
+/// Lets the first `count` items of an attribute be sent to the graphics card before the next picture.
+function renew(attribute, count) {
+  attribute.updateRange.count = count * attribute.itemSize;
+  attribute.needsUpdate = true;
+}
+
 /// Largest and least eigenvalue of a symmetric matrix: the cubic in trigonometric form.
 function principal(xx, yy, zz, yz, xz, xy) {
   const mean = (xx + yy + zz) / 3, a = xx - mean, b = yy - mean, c = zz - mean;
@@ -96,7 +102,7 @@ class Flexible {
 
   move(place, rest, amplitude, magnify, stress) {
     const start = 8 * this.part.track, p = this.tracks.poses;
-    this.mesh.visible = this.look.w > 0.002 && !Number.isNaN(p[start]) && !this.missing.has(Math.floor(place));
+    this.mesh.visible = this.look.w > HIDDEN && !Number.isNaN(p[start]) && !this.missing.has(Math.floor(place));
     if (!this.mesh.visible) return;
     this.mesh.matrix.compose(new THREE.Vector3(p[start], p[start + 1], p[start + 2]),
                              new THREE.Quaternion(p[start + 5], p[start + 6], p[start + 7], p[start + 4]), new THREE.Vector3(1, 1, 1));
@@ -111,11 +117,11 @@ class Flexible {
     const {magnify, stress} = this.drawn;
     this.known = count;
     this.body.place(this.now, magnify, this.points, count);
-    this.geometry.attributes.position.needsUpdate = true;
+    renew(this.geometry.attributes.position, count);
     if (this.body.stress && stress !== "none") {
       if (stress === "peak") this.values.set(this.peak.map((v, k) => this.body.stressed[k] ? v : -1e30));
       else this.body.stressed_by(this.now, stress, this.values, this.tracks.rows > 1 ? this.part.largest : 0, count);
-      this.geometry.attributes.value.needsUpdate = true;
+      renew(this.geometry.attributes.value, count);
     }
   }
 

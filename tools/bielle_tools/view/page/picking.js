@@ -18,7 +18,7 @@ class Picking {
     const {shown, renderer} = this.app, camera = this.app.camera.active, stage = document.getElementById("stage"), pixel = new Uint8Array(4);
     this.scene.children.length = 0;
     this.scene.add(shown.batch.pickable);
-    const flexible = shown.flexible.filter(f => f.mesh.visible && f.look.w > 0.002), plain = flexible.map(f => f.mesh.material);
+    const flexible = shown.flexible.filter(f => f.mesh.visible && f.look.w > HIDDEN), plain = flexible.map(f => f.mesh.material);
     flexible.forEach((f, k) => { f.mesh.material = this.numbered(1 + shown.batch.parts.length + k); this.scene.children.push(f.mesh); });
     camera.setViewOffset(stage.clientWidth, stage.clientHeight, x, y, 1, 1);
     renderer.setRenderTarget(this.target);

@@ -37,9 +37,9 @@ class Shown {
     this.batch.paint(part => this.look(part));
     for (const f of this.flexible) {
       f.look.set(...this.look(f.part));
-      f.mesh.material.transparent = f.look.w < 0.995;
-      f.mesh.material.depthWrite = f.look.w >= 0.995;
-      f.mesh.renderOrder = f.look.w < 0.995 ? 1 : 0;
+      f.mesh.material.transparent = f.look.w < CLEAR;
+      f.mesh.material.depthWrite = f.look.w >= CLEAR;
+      f.mesh.renderOrder = f.look.w < CLEAR ? 1 : 0;
     }
   }
 

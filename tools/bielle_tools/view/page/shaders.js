@@ -1,5 +1,7 @@
 // Shaders: rigid parts on bones of a texture, flexible bodies with their own points, one light for both.
 
+const HIDDEN = 0.002, CLEAR = 0.995;  // opacity up to which a part is not drawn, and from which nothing is seen through it
+
 const LIGHT = `
   vec3 lit(vec3 base, vec3 normal) {
     vec3 n = normalize(normal);
@@ -48,7 +50,7 @@ const RIGID_VERTEX = `
     vValue = cell < 0.0 ? -1e30 : texel(stresses, stressSize, cell).r;
     vec3 p = a.xyz + turned(q, vec3(position.xy, position.z * a.w));
     vNormal = normalMatrix * turned(q, vec3(normal.xy * a.w, normal.z));
-    bool mine = vLook.a > 0.002 && (vLook.a < 0.995) == (clear > 0.5);
+    bool mine = vLook.a > ${HIDDEN} && (vLook.a < ${CLEAR}) == (clear > 0.5);
     gl_Position = mine ? projectionMatrix * modelViewMatrix * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
   }`;
 
@@ -72,7 +74,7 @@ const PICK_VERTEX = `
     float number = owner + first;
     vCode = vec3(mod(number, 256.0), mod(floor(number / 256.0), 256.0), floor(number / 65536.0)) / 255.0;
     vec3 p = a.xyz + turned(q, vec3(position.xy, position.z * a.w));
-    gl_Position = look.a > 0.002 ? projectionMatrix * modelViewMatrix * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+    gl_Position = look.a > ${HIDDEN} ? projectionMatrix * modelViewMatrix * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
   }`;
 
 const PICK_FRAGMENT = `
