@@ -6,15 +6,16 @@
 #include <cstdint>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
-#include <Eigen/QR>
 #include <arpack/arpack.hpp>
 #include <fmt/format.h>
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/dense/blas.hpp"
+#include "reduce/dense/orthonormal_columns.hpp"
 
 // OpenBLAS contains LAPACK but has no C header for it.
 extern "C" {
@@ -227,13 +228,6 @@ class ArnoldiIteration {
   std::array<a_int, 14> parameters_{}, pointers_{};
 };
 
-template <class Scalar>
-MatrixOf<Scalar> orthonormal(const MatrixOf<Scalar>& A) {
-  const Eigen::ColPivHouseholderQR<MatrixOf<Scalar>> factors(A);
-  const Index rank = factors.rank();
-  return factors.householderQ() * MatrixOf<Scalar>::Identity(A.rows(), rank);
-}
-
 /// An invariant subspace of T; a small matrix on it gives the eigenpairs.
 template <class Scalar>
 struct Subspace {
@@ -241,7 +235,7 @@ struct Subspace {
   void add(const LinearOperator<Scalar>& T, const MatrixOf<Scalar>& vectors) {
     MatrixOf<Scalar> all(T.size, Q.cols() + vectors.cols());
     all << Q, vectors;
-    Q = orthonormal<Scalar>(all);
+    Q = orthonormal_columns(std::move(all));
     TQ.resize(T.size, Q.cols());
     for (Index k = 0; k < Q.cols(); ++k) TQ.col(k) = T.apply(Q.col(k));
   }
