@@ -14,8 +14,9 @@ namespace bielle::mechanism {
 void OneWay::declare_one_way(Declaration& declaration, EventFunction opening) const {
   declare_references(declaration);
   declaration.memory = {0, 0, 0, 0};
-  EventFunction closing{"one-way clutch on " + coordinate().name + " holds", EventFunction::Direction::falling};
-  opening.name = "one-way clutch on " + coordinate().name + " opens";
+  EventFunction closing{fmt::format("one-way clutch on {} holds", coordinate().name),
+                        EventFunction::Direction::falling};
+  opening.name = fmt::format("one-way clutch on {} opens", coordinate().name);
   closing.begins_on = 1;
   closing.nearest = 1e-5;
   declaration.event_functions = {closing, opening};
@@ -120,7 +121,7 @@ void RigidOneWay::declare(Declaration& declaration) const {
   opening.begins_on = -1;
   opening.reads_reaction = true;
   declare_one_way(declaration, opening);
-  EventFunction taking{"one-way clutch on " + coordinate().name + " holds in place of another",
+  EventFunction taking{fmt::format("one-way clutch on {} holds in place of another", coordinate().name),
                        EventFunction::Direction::rising};
   taking.begins_on = -1;
   taking.exchanges = true;
