@@ -17,8 +17,8 @@ namespace bielle::reduce {
 
 namespace {
 
-/// A verification takes several factorisations: 105,000 unknowns of solid cells 47 s of processor time and 1.4 GB. Larger
-/// sets are verified only on request.
+/// A verification takes several factorisations: 105,000 unknowns of solid cells 47 s of processor time and 1.4 GB.
+/// Larger sets are verified only on request.
 constexpr Eigen::Index most_verified = 150000;
 
 /// Verifies the matrices as they were read. @returns the line of the summary

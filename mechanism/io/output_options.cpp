@@ -97,6 +97,20 @@ void read_fields(const YamlValue& fields, Model& model) {
   });
 }
 
+/// Reads `quantities: {rod: [gauges]}`: numbers that the file of another program recovers.
+void read_quantities(const YamlValue& quantities, Model& model) {
+  for_each_element(quantities, model, [](Component& component, const std::string& /*element*/, const YamlValue& names) {
+    MeshFields* mesh = component.mesh_fields();
+    if (!mesh) names.fail(fmt::format("a {} has no quantities; `quantities` is for superelements", component.type()));
+    if (names.size() == 0) names.fail("expected one or more quantities of the superelement's file");
+    for (const YamlValue& name : names.items()) {
+      for (const OutputField& recorded : component.output_fields())
+        if (recorded.name == name.text()) name.fail(fmt::format("'{}' is recorded already", name.text()));
+      at_place_of(name, [&] { mesh->record_quantity(name.text()); });
+    }
+  });
+}
+
 /// Reads a point of a mesh, `[x, y, z]`, or the number of one of its nodes.
 MeshPlace read_mesh_place(const YamlValue& value) {
   MeshPlace place;
@@ -195,6 +209,8 @@ const KeyTable& output_keys() {
         "Points of superelements at which the strain is recorded: each in the mesh's axes, or the number of a node "
         "from "
         "0."},
+       {"quantities", entries("element", {list_of(text()).items_at_least(1)}), optional,
+        "Quantities of superelements that the file of another program recovers, such as the stress of gauges."},
        {"peaks", entries("element", {list_of(word({"von_mises", "principal_stress"}, "a peak")).items_at_least(1)}),
         optional, "Stresses of superelements of which the largest values over all accepted steps are recorded."},
        {"layout",
@@ -228,6 +244,7 @@ OutputOptions read_output(const YamlValue& section, double end, bool statics, Mo
   if (const auto fields = entry.find("fields")) read_fields(*fields, model);
   for (const char* field : {"stress", "strain"})
     if (const auto points = entry.find(std::string(field) + "_at")) read_points(*points, field, model);
+  if (const auto quantities = entry.find("quantities")) read_quantities(*quantities, model);
   if (const auto peaks = entry.find("peaks")) read_peaks(*peaks, model);
   return output;
 }

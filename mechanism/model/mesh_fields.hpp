@@ -25,6 +25,8 @@ class MeshFields {
   virtual std::vector<std::string> field_names() const = 0;
   /// Adds one of them to the outputs of the component.
   virtual void record_field(const std::string& field) = 0;
+  /// Adds a quantity that the file of another program recovers to the outputs.
+  virtual void record_quantity(const std::string& name) = 0;
   /// Names of the fields that can be recorded at a single point: "stress".
   virtual std::vector<std::string> point_field_names() const = 0;
   /// Records one of them at a place of the mesh. @param name  under which it is recorded

@@ -340,6 +340,10 @@ std::vector<std::string> SuperelementBody::field_names() const { return Recovere
 
 void SuperelementBody::record_field(const std::string& field) { recovered_.add_field(field, read_superelement(file_)); }
 
+void SuperelementBody::record_quantity(const std::string& name) {
+  recovered_.add_quantity(name, read_superelement(file_));
+}
+
 std::vector<std::string> SuperelementBody::point_field_names() const { return {"stress", "strain"}; }
 
 void SuperelementBody::record_at(const std::string& field, const std::string& name, const MeshPlace& place) {

@@ -96,6 +96,7 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   MeshFields* mesh_fields() override { return this; }
   std::vector<std::string> field_names() const override;
   void record_field(const std::string& field) override;
+  void record_quantity(const std::string& name) override;
   std::vector<std::string> point_field_names() const override;
   void record_at(const std::string& field, const std::string& name, const MeshPlace& place) override;
   std::vector<std::string> peak_names() const override;

@@ -19,7 +19,8 @@ FOLDERS = ("../../bin", "../../../../bin")  # folders of the programs from here:
 def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C: Any = None,
                  interfaces: Mapping[str, int] | None = None, scalars: int = 0, nodes: Sequence[int] | None = None,
                  unknowns: Sequence[tuple[int, int]] | None = None, axes: Any = None, name: str | None = None,
-                 length_unit: str = "m", mass_unit: str = "kg", arguments: Sequence[str] = (),
+                 points: Any = None, displacement: Any = None, stress: Any = None,
+                 quantities: Mapping[str, tuple[Any, Sequence[str], str | Sequence[str]]] | None = None, length_unit: str = "m", mass_unit: str = "kg", arguments: Sequence[str] = (),
                  program: str | os.PathLike | None = None) -> str:
     """Makes a superelement file of stiffness and mass of a free linear body: `bielle-reduce --from`.
 
@@ -30,6 +31,9 @@ def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C
     interfaces: numbers of the nodes that a mechanism uses, by name; without it, all nodes.
     unknowns: a pair (number of the node, component 0 to 5: x y z rx ry rz) for each row; node 0: a scalar coordinate, such as
     the amplitude of a mode. Without it, rows are x y z (rx ry rz, if there are as many) of the nodes in order, then `scalars`.
+    points: (p,3) places inside, displacement: (3p,n), x y z of each as functions of the unknowns, stress: (6p,n), xx yy zz yz xz xy
+    of each, body axes. quantities: further numbers that follow from the unknowns, such as the strain of gauges, by name:
+    a matrix (k,n), names of its rows and their unit or units (Pa, -, N, N m, m, rad), which mechanisms record on request.
     arguments: further ones of bielle-reduce. program: its path, unless it is installed next to this package or in PATH.
     Returns the path of the file. Raises InputError with the sentence of the program.
     """
@@ -40,7 +44,8 @@ def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C
         raise _core.Error(f"superelement: {error}; it needs python3-h5py, python3-scipy and the folder bielle_tools "
                           "of the package") from None
     try:
-        matrices = npz_matrices.matrices_of("superelement", _arrays(K, M, C, positions, scalars, nodes, unknowns, axes, interfaces),
+        matrices = npz_matrices.matrices_of("superelement", _arrays(K, M, C, positions, scalars, nodes, unknowns, axes, interfaces) |
+                                            _recovery(points, displacement, stress, quantities),
                                             name or os.path.basename(os.fspath(output)).partition(".")[0], "Python")
         matrices.length_unit, matrices.mass_unit = length_unit, mass_unit
         matrices.check()
@@ -87,6 +92,17 @@ def _arrays(K: Any, M: Any, C: Any, positions: Any, scalars: int, nodes: Any, un
     arrays |= {"unknown_nodes": pairs[:, 0], "unknown_components": pairs[:, 1]}
     if interfaces:
         arrays |= {"interface_names": list(interfaces), "interface_nodes": list(interfaces.values())}
+    return arrays
+
+
+def _recovery(points: Any, displacement: Any, stress: Any, quantities: Any) -> dict[str, Any]:
+    """Recovered quantities by the keys of an .npz file of matrices."""
+    given = {"points": points, "displacement": displacement, "stress": stress}
+    arrays: dict[str, Any] = {key: array for key, array in given.items() if array is not None}
+    if stress is not None and points is not None:
+        arrays["stress_points"] = np.arange(1, len(points) + 1)
+    for name, (matrix, rows, units) in (quantities or {}).items():
+        arrays |= {f"quantity.{name}.matrix": matrix, f"quantity.{name}.rows": np.array(list(rows), str), f"quantity.{name}.units": np.array(units, str)}
     return arrays
 
 

@@ -48,6 +48,24 @@ class Superelements(unittest.TestCase):
             self.assertEqual(file["unknowns/components"][()].tolist(), [2, 0, 0])
             self.assertIn("damping", file)
 
+    def test_recovery(self):
+        gauges = np.arange(14.0).reshape(2, 7)
+        bielle.superelement(self.output, K, M, PLACES, scalars=1, points=[[0.5, 0, 0]], displacement=np.ones((3, 7)), stress=np.ones((6, 7)),
+                            quantities={"gauges": (gauges, ["front", "rear"], "Pa"), "ends": (gauges, ["pull", "bend"], ["N", "N m"])})
+        with h5py.File(self.output) as file:
+            self.assertEqual(file["shapes/stress"].shape, (6, 7))
+            np.testing.assert_array_equal(file["quantities/gauges/matrix"], gauges)
+            self.assertEqual(file["quantities/gauges/rows"].asstr()[()].tolist(), ["front", "rear"])
+            self.assertEqual(file["quantities/ends/units"].asstr()[()].tolist(), ["N", "N m"])
+        for quantities, told in (({"gauges": (gauges[:, :6], ["a", "b"], "Pa")}, "'quantity.gauges.matrix' is float64 of shape (2, 6)"),
+                                 ({"gauges": (gauges, ["a"], "Pa")}, "the quantity 'gauges' has 1 row"),
+                                 ({"gauges": (gauges, ["a", "b"], "MPa")}, "the unit 'MPa'"), ({"a b": (gauges, ["a", "b"], "Pa")}, "there is no key")):
+            with self.subTest(told), self.assertRaises(bielle.InputError) as caught:
+                bielle.superelement(self.output, K, M, PLACES, scalars=1, quantities=quantities)
+            self.assertIn(told, str(caught.exception))
+        with self.assertRaisesRegex(bielle.InputError, "'stress' belongs to 'points'"):
+            bielle.superelement(self.output, K, M, PLACES, scalars=1, stress=np.ones((6, 7)))
+
     def test_wrong_arrays(self):
         for arguments, told in (((K, M[:3, :3], PLACES), "7 rows are not 3 or 6 unknowns of each of 2 nodes and 0 scalars"),
                                 ((K[:6, :6], M, PLACES), "the mass has 7 x 7 entries for 6 unknowns"),

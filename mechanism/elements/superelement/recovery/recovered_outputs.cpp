@@ -4,6 +4,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "mechanism/elements/superelement/recovery/stress_tiles.hpp"
 #include "reduce/common/error.hpp"
@@ -57,6 +58,23 @@ void RecoveredOutputs::add_point(const std::string& field, const std::string& na
   points_.push_back({made, take(description), std::move(one)});
 }
 
+void RecoveredOutputs::add_quantity(const std::string& name, const Superelement& body) {
+  std::vector<std::string> names;
+  for (const auto& [known, quantity] : body.quantities) names.push_back(known);
+  const auto found = body.quantities.find(name);
+  if (found == body.quantities.end())
+    throw InputError(
+        names.empty()
+            ? fmt::format("the superelement '{}' holds no quantities of another program: a body file reads them by "
+                          "`matrices: {{quantities: ..}}`",
+                          body.name)
+            : fmt::format("'{}' is no quantity of '{}'{}", name, body.name, did_you_mean(name, names)));
+  const RecoveredQuantity& quantity = found->second;
+  const OutputField description = {
+      name, {quantity.rows.size()}, quantity.all_units(), fmt::format("{}", fmt::join(quantity.rows, ", "))};
+  quantities_.push_back({take(description), quantity.matrix});
+}
+
 // -- writing
 
 void RecoveredOutputs::write(const FrameBlock& coordinates, std::span<double* const> values, std::size_t begin) const {
@@ -70,6 +88,10 @@ void RecoveredOutputs::write(const FrameBlock& coordinates, std::span<double* co
         each.field.derive(*stress_, row, s,
                           at(frame, each.offset + static_cast<std::size_t>(row) * each.field.components()));
     });
+  for (const Quantity& quantity : quantities_)
+    for (int frame = 0; frame < coordinates.frames(); ++frame)
+      Eigen::Map<VectorX>(at(frame, quantity.offset), quantity.matrix.rows()).noalias() =
+          quantity.matrix * coordinates.of(frame);
   for (const Point& point : points_)
     for_each_stress(point.stress, coordinates, [&](int row, int frame, const double* s) {
       point.field.derive(point.stress, row, s, at(frame, point.offset));

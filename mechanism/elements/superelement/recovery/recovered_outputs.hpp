@@ -19,6 +19,8 @@ class RecoveredOutputs {
   void add_field(const std::string& field, const Superelement& body);
   /// Adds a field of stress at the node nearest to a place, recorded as "<field>_at_<name>".
   void add_point(const std::string& field, const std::string& name, const MeshPlace& place, const Superelement& body);
+  /// Adds a quantity of the superelement's file, recorded under its name.
+  void add_quantity(const std::string& name, const Superelement& body);
   /// Reads the stress of all nodes, which all derived quantities share.
   void load_stress(const Superelement& body);
   std::shared_ptr<const StressRecovery> stress() const { return stress_; }
@@ -42,6 +44,10 @@ class RecoveredOutputs {
     std::size_t offset;
     StressRecovery stress;
   };
+  struct Quantity {
+    std::size_t offset;
+    MatrixX matrix;  ///< (rows, n)
+  };
   std::size_t take(const OutputField& description);
   void write_displacement(const FrameBlock& coordinates, std::span<double* const> values, std::size_t begin) const;
 
@@ -49,6 +55,7 @@ class RecoveredOutputs {
   std::shared_ptr<const StressRecovery> stress_;
   std::vector<Field> of_displacement_, of_stress_;
   std::vector<Point> points_;
+  std::vector<Quantity> quantities_;
   std::vector<OutputField> descriptions_;
   std::vector<std::pair<std::string, std::string>> facts_;
   std::size_t size_ = 0;

@@ -24,6 +24,10 @@ class FrameBlock {
   void set(int frame, const double* q);
   int frames() const { return frames_; }
   int groups() const { return (frames_ + frames_abreast - 1) / frames_abreast; }
+  /// Coordinates of one frame.
+  Eigen::Map<const VectorX, 0, Eigen::InnerStride<frames_abreast>> of(int frame) const {
+    return {group(frame / frames_abreast) + frame % frames_abreast, coordinates_};
+  }
   /// Coordinates of eight frames: (coordinates, frames_abreast).
   const double* group(int g) const { return values_.data() + begin_ + g * frames_abreast * coordinates_; }
 

@@ -15,7 +15,7 @@ StressRecovery::StressRecovery(const Superelement& body)
     throw InputError(
         fmt::format("the superelement '{}' holds nothing to recover stress from; reduce it with `recovery: {{stress: "
                     "surface}}`, or "
-                    "`all`",
+                    "`all`; that of another program's matrices comes from their file",
                     body.name));
   points = body.mesh.points(Eigen::all, nodes);
   for (const StressMaterial& material : body.stress_origin.materials)

@@ -161,7 +161,7 @@ TEST_CASE("Units that were not declared are guessed") {
   const auto [name, length, mass, time] = GENERATE(table<std::string, double, double, double>(
       {{"mm-t-s", 1e3, 1e-3, 1}, {"mm-kg-ms", 1e3, 1, 1e3}, {"in-slinch-s", 1 / 0.0254, 1 / 175.126836, 1}}));
   in_units(length, mass, time, set);
-  CHECK_THAT(test::faults_of(set), Contains("its units are probably those of --units " + name + "\n"));
+  CHECK_THAT(test::faults_of(set), Contains("its units are probably " + name + ": `--units " + name + "`"));
   set.has_units = true;  // declared: not questioned
   CHECK_THAT(test::faults_of(set), !Contains("--units"));
 }

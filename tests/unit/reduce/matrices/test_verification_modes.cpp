@@ -97,6 +97,21 @@ TEST_CASE("Different bodies are told apart") {
   CHECK(finding_of(found, "against_first_shape").passed());
 }
 
+TEST_CASE("Inertias are compared entry by entry about one point") {
+  // A body that is moved has the same inertia about its own centre, and another one about that of its twin.
+  MatrixSet moved = test::beam_set(6);
+  moved.positions.row(1).array() += 0.1;
+  const VerifiedSubject shifted = compare(moved, test::beam_set(6));
+  CHECK_FALSE(finding_of(shifted, "against_centre").passed());
+  CHECK_THAT(finding_of(shifted, "against_inertia").fault, Contains("their inertias about (1, 0, 0) m differ: x"));
+  // m d^2 = 6 * 0.01 kg m^2 about x, whose own moment, 2e-4 kg m^2, is below the floor of 1e-4 of the largest, 2 kg
+  // m^2.
+  CHECK(finding_of(shifted, "against_inertia").check.value == Approx(0.06 / 2e-4).epsilon(0.02));
+  MatrixSet twisted = test::beam_set(6);
+  for (Eigen::Index k = 3; k < twisted.size(); k += 6) twisted.mass.coeffRef(k, k) *= 1.5;
+  CHECK_THAT(finding_of(compare(twisted, test::beam_set(6)), "against_inertia").fault, Contains("xx is"));
+}
+
 TEST_CASE("The verdict's MAC is that of the shapes on the mesh") {
   const Mesh mesh = test::twisted_block();
   const int modes = GENERATE(2, 8);
