@@ -11,7 +11,7 @@ namespace bielle::python {
 namespace {
 
 // The references are borrowed from the module, which is never destroyed.
-PyObject *error = nullptr, *input_error = nullptr, *computation_error = nullptr;
+PyObject *any_error = nullptr, *input_error = nullptr, *computation_error = nullptr;
 
 void set(PyObject* type, const std::exception& thrown) {
   PyErr_SetString(type, without_unseen_lines(thrown.what()).c_str());
@@ -26,7 +26,7 @@ void translate(std::exception_ptr thrown) {
     set(computation_error, failed);
   } catch (const std::logic_error& refused) {
     if (typeid(refused) != typeid(std::logic_error)) throw;  // out_of_range and similar have exceptions of Python
-    set(error, refused);
+    set(any_error, refused);
   }
 }
 
@@ -40,18 +40,19 @@ PyObject* add(pybind11::module_& module, const char* name, const char* doc, PyOb
 }  // namespace
 
 void bind_errors(pybind11::module_& module) {
-  error = add(module, "Error", "What Bielle cannot do: an InputError, a ComputationError, or a call at the wrong time.",
-              PyExc_Exception);
+  any_error =
+      add(module, "Error", "What Bielle cannot do: an InputError, a ComputationError, or a call at the wrong time.",
+          PyExc_Exception);
   input_error =
       add(module, "InputError",
           "The input is wrong. The sentence names the file or text, the line and key, what was expected and the "
           "nearest valid name.",
-          error);
+          any_error);
   computation_error =
       add(module, "ComputationError",
           "A correct input led to a computation that failed. The sentence names the cause: which joint, "
           "which element, which time.",
-          error);
+          any_error);
   pybind11::register_local_exception_translator(translate);
   module.def("did_you_mean", [](const std::string& name, const std::vector<std::string>& candidates) {
     return did_you_mean(name, candidates);

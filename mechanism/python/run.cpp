@@ -22,8 +22,8 @@ struct KeptNotes : Notes {
 };
 
 /// Returns recorder, [(summary, numbers, rows) of each analysis], notes.
-py::tuple run(const std::shared_ptr<MechanismFile>& file, const std::string& output, const std::string& restart,
-              int threads, bool progress, bool memory) {
+py::tuple run_file(const std::shared_ptr<MechanismFile>& file, const std::string& output, const std::string& restart,
+                   int threads, bool progress, bool memory) {
   if (file->analyses.empty()) throw InputError("nothing to do: the model has no `analysis`");
   if (threads < 1) throw InputError("threads: expected a whole number of at least 1");
   const auto recorder = std::make_shared<Recorder>(file, nullptr);
@@ -45,6 +45,6 @@ py::tuple run(const std::shared_ptr<MechanismFile>& file, const std::string& out
 
 }  // namespace
 
-void bind_run(py::module_& module) { module.def("run", run); }
+void bind_run(py::module_& module) { module.def("run", run_file); }
 
 }  // namespace bielle::python

@@ -31,6 +31,10 @@ target_compile_definitions(bielle_options INTERFACE EIGEN_DONT_PARALLELIZE BIELL
 # The option applies to every library and test: sources share a precompiled header, and flags that define macros must
 # agree with it.
 target_compile_options(bielle_options INTERFACE $<BUILD_INTERFACE:${OpenMP_CXX_FLAGS}>)
+# {fmt} evaluates each format string while it is compiled if its constructor is consteval.
+if(NOT BIELLE_CHECK_FORMATS)
+  target_compile_definitions(bielle_options INTERFACE $<BUILD_INTERFACE:FMT_CONSTEVAL=>)
+endif()
 if(BIELLE_NATIVE)
   target_compile_options(bielle_options INTERFACE -march=native)
 endif()
@@ -80,6 +84,16 @@ function(bielle_tests name)
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " ${properties})
 endfunction()
 
+# bielle_uncritical(): the libraries of this folder that follow read, check and describe, and leave the computation to
+# others. In a release they are optimised less, which takes the compiler half the time, and so is their precompiled
+# header: GCC optimises functions as the precompiled header was, whatever the options of the source are.
+macro(bielle_uncritical)
+  if(CMAKE_BUILD_TYPE STREQUAL Release)
+    add_compile_options(-O1)
+    set(BIELLE_PRECOMPILED ${BIELLE_PRECOMPILED}_uncritical)
+  endif()
+endmacro()
+
 # bielle_fast_to_compile(SOURCE ...): sources of the current folder that consist of headers of others and are not
 # critical for speed (CLI11, Catch2's main): optimising them takes the compiler seconds and has no benefit.
 function(bielle_fast_to_compile)
@@ -87,11 +101,21 @@ function(bielle_fast_to_compile)
 endfunction()
 
 # bielle_library_headers(NAME header ...): a precompiled header for all libraries that follow, besides the heavy
-# headers. Libraries are position-independent code, and so must be their precompiled header.
+# headers, and in a release a second one for uncritical libraries. Libraries are position-independent code, and so must
+# be their precompiled headers.
 function(bielle_library_headers name)
-  bielle_precompiled_header(${name} ${BIELLE_HEAVY_HEADERS} ${ARGN})
-  if(TARGET ${name})
-    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set(precompiled ${name})
+  if(CMAKE_BUILD_TYPE STREQUAL Release)
+    list(APPEND precompiled ${name}_uncritical)
+  endif()
+  foreach(target ${precompiled})
+    bielle_precompiled_header(${target} ${BIELLE_HEAVY_HEADERS} ${ARGN})
+    if(TARGET ${target})
+      set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
+  endforeach()
+  if(TARGET ${name}_uncritical)
+    target_compile_options(${name}_uncritical PRIVATE -O1)
   endif()
   set(BIELLE_PRECOMPILED ${name} PARENT_SCOPE)
 endfunction()

@@ -58,7 +58,7 @@ const char* bielle::build_facts() {
          \"libraries  ${libraries}\\n\";
 }
 ")
-  set_source_files_properties(${source} PROPERTIES GENERATED ON SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${source} PROPERTIES GENERATED ON SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${source})
   target_link_libraries(${target} PRIVATE bielle_commit bielle_explanations)
 endfunction()
