@@ -4,6 +4,7 @@ A start of the interpreter with numpy, h5py and matplotlib takes a second. The c
 runs the script of the tool from its first line, with its own arguments, folder, environment, output and exit status.
 """
 
+import ast
 import contextlib
 import gc
 import importlib
@@ -59,8 +60,29 @@ def prepare_figures():
     gc.freeze()
 
 
+_imported_for = set()
+
+
+def import_for(script):
+    """Imports, once, the modules that a script names at its head, so that the copies of this process have them."""
+    if script in _imported_for:
+        return
+    _imported_for.add(script)
+    if TOOLS not in sys.path:
+        sys.path.insert(0, TOOLS)
+    with open(script, encoding="utf-8") as file:
+        heads = [node for node in ast.parse(file.read()).body if isinstance(node, (ast.Import, ast.ImportFrom))]
+    for node in heads:
+        names = [name.name for name in node.names]
+        for name in names if isinstance(node, ast.Import) else [node.module, *(f"{node.module}.{each}" for each in names)]:
+            with contextlib.suppress(ImportError):  # a function; or the script itself tells that the module is missing
+                importlib.import_module(name)
+    gc.freeze()
+
+
 def run_python_tool(script, arguments, folder=None, environment=None, timeout=240):
     """@returns a subprocess.CompletedProcess with the status, output and errors (text); @throws TimeoutExpired"""
+    import_for(script)
     with tempfile.TemporaryFile("w+", encoding="utf-8") as output, tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
         sys.stdout.flush()
         sys.stderr.flush()

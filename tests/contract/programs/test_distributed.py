@@ -75,8 +75,8 @@ class Distributed(CommandTest):
     program = "bielle-reduce"
 
     def start(self, ranks, *arguments):
-        environment = dict(os.environ, OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1",  # ranks that wait leave the cores to others
-                           OPENBLAS_NUM_THREADS="1")
+        environment = dict(os.environ, OMPI_MCA_rmaps_base_oversubscribe="1", OPENBLAS_NUM_THREADS="1",
+                           OMPI_MCA_mpi_yield_when_idle="1")  # ranks that wait leave the cores to others
         if os.geteuid() == 0:
             environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
         return subprocess.Popen(["mpirun", "-n", str(ranks), PROGRAM, *arguments], cwd=self.folder, env=environment, text=True,

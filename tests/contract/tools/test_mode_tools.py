@@ -233,10 +233,10 @@ class OfThePrograms(Tools):
                 self.assertGreater(np.abs(drawn[-1][1] - drawn[-1][0]).max(), 0.01)
 
     def test_animations_and_paraview(self):
-        self.assertEqual(self.succeed("bielle-animate", "model.h5", "--mode", "3").strip(), "model_mode_3.gif")
+        self.assertEqual(self.succeed("bielle-animate", "model.h5", "--mode", "3", "--size", "320x240").strip(), "model_mode_3.gif")
         with Image.open(self.path("model_mode_3.gif")) as picture:
             self.assertEqual(picture.n_frames, 24)
-        self.succeed("bielle-animate", "model.h5", "--mode", "3", "-o", "sheet.png", "--amplitude", "0.2")
+        self.succeed("bielle-animate", "model.h5", "--mode", "3", "-o", "sheet.png", "--amplitude", "0.2", "--size", "320x240")
         said = self.succeed("bielle-paraview", "model.h5", "--mode", "3", "--frames", "8", "--volume")
         self.assertIn("array 'node': 0 foot, 1 end, 2 head", said)
         parts = {}
