@@ -31,10 +31,6 @@ target_compile_definitions(bielle_options INTERFACE EIGEN_DONT_PARALLELIZE BIELL
 # The option applies to every library and test: sources share a precompiled header, and flags that define macros must
 # agree with it.
 target_compile_options(bielle_options INTERFACE $<BUILD_INTERFACE:${OpenMP_CXX_FLAGS}>)
-# {fmt} evaluates each format string while it is compiled if its constructor is consteval.
-if(NOT BIELLE_CHECK_FORMATS)
-  target_compile_definitions(bielle_options INTERFACE $<BUILD_INTERFACE:FMT_CONSTEVAL=>)
-endif()
 if(BIELLE_NATIVE)
   target_compile_options(bielle_options INTERFACE -march=native)
 endif()
