@@ -16,7 +16,8 @@ FEWEST = 2   # things attached to a node without a shape, from which on arms are
 
 def arms_of(builder, items):
     """Parts. builder.covered: {node: [(entry, type, low (3), high (3))]}, boxes of shapes in the axes of the node"""
-    bodies, nodes = ({item.get("node") for item in items if item["shape"] == shape} for shape in ("body", "node"))
+    bodies, nodes = ({item.get("node") for item in items if item["shape"] == shape and isinstance(item.get("node"), str)}
+                     for shape in ("body", "node"))
     flexible = {item["element"].partition("/")[2] for item in items if item["shape"] in ("beam", "superelement")}
     found = []
     for node, points in builder.attached.items():
