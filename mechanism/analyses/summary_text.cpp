@@ -115,9 +115,12 @@ std::string format_start(const StartReport& start) {
         "  {}: it has no mass, and no place near by where its forces balance: the first steps tear it somewhere, with "
         "velocities that mean nothing\n",
         start.unbalanced);
-  if (start.velocity_change > 1e-9)
-    text += fmt::format("  start velocities were changed by up to {:.3g} m/s to satisfy joints and drives\n",
-                        start.velocity_change);
+  if (start.velocity_change > 1e-9 || start.angular_change > 1e-9) {
+    const std::string linear = start.velocity_change > 1e-9 ? fmt::format("{:.3g} m/s", start.velocity_change) : "",
+                      angular = start.angular_change > 1e-9 ? fmt::format("{:.3g} rad/s", start.angular_change) : "";
+    text += fmt::format("  start velocities were changed by up to {}{}{} to satisfy joints and drives\n", linear,
+                        linear.empty() || angular.empty() ? "" : " and ", angular);
+  }
   for (const CarriedPart& part : start.carried) text += format_carried(part);
   if (!start.following.empty())
     text += fmt::format("  start rates that follow from others, and agree with them: {}\n",

@@ -1,8 +1,5 @@
 #include "mechanism/solvers/start/consistent_velocities.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace bielle::mechanism {
 
 void make_velocities_consistent(const System& system, const Environment& environment, State& state, StartReport& report,
@@ -17,9 +14,7 @@ void make_velocities_consistent(const System& system, const Environment& environ
     system.for_each_idle(state, [&](int k) { r[system.size() - system.multipliers() + k] = 0; });
     saddle.factor(environment, state);
     saddle.solve(r, step);
-    for (int i = 0; i < system.dofs(); ++i)
-      if (system.kind(i) == Kind::translation)
-        report.velocity_change = std::max(report.velocity_change, std::abs(step[i]));
+    report.note_change(system, v, step.head(system.dofs()));
     v += step.head(system.dofs());
     // Impulses -B^T mu do work during the change; constraints with a prescribed motion, B v + c = 0, take c mu from
     // their drive.

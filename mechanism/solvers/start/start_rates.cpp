@@ -102,9 +102,7 @@ void set_start_rates(const System& system, const Environment& environment, State
     const VectorX factors = solve_symmetric(MatrixX(0.5 * (S + S.transpose())), lacking);
     for (Eigen::Index k = 0; k < count; ++k) {
       const VectorX change = factors[k] * Z.col(k);
-      for (int i = 0; i < system.dofs(); ++i)
-        if (system.kind(i) == Kind::translation)
-          report.velocity_change = std::max(report.velocity_change, std::abs(change[i]));
+      report.note_change(system, v, change);
       v += change;
     }
     system.set_rates(state, v, a);

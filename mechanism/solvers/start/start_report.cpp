@@ -16,6 +16,7 @@ void StartReport::add(const StartReport& later) {
   }
   largest_rotation = std::max(largest_rotation, later.largest_rotation);
   velocity_change = std::max(velocity_change, later.velocity_change);
+  angular_change = std::max(angular_change, later.angular_change);
   if (later.settled > settled) {
     settled = later.settled;
     settled_node = later.settled_node;
@@ -35,6 +36,14 @@ void StartReport::add(const StartReport& later) {
   moved_coordinates.insert(moved_coordinates.end(), later.moved_coordinates.begin(), later.moved_coordinates.end());
   following.insert(following.end(), later.following.begin(), later.following.end());
   carried.insert(carried.end(), later.carried.begin(), later.carried.end());
+}
+
+void StartReport::note_change(const System& system, const VectorX& before, const VectorX& change) {
+  for (int i = 0; i < system.dofs(); ++i) {
+    const double size = std::abs(change[i]);
+    if (system.kind(i) == Kind::translation) velocity_change = std::max(velocity_change, size);
+    if (system.kind(i) == Kind::rotation && before[i] != 0) angular_change = std::max(angular_change, size);
+  }
 }
 
 void note_farthest(const System& system, const State& from, const State& to, double& distance, std::string& node) {

@@ -34,6 +34,7 @@ struct StartReport {
   std::string displaced_node;          ///< name of that node
   double largest_rotation = 0;         ///< [rad]
   double velocity_change = 0;          ///< largest change of a nodal velocity [m/s]
+  double angular_change = 0;           ///< largest change of a nodal angular velocity that was not zero [rad/s]
   double impulse_work = 0;             ///< work of drives and supports that cause this change [J]
   double settled = 0;                  ///< largest displacement of a node by static equilibrium, if requested [m]
   std::string settled_node;            ///< name of that node
@@ -50,6 +51,8 @@ struct StartReport {
       following;  ///< start rates that follow from others and agree with them: "angle of joint 'b'"
   std::vector<CarriedPart> carried;
   void add(const StartReport& later);
+  /// Records changes of velocities. @param before,change  (dofs)
+  void note_change(const System& system, const VectorX& before, const VectorX& change);
 };
 
 /// Records the node that has moved farthest from one state to another, if it is farther than the one already recorded.

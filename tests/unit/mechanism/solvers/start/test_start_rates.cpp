@@ -89,6 +89,22 @@ joints:
   CHECK(report.velocity_change == Approx(3 - 1.8).epsilon(1e-12));
 }
 
+TEST_CASE("angular velocities that joints take away are reported, those that drives give are not") {
+  const auto angular_change = [](const std::string& keys) {
+    Session session(read_mechanism_text("nodes: {wheel: {" + keys +
+                                            "}}\nelements: {wheel: {type: rigid_body, node: wheel, mass: 1, inertia: "
+                                            "[1, 2, 3]}}\njoints: {axle: {type: hinge, nodes: [ground, wheel], axis: "
+                                            "[0, 0, 1]}}\ndrives: {motor: {joint: axle, rate: 5}}\n",
+                                        "wheel.yaml")
+                        .model);
+    return session.assemble().angular_change;
+  };
+  CHECK(angular_change("angular_velocity: [7, 0, 5]") == Approx(7).epsilon(1e-12));
+  CHECK(angular_change("angular_velocity: [0, 0, 2]") == Approx(3).epsilon(1e-12));
+  CHECK(angular_change("angular_velocity: [0, 0, 5]") == Approx(0).margin(1e-12));
+  CHECK(angular_change("position: [0, 0, 0]") == 0);
+}
+
 TEST_CASE("start rates that follow from others have to agree with them") {
   const std::string agreeing = fmt::format(", start_rate: {:.17g}", 4 * rate_ratio());
   Session session(read_mechanism_text(four_bar(", start_rate: 4", agreeing), "bar.yaml").model);
