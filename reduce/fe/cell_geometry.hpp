@@ -91,26 +91,8 @@ double map_point(const CellRule<N>& rule, std::size_t p, const CellPoints<N>& x,
 }
 
 /// Whether the Jacobian is constant: the mid-side nodes of a tetrahedron are in the middle of their edges, another cell
-/// is the image of its reference cell under a linear map.
-template <int N>
-bool is_straight(const CellPoints<N>& x) {
-  if constexpr (N == 4) return true;
-  if constexpr (SolidCell<N>::is_simplex) {
-    int node = 4;
-    for (const auto& [a, b] : cell_info(CellType::tet10).edges)
-      if ((x.col(node++) - (x.col(a) + x.col(b)) / 2).squaredNorm() > 1e-20 * (x.col(b) - x.col(a)).squaredNorm())
-        return false;
-    return true;
-  } else {
-    // The linear map that fits best: x = x_m + A (xi - xi_m), with the pseudo-inverse of the local nodes.
-    static const Eigen::Matrix<double, 3, N> local = local_nodes(SolidCell<N>::type);
-    static const Eigen::Matrix<double, 3, N> centred = local.colwise() - local.rowwise().mean();
-    static const Eigen::Matrix<double, N, 3> inverse = centred.transpose() * (centred * centred.transpose()).inverse();
-    const CellPoints<N> around = x.colwise() - x.rowwise().mean();
-    const Eigen::Matrix3d map = around * inverse;
-    return (around - map * centred).squaredNorm() <= 1e-20 * around.squaredNorm();
-  }
-}
+/// is the image of its reference cell under a linear map. @param x  points of the nodes (3, nodes of the type)
+bool is_straight(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x);
 
 /// Degrees of the rules for straight cells and for others, see cell_quadrature.
 struct CellDegrees {
@@ -124,7 +106,7 @@ struct CellRules {
   explicit CellRules(CellDegrees degrees)
       : straight(cell_quadrature(SolidCell<N>::type, degrees.straight)),
         curved(cell_quadrature(SolidCell<N>::type, degrees.curved)) {}
-  const CellRule<N>& of(const CellPoints<N>& x) const { return is_straight<N>(x) ? straight : curved; }
+  const CellRule<N>& of(const CellPoints<N>& x) const { return is_straight(SolidCell<N>::type, x) ? straight : curved; }
 };
 
 /// Degrees for the stiffness: exact for straight cells; the usual two or three points in each direction of others, by

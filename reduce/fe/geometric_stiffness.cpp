@@ -92,7 +92,7 @@ void add_cells(const SolidBlock& block, const NodeGraph& graph, const RowMatrix&
       for (std::size_t k = 0; k < colour.size(); ++k) {
         const int e = colour[k];
         const CellPoints<N> x = block.points<N>(e);
-        const CellRule<N>& rule = is_straight<N>(x) ? straight : curved;
+        const CellRule<N>& rule = is_straight(SolidCell<N>::type, x) ? straight : curved;
         const auto points = static_cast<Index>(rule.size());
         const Eigen::Matrix<double, 6, 6> elasticity = block.elasticity(e);
         set_strains(

@@ -11,9 +11,7 @@
 // (1976) 1211-1219.
 #pragma once
 
-#include <array>
-
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include "reduce/fe/cell_fields.hpp"
 #include "reduce/fe/cell_geometry.hpp"
@@ -21,16 +19,7 @@
 
 namespace bielle::reduce {
 
-/// Strains by the displacements of the nodes, from the gradients of their shape functions: (6, 3 nodes).
-template <int N>
-Eigen::Matrix<double, 6, 3 * N> strain_matrix(const Eigen::Matrix<double, N, 3>& gradients) {
-  Eigen::Matrix<double, 6, 3 * N> B = Eigen::Matrix<double, 6, 3 * N>::Zero();
-  for (int a = 0; a < N; ++a)
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) B(voigt(i, j), 3 * a + i) += gradients(a, j);
-  return B;
-}
-
+/// `set` and `strain` exist for cells that have such modes, and are compiled once.
 template <int N>
 class InternalModes {
  public:
@@ -49,61 +38,21 @@ class InternalModes {
   bool active() const { return active_; }
 
   /// Condenses the modes of a cell that is nowhere inverted.
-  void set(const CellPoints<N>& x, const Matrix6& elasticity) {
-    const Eigen::Matrix3d jacobian = x * middle_;
-    inverse_ = jacobian.inverse();
-    determinant_ = jacobian.determinant();
-    Eigen::Matrix<double, count, count> K_aa = Eigen::Matrix<double, count, count>::Zero();
-    Eigen::Matrix<double, count, 3 * N> K_au = Eigen::Matrix<double, count, 3 * N>::Zero();
-    Eigen::Matrix<double, N, 3> gradients;
-    for (std::size_t p = 0; p < rule_.size(); ++p) {
-      const double volume = map_point<N>(rule_, p, x, gradients);
-      const Modes G =
-          strains(rule_.points.col(static_cast<Eigen::Index>(p)), volume / rule_.weights(static_cast<Eigen::Index>(p)));
-      const Eigen::Matrix<double, count, 6> stress = volume * G.transpose() * elasticity;
-      K_aa += stress * G;
-      K_au += stress * strain_matrix<N>(gradients);
-    }
-    amplitudes_ = -K_aa.ldlt().solve(K_au);
-    condensed_.noalias() = K_au.transpose() * amplitudes_;
-  }
+  void set(const CellPoints<N>& x, const Matrix6& elasticity);
 
   /// K_ua times the amplitudes by displacements: added to the stiffness of the displacements alone, (3 N, 3 N).
   const Eigen::Matrix<double, 3 * N, 3 * N>& condensed() const { return condensed_; }
 
   /// Strain at a point, with the modes. @param local  the point in the reference cell
   /// @param determinant  determinant of the Jacobian there
-  Strain strain(const Eigen::Matrix<double, N, 3>& gradients, const Eigen::Vector3d& local, double determinant) const {
-    return strain_matrix<N>(gradients) + strains(local, determinant) * amplitudes_;
-  }
+  Strain strain(const Eigen::Matrix<double, N, 3>& gradients, const Eigen::Vector3d& local, double determinant) const;
 
  private:
   using Modes = Eigen::Matrix<double, 6, count>;
+  using Gradients = Eigen::Matrix<double, functions, 3>;
 
-  /// Gradients of the functions in the reference cell, without their mean: (functions, 3).
-  static Eigen::Matrix<double, functions, 3> local_gradients(const Eigen::Vector3d& local) {
-    Eigen::Matrix<double, functions, 3> gradients = Eigen::Matrix<double, functions, 3>::Zero();
-    if constexpr (N == 8) {
-      gradients.diagonal() = -2 * local;
-    } else if constexpr (N == 6) {
-      gradients(0, 2) = -2 * local(2);
-      const Eigen::Vector2d x = local.head<2>().array() - 1.0 / 3;  // from the middle of the triangle
-      gradients.row(1) << -2 * x(0) - x(1), -x(0), 0;               // l_0 l_1
-      gradients.row(2) << x(1), x(0), 0;                            // l_1 l_2
-      gradients.row(3) << -x(1), -x(0) - 2 * x(1), 0;               // l_2 l_0
-    }
-    return gradients;
-  }
-
-  Modes strains(const Eigen::Vector3d& local, double determinant) const {
-    const Eigen::Matrix<double, functions, 3> gradients =
-        determinant_ / determinant * local_gradients(local) * inverse_;
-    Modes G = Modes::Zero();
-    for (int k = 0; k < functions; ++k)
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) G(voigt(i, j), 3 * k + i) += gradients(k, j);
-    return G;
-  }
+  static Gradients local_gradients(const Eigen::Vector3d& local);
+  Modes strains(const Eigen::Vector3d& local, double determinant) const;
 
   bool active_;
   CellRule<N> rule_;

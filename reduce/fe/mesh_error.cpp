@@ -124,7 +124,9 @@ class BlockError {
   }
 
   /// Whether the stress of a cell is the linear function that its sampling points give.
-  static bool has_linear_stress(const CellPoints<N>& x) { return SolidCell<N>::is_simplex && is_straight<N>(x); }
+  static bool has_linear_stress(const CellPoints<N>& x) {
+    return SolidCell<N>::is_simplex && is_straight(SolidCell<N>::type, x);
+  }
 
   /// Sets the interpolation of a linear function of the cell from the sampling points to the points of `rule_`.
   void set_interpolation() {
