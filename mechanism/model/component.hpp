@@ -53,9 +53,11 @@ struct EventFunction {
   /// that is farthest beyond its limit (its value is the most negative) is released first, because the others may hold
   /// without it.
   bool one_by_one = false;
-  /// The function is positive if the component's first constraint, a one-sided one, is set aside as redundant and
-  /// violated: it must take the place of another one (solvers/start/one_sided_holds.hpp).
-  bool exchanges = false;
+  /// The component's first constraint is one-sided, and the function is positive if its force has the wrong sign
+  /// (`opens`), or if it is set aside as redundant and its coordinate moves against it (`violated`): it must then take
+  /// the place of another one (solvers/start/one_sided_holds.hpp).
+  enum class OneSided { no, opens, violated };
+  OneSided one_sided = OneSided::no;
   /// The event is located no nearer to the start of a step than this fraction of the step: positions are rounded, and
   /// the error of rates and forces that follows grows as steps become shorter, so that other events may seem to occur.
   /// 0: as near as possible.

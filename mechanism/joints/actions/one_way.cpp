@@ -76,13 +76,19 @@ void OneWay::hold_at(double value, Eigen::Ref<VectorX> memory) const {
   memory[has_moved] = 0;
 }
 
-void OneWay::begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const {
-  if (is_wound(state)) return;
-  const auto [q, rate] = value(state);
+/// Lets it be free at a state, from which on it engages.
+void OneWay::activate(const LocalState& state, Eigen::Ref<VectorX> memory) const {
+  const double q = value(state).value;
   memory[holding] = 0;
   memory[has_moved] = 1;
   if (rule_.pitch > 0) memory[passed] = std::floor((rule_.sense * q + rounding(q)) / rule_.pitch);
+}
+
+void OneWay::begin_motion(const LocalState& state, bool known, Eigen::Ref<VectorX> memory) const {
+  if (is_wound(state)) return;
+  activate(state, memory);
   if (!known) return;
+  const auto [q, rate] = value(state);
   const double v = rule_.sense * rate, limit = velocity_at_rest(state.of(0), 1);
   if (rule_.pitch > 0) {
     const double stop = memory[passed] * rule_.pitch;
@@ -106,8 +112,6 @@ void OneWay::begin_branch(const LocalState& state, std::span<const int> crossed,
   }
 }
 
-void OneWay::activate(const LocalState& state, Eigen::Ref<VectorX> memory) const { begin_motion(state, false, memory); }
-
 bool OneWay::knows_memory(const LocalState& state) const {
   const auto memory = state.memory();
   const auto is_flag = [](double value) { return value == 0 || value == 1; };
@@ -120,11 +124,12 @@ void RigidOneWay::declare(Declaration& declaration) const {
   EventFunction opening{"", EventFunction::Direction::rising};
   opening.begins_on = -1;
   opening.reads_reaction = true;
+  opening.one_sided = EventFunction::OneSided::opens;
   declare_one_way(declaration, opening);
   EventFunction taking{fmt::format("one-way clutch on {} holds in place of another", coordinate().name),
                        EventFunction::Direction::rising};
   taking.begins_on = -1;
-  taking.exchanges = true;
+  taking.one_sided = EventFunction::OneSided::violated;
   declaration.event_functions.push_back(taking);
   Declaration::Scalar row{coordinate().name + " held one way", coordinate().force_units()};
   row.switched = row.yields = true;

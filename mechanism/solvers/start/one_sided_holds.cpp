@@ -21,70 +21,94 @@ class Exchange {
  public:
   Exchange(const System& system, const Environment& environment, const State& begun, KktMatrix& saddle)
       : system_(system), environment_(environment), begun_(begun), saddle_(saddle) {
-    for (std::size_t k = 0; k < system.event_functions().size(); ++k)
-      if (system.event_functions()[k].crossing.exchanges) events_.push_back(static_cast<int>(k));
+    const std::vector<MemberEventFunction>& events = system.event_functions();
+    for (int k = 0; k < static_cast<int>(events.size()); ++k) {
+      const auto [member, index, crossing, name] = events[static_cast<std::size_t>(k)];
+      if (crossing.one_sided == EventFunction::OneSided::no) continue;
+      const int multiplier = system.slots()[member].multiplier_begin;
+      if (holds_.empty() || holds_.back().multiplier != multiplier) holds_.push_back({multiplier, -1, -1});
+      (crossing.one_sided == EventFunction::OneSided::opens ? holds_.back().opens : holds_.back().violated) = k;
+    }
   }
 
   /// Whether a one-sided constraint is set aside.
   bool any_aside() const {
-    return std::any_of(events_.begin(), events_.end(), [&](int k) { return flag(begun_.idle, k) == Idle::redundant; });
+    return std::any_of(holds_.begin(), holds_.end(),
+                       [&](const Hold& hold) { return flag(begun_.idle, hold) == Idle::redundant; });
   }
 
-  /// Returns the event functions of the constraints that are violated at a state.
-  std::vector<int> violated(const State& state) const {
-    std::vector<int> found;
-    for (const int k : events_)
-      if (flag(state.idle, k) == Idle::redundant && system_.calc_crossing(state, environment_, k) > 0)
-        found.push_back(k);
-    return found;
+  /// The constraints of a state whose motion or force has the wrong sign.
+  struct Wrong {
+    std::vector<std::size_t> violated, pulling;  ///< numbers among the one-sided constraints
+    bool none() const { return violated.empty() && pulling.empty(); }
+  };
+  Wrong find_wrong(const State& state) const {
+    Wrong wrong;
+    for (std::size_t k = 0; k < holds_.size(); ++k) {
+      const Hold& hold = holds_[k];
+      const char idle = flag(state.idle, hold);
+      const int event = idle == Idle::redundant ? hold.violated : hold.opens;
+      if (idle == Idle::switched_off || !(system_.calc_crossing(state, environment_, event) > 0)) continue;
+      (idle == Idle::redundant ? wrong.violated : wrong.pulling).push_back(k);
+    }
+    return wrong;
   }
 
-  Flags find(const std::vector<int>& violated_at_first) {
+  /// @returns a set in which nothing is wrong; otherwise one without violated constraints, if one is violated at first
+  std::optional<Flags> find(const Wrong& at_first) {
     constexpr std::size_t most = 200;  // trials
-    try_exchanges(begun_.idle, violated_at_first);
+    std::optional<Flags> fair;
+    try_exchanges(begun_.idle, at_first);
     for (std::size_t k = 0; !waiting_.empty() && k < most; ++k) {
       const Flags flags = waiting_.front();
       waiting_.pop_front();
       State trial = begun_;
       trial.idle = flags;
       if (!make_consistent(trial)) continue;
-      const std::vector<int> wrong = violated(trial);
-      if (wrong.empty()) return flags;
+      const Wrong wrong = find_wrong(trial);
+      if (wrong.none()) return flags;
+      if (wrong.violated.empty() && !fair) fair = flags;
       try_exchanges(flags, wrong);
     }
-    const int equation = system_.size() - system_.multipliers() + multiplier(violated_at_first.front());
+    if (at_first.violated.empty()) return {};
+    if (fair) return fair;
+    const int equation = system_.size() - system_.multipliers() + holds_[at_first.violated.front()].multiplier;
     throw ComputationError(fmt::format(
         "t = {:.6g} s: {} cannot hold: a drive, a lock or another one-way clutch moves it against its free direction",
         begun_.time, system_.equation_name(equation)));
   }
 
  private:
-  int multiplier(int event) const {
-    return system_.slots()[system_.event_functions()[static_cast<std::size_t>(event)].member].multiplier_begin;
-  }
-  char flag(const Flags& flags, int event) const {
-    return flags.empty() ? char{Idle::active} : flags[static_cast<std::size_t>(multiplier(event))];
+  struct Hold {
+    int multiplier, opens, violated;  ///< its number, and those of its event functions
+  };
+  static char flag(const Flags& flags, const Hold& hold) {
+    return flags.empty() ? char{Idle::active} : flags[static_cast<std::size_t>(hold.multiplier)];
   }
 
-  /// Lets sets wait in which a violated constraint takes the place of an active one.
-  void try_exchanges(const Flags& flags, const std::vector<int>& wrong) {
-    for (const int takes : wrong)
-      for (const int yields : events_) {
-        if (flag(flags, yields) != Idle::active) continue;
-        Flags next = flags;
-        next[static_cast<std::size_t>(multiplier(takes))] = Idle::active;
-        next[static_cast<std::size_t>(multiplier(yields))] = Idle::redundant;
-        if (known_.insert(next).second) waiting_.push_back(std::move(next));
-      }
+  /// Lets sets wait in which a violated constraint takes the place of an active one, or one that is set aside the place
+  /// of one that pulls.
+  void try_exchanges(const Flags& flags, const Wrong& wrong) {
+    const auto exchange = [&](std::size_t takes, std::size_t yields) {
+      if (flag(flags, holds_[takes]) != Idle::redundant || flag(flags, holds_[yields]) != Idle::active) return;
+      Flags next = flags;
+      next[static_cast<std::size_t>(holds_[takes].multiplier)] = Idle::active;
+      next[static_cast<std::size_t>(holds_[yields].multiplier)] = Idle::redundant;
+      if (known_.insert(next).second) waiting_.push_back(std::move(next));
+    };
+    for (std::size_t k = 0; k < holds_.size(); ++k) {
+      for (const std::size_t violated : wrong.violated) exchange(violated, k);
+      for (const std::size_t pulling : wrong.pulling) exchange(k, pulling);
+    }
   }
 
   /// @returns whether its active constraints are independent and have consistent velocities and accelerations
   bool make_consistent(State& trial) {
     std::vector<int> aside;
     system_.for_each_redundant(trial, [&](int k) { aside.push_back(k); });
-    if (find_redundant(system_, environment_, with_redundant(system_, trial)).size() != aside.size()) return false;
     for (const int k : find_redundant(system_, environment_, trial))
       if (!std::binary_search(aside.begin(), aside.end(), k)) return false;
+    trial.reaction.resize(0);  // that of another set
     StartReport unused;
     saddle_.serve_no_more();
     try {
@@ -100,7 +124,7 @@ class Exchange {
   const Environment& environment_;
   const State& begun_;
   KktMatrix& saddle_;
-  std::vector<int> events_;  ///< of one-sided constraints that are set aside and violated
+  std::vector<Hold> holds_;
   std::set<Flags> known_;
   std::deque<Flags> waiting_;
 };
@@ -111,9 +135,11 @@ std::optional<std::vector<char>> exchange_one_sided(const System& system, const 
                                                     const State& begun, const State& made, KktMatrix& saddle) {
   Exchange exchange(system, environment, begun, saddle);
   if (!exchange.any_aside()) return {};
-  const std::vector<int> violated = exchange.violated(made);
-  if (violated.empty()) return {};
-  Flags flags = exchange.find(violated);
+  State found = made;
+  found.reaction.resize(0);
+  const Exchange::Wrong wrong = exchange.find_wrong(found);
+  if (wrong.none()) return {};
+  std::optional<Flags> flags = exchange.find(wrong);
   saddle.serve_no_more();
   return flags;
 }

@@ -348,7 +348,7 @@ TEST_CASE("holes that overlap or project are told with their share") {
 TEST_CASE("the share of each shape that projects is that of its volume") {
   // Material above the plane z = 0 alone; of the cone (radii 0.1, in the middle 0.2, 0.3) 7 of 26
   // parts lie below, by a^2 + a b + b^2.
-  const std::string material = "{box: [2, 2, 1], density: 1, position: [0, 0, 0.5]}";
+  const std::string material = "{box: [2, 2, 1], density: 1000, position: [0, 0, 0.5]}";
   for (const auto& [shape, share] : {std::pair{"box: [0.1, 0.2, 0.3]", "50"},
                                      {"sphere: 0.2", "50"},
                                      {"cylinder: [0.2, 0.3]", "50"},
@@ -356,11 +356,11 @@ TEST_CASE("the share of each shape that projects is that of its volume") {
                                      {"cone: [0.1, 0.3, 0.4]", "27"},
                                      {"ring: [0.3, 0.1]", "50"}}) {
     CAPTURE(shape);
-    CHECK_THAT(ReadSolids(material + ", {" + shape + ", density: 1, cut: true}").warnings,
+    CHECK_THAT(ReadSolids(material + ", {" + shape + ", density: 1000, cut: true}").warnings,
                Contains(fmt::format("about {} % of what", share)));
-    CHECK(ReadSolids(material + ", {" + shape + ", density: 1, position: [0, 0, 0.5], cut: true}").warnings.empty());
+    CHECK(ReadSolids(material + ", {" + shape + ", density: 1000, position: [0, 0, 0.5], cut: true}").warnings.empty());
     // Turned over: the cone's other end projects.
-    const std::string turned = ", density: 1, rotation_vector: [3.141592653589793, 0, 0], cut: true}";
+    const std::string turned = ", density: 1000, rotation_vector: [3.141592653589793, 0, 0], cut: true}";
     CHECK_THAT(ReadSolids(material + ", {" + shape + turned).warnings,
                Contains(fmt::format("about {} % of what", share == std::string("27") ? "73" : share)));
   }
