@@ -154,6 +154,13 @@ HarmonicModes HarmonicSearch::find_with(const ModeOptions& options, int harmonic
   return result;
 }
 
+/// Whether a rigid mode may be the shift in time, which it resembles with more harmonics only: those of rigid modes are
+/// not continued.
+bool HarmonicSearch::counts_shift_twice(const HarmonicModes& modes) const {
+  const auto is_rigid = [](const Mode& mode) { return mode.kind == ModeKind::rigid; };
+  return shapes_.any_shift() && std::count_if(modes.found.modes.begin(), modes.found.modes.end(), is_rigid) > 1;
+}
+
 HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const {
   if (equations_.constant()) return find_with(options, 0);
   constexpr int most = 64, most_searched = 16;
@@ -167,6 +174,7 @@ HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const 
     }
     std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more);
     if (next && next->change < exact) {
+      if (continued && h <= most_searched && counts_shift_twice(modes)) modes = find_with(options, h);
       modes.change = next->change;
       modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
       if (continued) judge_modes(modes, options);

@@ -24,6 +24,7 @@ class HarmonicSearch {
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
   void add_shift(HarmonicModes& result) const;
   bool is_complete(const HarmonicModes& modes) const;
+  bool counts_shift_twice(const HarmonicModes& modes) const;
   bool is_phase(std::complex<double> s, const HarmonicSizes& sizes) const;
   bool take(Modes found, const ModeOptions& options, HarmonicModes& result) const;
 

@@ -279,6 +279,51 @@ TEST_CASE("a rigid one-way clutch yields to a drive forwards, and contradicts it
   CHECK_THROWS_WITH(move_to(driven("t^2*(1 - t)"), 0.01, 1, [](const Session&) {}), Contains("cannot hold"));
 }
 
+TEST_CASE("three one-way clutches hold two wheels both ways, whichever of them push") {
+  // The first wheel may turn forwards, the second one backwards, and forwards on the first one: neither turns. The
+  // signs of the torques, and of their sum, change which two clutches have a force.
+  const std::string text = R"yaml(
+nodes: {a: {}, b: {}}
+elements:
+  a: {type: rigid_body, node: a, mass: 1, inertia: [5, 5, 1]}
+  b: {type: rigid_body, node: b, mass: 1, inertia: [5, 5, 1]}
+joints:
+  first: {type: hinge, nodes: [ground, a], axis: [0, 0, 1], one_way: {}}
+  second: {type: hinge, nodes: [ground, b], axis: [0, 0, 1], one_way: {direction: backwards}}
+  between: {type: hinge, nodes: [a, b], axis: [0, 0, 1], one_way: {}}
+drives:
+  of_first: {joint: first, torque: 6*sin(5.6*t + 0.3)}
+  of_second: {joint: second, torque: 9*sin(3*t + 2.5)}
+)yaml";
+  double last = 0;
+  move(text, 0.01, 2, [&](const Session& session) {
+    last = session.time();
+    CHECK_THAT(read(session, "first/coordinate"), WithinAbs(0, 1e-9));
+    CHECK_THAT(read(session, "second/coordinate"), WithinAbs(0, 1e-9));
+    CHECK(read(session, "first/one_way_force") >= -1e-6);
+    CHECK(read(session, "second/one_way_force") <= 1e-6);
+    CHECK(read(session, "between/one_way_force") >= -1e-6);
+  });
+  CHECK(last == Approx(2));
+}
+
+TEST_CASE("an elastic one-way clutch engages where it is activated") {
+  // 4 N m turn 2 kg m^2 backwards for 0.5 s, to -0.25 rad at -1 rad/s; then it springs back as k p^2 = J w^2 + 2 T p.
+  const std::string text = R"yaml(
+nodes: {w: {}}
+elements: {w: {type: rigid_body, node: w, mass: 1, inertia: [1, 1, 2]}}
+joints:
+  axle: {type: hinge, nodes: [ground, w], axis: [0, 0, 1]}
+  dog: {type: hinge, nodes: [ground, w], axis: [0, 0, 1], one_way: {stiffness: 1e3}, active: false}
+loads: {torque: {node: w, moment: [0, 0, -4]}}
+events: {on: {when: t, crosses: 0.5, do: [{activate: dog}]}}
+)yaml";
+  double least = 0;
+  move(text, 0.0005, 0.6, [&](const Session& session) { least = std::min(least, read(session, "axle/coordinate")); });
+  const double k = 1e3, J = 2, T = 4, p = (T + std::sqrt(T * T + k * J)) / k;
+  CHECK_THAT(least, WithinAbs(-0.25 - p, 1e-4));
+}
+
 TEST_CASE("a one-way clutch that is released while it holds engages elsewhere when it is activated") {
   // 4 N m turn 2 kg m^2 backwards for 0.5 s, to -0.25 rad at -1 rad/s. It holds there, a ratchet at its next tooth.
   for (const auto& [keys, place] : {std::pair("", -0.25), std::pair("pitch: 0.1", -0.3)}) {

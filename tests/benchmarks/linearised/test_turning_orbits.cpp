@@ -145,6 +145,29 @@ TEST_CASE("blades under gravity have the Floquet exponents of their nonlinear eq
   }
 }
 
+TEST_CASE("a driven shaft has one free angle however far a blade behind it swings", "[linearised]") {
+  // The exponents of the blade (2.1 kg m^2 about its hinge, damping 0.5) add up to -0.5/2.1 by Liouville's formula.
+  for (const double rate : {6.0, 6.1, 7.0}) {
+    CAPTURE(rate);
+    const Turning turning(fmt::format(R"yaml(
+gravity: [0, 0, -9.81]
+nodes: {{hub: {{}}, b: {{position: [1.3, 0, 0]}}}}
+elements:
+  hub: {{type: rigid_body, node: hub, mass: 1, inertia: [1, 1, 1]}}
+  b: {{type: rigid_body, node: b, mass: 2, inertia: [0.1, 0.1, 0.1]}}
+joints:
+  shaft: {{type: hinge, nodes: [ground, hub], axis: [0, -1, 0]}}
+  lag: {{type: hinge, nodes: [hub, b], position: [0.3, 0, 0], axis: [0, -1, 0], stiffness: 20, damping: 0.5}}
+drives: {{turn: {{joint: shaft, rate: {}}}}}
+)yaml",
+                                      rate),
+                          rate);
+    CHECK(count_rigid(turning.report) == 1);
+    REQUIRE(turning.exponents().size() == 1);
+    CHECK(turning.exponents()[0].real() == Approx(-0.25 / 2.1).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("more harmonics of the rotation than a blade under gravity needs change nothing", "[linearised]") {
   const ReferenceTable table("turning_orbits");
   const Turning turning(blades(1, 60, std::nullopt), 6, false, 6);
