@@ -189,7 +189,7 @@ void RopeFriction::add_energy(const LocalState& state, Energy& energy) const {
   const double drop = sides.stretch[1].tension - sides.stretch[0].tension,
                of_strain = strain_energy(sides.stretch[1]) - strain_energy(sides.stretch[0]);
   const double power = (drop + of_strain) * RopeSlip::rate(slip_of(state)).value;
-  energy.input += power;  // what the sections give away by the slip
+  energy.input += power;  // the sections give it away by the slip
   energy.dissipation += power;
 }
 

@@ -27,7 +27,7 @@ double product_coefficient(int p, int r, int q) {
   if (sines % 2 == 1) return 0;
   const auto order = [](int k) { return (k + 1) / 2; };
   const int a = order(functions[0]), b = order(functions[1]), c = order(functions[2]);
-  const auto mean = [c](int k) { return std::abs(k) != c ? 0 : c == 0 ? 1 : 0.5; };  // of cos(k psi) cos(c psi)
+  const auto mean = [c](int k) { return std::abs(k) != c ? 0 : c == 0 ? 1 : 0.5; };  // mean of cos(k psi) cos(c psi)
   const double size = (p > 0 ? std::numbers::sqrt2 : 1) * (q > 0 ? std::numbers::sqrt2 : 1);
   return size * 0.5 * (mean(a - b) + (sines == 2 ? -1 : 1) * mean(a + b));
 }
