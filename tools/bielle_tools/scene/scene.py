@@ -29,7 +29,8 @@ def make_scene(results, superelements=None, style=None):
 
 class Scene:
     """parts, flexible: what is drawn; size: characteristic length [m]; symbol: size of symbols [m]; planar: 0, 1, 2 for the axis normal to a
-    planar motion, or None; gravity (3) or None; notes: [(entry, reason)] of entries that are not drawn; anchors of labels; low, high (3): bounds over the rows."""
+    planar motion, or None; gravity (3) or None; notes: [(entry, reason)] of entries that are not drawn; released: the times
+    in which entries act (Released); anchors of labels; low, high (3): bounds over the rows."""
 
     def __init__(self, results, superelements, style):
         self.results, self.rows = results, np.arange(len(results.time))
@@ -40,7 +41,7 @@ class Scene:
         self.parts, self.flexible, self.anchors = [], [], []
         builder = Builder(self.motion_of_nodes, drawing, Palette(style), FlexibleBodies(results, superelements))
         self._measure(builder, style)
-        self._unknown, self._released = {}, Released(results)
+        self._unknown, self.released = {}, Released(results)
         for item in self.items:
             self._add(builder, item)
         self.parts += arms_of(builder, self.items)
@@ -154,7 +155,7 @@ class Scene:
             parts = builder.parts(item)
             for part in parts:  # a part whose motion cannot be read is told here, not while it plays
                 (part.frame if isinstance(part, FlexiblePart) else part.motion)(self.rows[:1])
-            self._released.apply(item, parts)
+            self.released.apply(item, parts)
         except (InputError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
             if not (isinstance(error, NotRecorded) and item["shape"] == "node"):  # `output: only` left out the node itself
                 self.notes.append((item["entry"], _reason(error)))
