@@ -23,6 +23,7 @@ from bielle_tools.scene import make_scene  # noqa: E402
 from bielle_tools.scene.flexible import surface_points  # noqa: E402
 from bielle_tools.scene.interface_lines import interface_lines, shortest_tree  # noqa: E402
 from bielle_tools.view.page import build_page  # noqa: E402
+from page_driver import WHY_NOT, Pages  # noqa: E402
 
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 NODES = np.array([[0.25 * k, 0.0, 0.0] for k in range(5)])  # nodes of the rod [m]
@@ -124,6 +125,27 @@ class Lines(Interfaces):
         for a, b in shortest_tree(np.array([[0.0, 0, 0], [1, 0, 0], [0, 0, 0], [1, 0, 0]])):  # some coincide
             graph[a, b] = 1
         self.assertEqual(connected_components(graph, directed=False)[0], 1)
+
+
+@unittest.skipIf(WHY_NOT, WHY_NOT)
+class InTheBrowser(Interfaces, Pages):
+    def test_lines_are_drawn_and_picked(self):
+        text, _ = build_page([self.run_rod()])
+        self.open(self.write("page.html", text))
+        notes = self.run_script("return Array.from(document.getElementById('notes').children, e => e.textContent)")
+        self.assertEqual(len(notes), 1)
+        self.assertRegex(notes[0], f"^drawn as lines between its interfaces: elements/rod: .*{REASON}")
+        full = self.drawn()
+        self.run_script("""bielle.entries.toggle('elements/rod', 'isolated'); bielle.render();
+            const c = document.getElementById("scene"), r = c.getBoundingClientRect(), [x, y] = bielle.camera.pixels(bielle.shown.anchor('elements/rod'));
+            const o = {clientX: r.left + x, clientY: r.top + y, pointerId: 1, button: 0, bubbles: true};
+            c.setPointerCapture = () => {}; c.dispatchEvent(new PointerEvent("pointerdown", o)); c.dispatchEvent(new PointerEvent("pointerup", o));""")
+        self.assertEqual(self.run_script("return document.querySelector('#details h2').textContent"), "elements/rod")
+        self.assertNotIn("mesh node", self.run_script("return document.getElementById('details').textContent"))
+        self.assertGreater(self.drawn(), 0.3 * full)
+        self.run_script("bielle.entries.toggle('elements/rod', 'isolated'); bielle.entries.toggle('elements/rod', 'hidden')")
+        self.assertLess(self.drawn(), 0.7 * full)
+        self.no_errors()
 
 
 class Reasons(Interfaces):
