@@ -66,7 +66,10 @@ def export(results, folder, name, *, every=None, count=100, span=(None, None), s
 
 def _superelement(results, element, given, scale, volume, rows):
     body = superelement_of(results, element, given)
-    cells = {kind: c for kind, c in body.cells.items() if kind in SOLIDS} if volume else body.surface()
+    if not body.cells:
+        cells = {"vertex": np.arange(len(body.points))[:, None]}  # matrices without cells have nodes alone
+    else:
+        cells = {kind: c for kind, c in body.cells.items() if kind in SOLIDS} if volume else body.surface()
     used = np.unique(np.concatenate([c.ravel() for c in cells.values()]))
     number = np.full(len(body.points), -1)
     number[used] = np.arange(len(used))

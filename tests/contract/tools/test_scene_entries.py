@@ -1,5 +1,6 @@
 """Entries of a scene that are drawn by what they do: released ones are absent, couplings have symbols, bodies have arms to what they carry."""
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -17,7 +18,9 @@ sys.path[:0] = [os.path.join(REPOSITORY, "tools"), HERE]
 
 from bielle_tools.results import Results  # noqa: E402
 from bielle_tools.results.activity import Activity  # noqa: E402
+from bielle_tools.results.modes import ModeMotion, Modes, ModeScenery  # noqa: E402
 from bielle_tools.scene import make_scene  # noqa: E402
+from bielle_tools.scene.marks import marks_of  # noqa: E402
 from bielle_tools.scene.transforms import placed  # noqa: E402
 from drawn_results import resting, turning, write_results  # noqa: E402
 
@@ -130,6 +133,73 @@ class Released(Entries):
                 file["analysis_1/events/time"], file["analysis_1/events/crossing"] = time, crossing
             scene = self.scene(self.written({"n": resting(3)}, items, extra=extra))
             self.assertTrue(self.shown(scene, "joints/rope").all(), crossing)
+
+
+class Marks(Entries):
+    """A hinge, whose frames meet while it acts alone, has no gap after its release."""
+    DROPPED = """mechanism: dropped
+gravity: [0, 0, -9.81]
+nodes: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0]}}
+elements:
+  a: {type: rigid_body, node: a, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  b: {type: rigid_body, node: b, mass: 1, inertia: [0.1, 0.1, 0.1]}
+  spring: {type: spring_damper, nodes: [ground, b], at: [[1, 0, 1], [0, 0, 0]], stiffness: 100, length: 0.9}
+joints:
+  pivot: {type: hinge, nodes: [ground, a], axis: [0, 1, 0], start_rate: 1}
+  rail: {type: prismatic, nodes: [ground, b], axis: [0, 0, 1]}
+events:
+  loose: {when: t, crosses: 0.105, do: [{release: pivot}]}
+analysis:
+  - {type: dynamic, duration: 0.2, step: 0.01}
+  - {type: dynamic, duration: 0.05, step: 0.01}
+  - {type: eigen, count: 1}
+"""
+
+    def run_model(self, text):
+        self.write("dropped.yaml", text)
+        done = subprocess.run([PROGRAM, "dropped.yaml", "--quiet"], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.path("dropped.h5")
+
+    def test_a_released_hinge_has_no_gap(self):
+        path = self.run_model(self.DROPPED)
+        for analysis in (1, 2):
+            scene = self.scene(path, analysis)
+            apart = np.linalg.norm(scene.results.rows("nodes/a/position")[-1])
+            self.assertGreater(apart, 0.03)
+            self.assertEqual(marks_of(scene, scene.rows), {}, analysis)
+
+    def test_a_mode_about_a_state_without_the_hinge_has_neither_its_symbol_nor_a_gap(self):
+        for text, drawn in ((self.DROPPED, False), (self.DROPPED.replace("crosses: 0.105", "crosses: 9"), True)):
+            path = self.run_model(text)
+            with Results(path) as results:
+                with contextlib.closing(ModeScenery(Modes(results))) as scenery:
+                    scene = make_scene(ModeMotion(scenery, 1))
+                    self.assertTrue((self.shown(scene, "joints/pivot") == drawn).all(), text)
+                    self.assertTrue(self.shown(scene, "joints/rail").all())
+                    self.assertNotIn("joints/pivot", marks_of(scene, scene.rows[-1:]))
+
+    def test_a_gap_counts_while_the_joint_acts(self):
+        """A hinge whose frames are 0.1, 0.2, 0.4, 0.3 m apart, at 0, 0.01, 0.02, 0.03 s."""
+        frames = [{"node": "ground"}, {"node": "n"}]
+        items = [{"entry": "joints/pin", "type": "hinge", "shape": "joint", "frames": frames},
+                 {"entry": "elements/box", "type": "rigid_body", "shape": "box", "node": "n", "size": [1, 1, 1]}]
+        tilted = turning(4, [1, 0, 0])
+        for crossings, start, gap, row in (([], "", 0.4, 3), ([(0.015, "releases")], "", 0.2, 1), ([(0.025, "activates")], "{pin: {active: false}}", 0.3, 3),
+                                           ([(0.015, "releases"), (0.025, "activates")], "", 0.3, 3), ([], "{pin: {active: false}}", None, None),
+                                           ([(0.0, "releases")], "", None, None)):
+            def extra(file, crossings=crossings, start=start):
+                file["input"] = f"joints: {start}" if start else ""
+                file["crossings"] = "".join(f"event 'e': {action} 'pin'\n" for _, action in crossings)
+                file["analysis_1/events/time"], file["analysis_1/events/crossing"] = [time for time, _ in crossings], np.arange(len(crossings))
+            path = self.written({"n": (np.outer([0.1, 0.2, 0.4, 0.3], [0, 1, 0]), tilted)}, items, extra=extra)
+            scene = self.scene(path)
+            marks = marks_of(scene, scene.rows)
+            with self.subTest(crossings=crossings, start=start):
+                self.assertEqual(set(marks), {"joints/pin"} if gap else set())
+                if gap:
+                    self.assertAlmostEqual(marks["joints/pin"]["gap"], gap, delta=1e-12)
+                    self.assertAlmostEqual(marks["joints/pin"]["tilt"], 0.1 * row, delta=1e-9)
 
 
 class Couplings(Entries):

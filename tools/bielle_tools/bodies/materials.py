@@ -21,9 +21,12 @@ class BodyMaterials:
 
 
 def densities(file, body, path):
-    """@raises InputError if they are not isotropic, or do not give the mass of the superelement"""
+    """@raises InputError if the body has none, if they are not isotropic, or do not give the mass of the superelement"""
     text = file["input"][()] if "input" in file else file.parent.parent["input"][()]
     data = yaml.safe_load(text.decode() if isinstance(text, bytes) else text)
+    if not isinstance(data, dict) or "materials" not in data:
+        raise InputError(f"'{path}' was reduced from matrices, which do not give the mass of each cell: loads and forces in sections are those of "
+                         "bodies with materials")
     if not isinstance(data["materials"], dict):
         raise InputError(f"'{path}': its body file takes its materials from the mesh file: loads are exported for materials that stand in the "
                          "body file")

@@ -16,16 +16,20 @@ from ..results.rotations import rotation_matrices
 from .stress_invariants import von_mises
 
 
+class NoSurface(InputError):
+    """A superelement whose file is whole, but has nothing of a body that could be drawn by its surface."""
+
+
 class SuperelementBody:
-    """points (p,3) as meshed; cells {meshio type: (n,k)} in VTK's order; results at times through `at`."""
+    """points (p,3) as meshed; cells {meshio type: (n,k)} in VTK's order, none of matrices without cells; results at times through `at`."""
 
     def __init__(self, path, group=""):
-        """group: group of a piece in the file of a cut body ("/pieces/2")."""
+        """group: group of a piece in the file of a cut body ("/pieces/2"). @raises InputError, NoSurface"""
         self.path = path
         with _open(path, group) as opened, reading(path, group or "/"):
             file = opened[group] if group else opened
             if "mesh" not in file or "recovery/displacement" not in file:
-                raise InputError(f"'{path}' keeps no mesh or no displacements: set 'recovery: {{displacement: all}}' in its "
+                raise NoSurface(f"'{path}' keeps no mesh or no displacements: set 'recovery: {{displacement: all}}' in its "
                                  "body file and reduce it again to see it move")
             with reading(path, "mesh"):
                 self._read_mesh(file)
@@ -35,12 +39,12 @@ class SuperelementBody:
     def _read_mesh(self, file):
         self.points = _matrix(file["mesh/points"], 3)
         self.cells = {}
-        for name, cells in file["mesh/cells"].items():
+        for name, cells in file["mesh/cells"].items() if "mesh/cells" in file else ():
             cell = BY_GMSH[int(name)]
             cells = np.asarray(_matrix(cells, cell.nodes), np.int64)
             _check_numbers(cells, len(self.points))
             self.cells[cell.name] = cells[:, permutation(cell.name, "gmsh", "vtk")]
-        if not any(len(cells) for cells in self.cells.values()):
+        if "mesh/cells" in file and not any(len(cells) for cells in self.cells.values()):
             raise ValueError
 
     def _read_recovery(self, recovery):
@@ -64,7 +68,10 @@ class SuperelementBody:
             self.elasticity, self.stress_materials = elasticity, materials
 
     def surface(self):
-        """Boundary faces {type: (n,k)}, outward: at least one. @raises InputError for cells that leave none"""
+        """Boundary faces {type: (n,k)}, outward: at least one. @raises NoSurface without cells; InputError for cells that leave none"""
+        if not self.cells:
+            raise NoSurface(f"'{self.path}' has no surface, since its matrices have no cells: those of a deck with the same nodes give one "
+                            "(`matrices: {nodes: DECK}` in the body file)")
         solids = {kind: cells for kind, cells in self.cells.items() if kind in SOLIDS}
         faces = boundary_faces(solid_faces(solids)) if solids else self.cells  # a file that keeps the skin alone
         if not any(len(block) for block in faces.values()):
@@ -114,6 +121,32 @@ def interfaces_of(path, group=""):
         return list(zip(names, dofs, rotations))
 
 
+def interface_motions(path, group=""):
+    """Positions of the interfaces (k,3), body axes [m], and their displacements (k,3,n) per coordinate, with zeros for directions that are no
+    coordinates. @raises InputError"""
+    interfaces = interfaces_of(path, group)
+    with _open(path, group) as opened, reading(path, "interface/positions"):
+        file = opened[group] if group else opened
+        positions, count = _matrix(file["interface/positions"], 3), len(file["reduced/stiffness"])
+        if len(positions) != len(interfaces) or sum(int(kept.sum()) for _, kept, _ in interfaces) > count:
+            raise ValueError
+    displacements, first = np.zeros((len(positions), 3, count)), 0
+    for displacement, (_, kept, axes) in zip(displacements, interfaces):
+        translations = np.flatnonzero(kept[:3])
+        displacement[:, first:first + len(translations)] = axes[:, translations]
+        first += int(kept.sum())
+    return positions, displacements
+
+
+def mass_centre(path, group=""):
+    """The centre of mass (3), body axes [m]. @raises InputError"""
+    with _open(path, group) as opened, reading(path, "mass_properties"):
+        centre = np.asarray((opened[group] if group else opened)["mass_properties/centre"], float)
+        if centre.shape != (3,) or not np.all(np.abs(centre) < LARGEST):
+            raise ValueError
+        return centre
+
+
 def decoded(name):
     """The name of a load, point or group, as the file writes it: HDF5 reserves some letters."""
     return name.replace("%2F", "/").replace("%2E", ".").replace("%25", "%")
@@ -160,12 +193,17 @@ def _node_numbers(recovery, name, count, points):
 def superelement_of(results, element, given):
     """The superelement of an element of the results, or one piece of a body. given: as in find_superelement."""
     body = SuperelementBody(find_superelement(results, element, given), results.text(f"elements/{element}", "group"))
-    place = f"elements/{element}/coordinates"
-    recorded, needed = results.shape(place)[-1:] if results.has(place) else (), body.displacement.shape[1]
-    if recorded != (needed,):
-        raise InputError(f"'{body.path}' is not the superelement of '{element}': it has {counted(needed, 'coordinate')}, "
-                         f"'{place}' of the results {recorded[0] if recorded else 'none'}. Was it reduced again after the run?")
+    check_coordinates(results, element, body.path, body.displacement.shape[1])
     return body
+
+
+def check_coordinates(results, element, path, needed):
+    """@raises InputError if the results of an element do not have as many coordinates as its superelement"""
+    place = f"elements/{element}/coordinates"
+    recorded = results.shape(place)[-1:] if results.has(place) else ()
+    if recorded != (needed,):
+        raise InputError(f"'{path}' is not the superelement of '{element}': it has {counted(needed, 'coordinate')}, "
+                         f"'{place}' of the results {recorded[0] if recorded else 'none'}. Was it reduced again after the run?")
 
 
 def find_superelement(results, element, given):

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..messages import InputError, check_names, note
+from ..messages import InputError, check_names
 from ..results.checked_model import check_of
 from ..scene import make_scene
 from ..scene.marks import marks_of
@@ -139,7 +139,12 @@ def _tell(scene, results):
     for entry, reason in scene.notes:
         if entry in bodies:
             raise InputError(reason)
+    tell = (results.modes.results if hasattr(results, "modes") else results).note_once
+    for entry, reason in scene.by_lines[:MOST_NOTES]:
+        tell(f"'{entry}' is drawn as lines between its interfaces: {reason}")
     for entry, reason in scene.notes[:MOST_NOTES]:
-        note(reason if entry.startswith("/") else f"'{entry}' is not drawn: {reason}")
+        tell(reason if entry.startswith("/") else f"'{entry}' is not drawn: {reason}")
     if len(scene.notes) > MOST_NOTES:
-        note(f"{len(scene.notes) - MOST_NOTES} more entries are not drawn")
+        tell(f"{len(scene.notes) - MOST_NOTES} more entries are not drawn")
+    if len(scene.by_lines) > MOST_NOTES:
+        tell(f"{len(scene.by_lines) - MOST_NOTES} more entries are drawn as lines")

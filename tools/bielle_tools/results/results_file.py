@@ -262,6 +262,12 @@ class Results:
             note(f"{self.path}: '{place}' holds values that are no numbers, or larger than {LARGEST:g}: they are left out")
         return np.where(bad, np.nan, values)
 
+    def note_once(self, text):
+        """Prints a note for the user, the first time alone: many pictures are made of one file."""
+        if text not in self._warned:
+            self._warned.add(text)
+            note(text)
+
     def units(self, place):
         return self.text(place, "units")
 

@@ -160,7 +160,7 @@ def _superelement(b, item):
     if not b.flexible.has_rows:
         return []
     name = item["element"].split("/", 1)[1]
-    return [b.flexible.part(name, item["type"], b.colour(item, b.palette.of(item["entry"])), float(item.get("opacity", 1)))]
+    return [b.flexible.part(name, item["type"], b.colour(item, b.palette.of(item["entry"])), float(item.get("opacity", 1)), b.symbol)]
 
 
 def _joint(b, item):

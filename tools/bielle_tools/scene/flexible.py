@@ -1,13 +1,15 @@
-"""Flexible bodies: surfaces of superelements with the shapes of their coordinates. Instances of a file share one body."""
+"""Flexible bodies: surfaces of superelements with the shapes of their coordinates, or lines that join interfaces. Instances of a file share one body."""
 
 import os
 
 import numpy as np
 
-from ..bodies.superelement_body import find_superelement, superelement_of
+from ..bodies.superelement_body import NoSurface, check_coordinates, find_superelement, interface_motions, mass_centre, superelement_of
+from ..messages import InputError
 from ..mesh.cells import triangles_of
 from ..results.quaternions import rotated
-from .levels import levels_of
+from .interface_lines import interface_lines
+from .levels import Level, levels_of
 from .parts import FlexibleBody, FlexiblePart
 
 
@@ -21,12 +23,12 @@ class FlexibleBodies:
         self._source = getattr(scenery, "base", None) or results
         self.has_rows = scenery is None or scenery.base is not None  # a mode without rows of its state has told so
 
-    def part(self, name, kind, colour, opacity):
-        """The instance that the element `name` is. @raises InputError"""
+    def part(self, name, kind, colour, opacity, symbol):
+        """The instance that the element `name` is. symbol: size of symbols [m]. @raises InputError"""
         path = os.path.realpath(find_superelement(self._source, name, self.superelements))
         piece = self.results.text(f"elements/{name}", "group")
         if (path, piece) not in self._kept:
-            self._kept[path, piece] = self._body(name, path, piece)
+            self._kept[path, piece] = self._body(name, path, piece, symbol)
         place = f"elements/{name}"
         kept = {}
 
@@ -39,9 +41,13 @@ class FlexibleBodies:
         return FlexiblePart(f"elements/{self.results.entry_of(name)}", kind, self._kept[path, piece], colour, opacity,
                             rows_of("frame"), rows_of("coordinates"))
 
-    def _body(self, name, path, piece):
-        whole = superelement_of(self._source, name, self.superelements)
-        triangles = np.asarray(triangles_of(whole.surface()), int)
+    def _body(self, name, path, piece, symbol):
+        try:
+            whole = superelement_of(self._source, name, self.superelements)
+            surface = whole.surface()
+        except NoSurface as error:
+            return self._lines(name, path, piece, symbol, error)
+        triangles = np.asarray(triangles_of(surface), int)
         nodes, triangles = np.unique(triangles, return_inverse=True)
         triangles = triangles.reshape(-1, 3)
         count = whole.displacement.shape[1]
@@ -59,6 +65,23 @@ class FlexibleBodies:
         order, levels = levels_of(whole.points[nodes], triangles)
         return FlexibleBody(path, piece, whole.points[nodes[order]], levels[0].triangles, shapes[:, order], None if stress is None else stress[:, order],
                             stressed[order], nodes[order], levels)
+
+    def _lines(self, name, path, piece, symbol, error):
+        """A body without a surface: its interfaces, and the centre of mass if there is one interface alone. @raises the error if the file does not
+        have them either"""
+        try:
+            positions, displacements = interface_motions(path, piece)
+            if len(positions) == 1:
+                positions = np.vstack([positions, mass_centre(path, piece)])
+                displacements = np.concatenate([displacements, np.zeros_like(displacements)])
+        except InputError:
+            raise error from None
+        if not len(positions):
+            raise error
+        check_coordinates(self._source, name, path, displacements.shape[2])
+        points, triangles, shapes = interface_lines(positions, displacements, symbol)
+        return FlexibleBody(path, piece, points, triangles, shapes, None, np.zeros(len(points), bool), np.full(len(points), -1),
+                            [Level(0.0, len(points), triangles)], str(error))
 
 
 def surface_points(part, rows, every=1):

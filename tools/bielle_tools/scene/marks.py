@@ -16,12 +16,12 @@ LEAST_GAP, LEAST_TILT = 1e-7, 1e-6  # a share of the machine; [rad]
 
 def marks_of(scene, rows):
     """{entry: {gap: largest distance that the joint should make zero [m], tilt: largest angle between axes that should be parallel [rad],
-    redundant: true}} of the entries that have such."""
+    redundant: true}} of the entries that have such, where gap and tilt count while the joint acts."""
     found = {}
     for item in scene.items:
         if item["shape"] == "joint":
             try:
-                facts = {**_distance(scene, item, rows), **_redundancy(scene.results, item["entry"])}
+                facts = {**_distance(scene, item, _acting(scene, item["entry"], rows)), **_redundancy(scene.results, item["entry"])}
             except (InputError, KeyError, TypeError, ValueError, AttributeError):
                 continue  # it is told when the item is built
             found.update({item["entry"]: facts} if facts else {})
@@ -29,6 +29,12 @@ def marks_of(scene, rows):
     for entry in check.redundant if check else ():
         found.setdefault(entry, {})["redundant"] = True
     return found
+
+
+def _acting(scene, entry, rows):
+    """The rows in which a joint acts: a released one has no frames that should meet."""
+    acts = scene.released.acts(entry)
+    return rows if acts is None else np.asarray(rows)[acts[rows]]
 
 
 def _distance(scene, item, rows):

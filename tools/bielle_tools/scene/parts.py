@@ -48,8 +48,9 @@ class FlexibleBody:
     shapes: np.ndarray
     stress: Any
     stressed: np.ndarray
-    nodes: np.ndarray  # numbers of the points in the mesh of the file
+    nodes: np.ndarray  # numbers of the points in the mesh of the file; -1 for points that are not of the mesh
     levels: list  # scene/levels.py: the triangles, then coarser ones on the first points
+    reason: str = ""  # why lines that join the interfaces stand for the surface; empty for a surface
 
 
 @dataclass

@@ -12,11 +12,19 @@ class Released:
     """Leaves parts out while they are released."""
 
     def __init__(self, results):
-        self._activity = Activity(results) if hasattr(results, "root") else None
+        """results: an analysis of a file, or a mode, in which entries act as in the state about which it is"""
+        state = results if hasattr(results, "root") else results.scenery.base
+        self._activity = Activity(state) if state is not None else None
+        self._rows = slice(None) if state is results or state is None else np.full(len(results.time), results.scenery.row)
+
+    def acts(self, entry):
+        """(rows) whether an entry acts; None if it always does, or if the file has no rows of the state."""
+        acts = self._activity.acts(entry) if self._activity else None
+        return None if acts is None else acts[self._rows]
 
     def apply(self, item, parts):
         """Lets the poses of the parts of an item have no numbers while its entry is released."""
-        acts = self._activity.acts(item["entry"]) if self._activity and item["shape"] in ACTING else None
+        acts = self.acts(item["entry"]) if item["shape"] in ACTING else None
         if acts is None or acts.all():
             return
         for part in parts:

@@ -29,7 +29,9 @@ def make_scene(results, superelements=None, style=None):
 
 class Scene:
     """parts, flexible: what is drawn; size: characteristic length [m]; symbol: size of symbols [m]; planar: 0, 1, 2 for the axis normal to a
-    planar motion, or None; gravity (3) or None; notes: [(entry, reason)] of entries that are not drawn; anchors of labels; low, high (3): bounds over the rows."""
+    planar motion, or None; gravity (3) or None; notes: [(entry, reason)] of entries that are not drawn; by_lines: the same of flexible bodies
+    without a surface, which lines between their interfaces stand for; released: the times
+    in which entries act (Released); anchors of labels; low, high (3): bounds over the rows."""
 
     def __init__(self, results, superelements, style):
         self.results, self.rows = results, np.arange(len(results.time))
@@ -37,10 +39,10 @@ class Scene:
         drawing = Drawing(results)
         self.gravity, self.notes, self.from_file = drawing.gravity, list(drawing.notes), drawing.from_file
         self.items = drawing.items + coupling_items(results, drawing.items)
-        self.parts, self.flexible, self.anchors = [], [], []
+        self.parts, self.flexible, self.anchors, self.by_lines = [], [], [], []
         builder = Builder(self.motion_of_nodes, drawing, Palette(style), FlexibleBodies(results, superelements))
         self._measure(builder, style)
-        self._unknown, self._released = {}, Released(results)
+        self._unknown, self.released = {}, Released(results)
         for item in self.items:
             self._add(builder, item)
         self.parts += arms_of(builder, self.items)
@@ -154,7 +156,7 @@ class Scene:
             parts = builder.parts(item)
             for part in parts:  # a part whose motion cannot be read is told here, not while it plays
                 (part.frame if isinstance(part, FlexiblePart) else part.motion)(self.rows[:1])
-            self._released.apply(item, parts)
+            self.released.apply(item, parts)
         except (InputError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
             if not (isinstance(error, NotRecorded) and item["shape"] == "node"):  # `output: only` left out the node itself
                 self.notes.append((item["entry"], _reason(error)))
@@ -163,6 +165,8 @@ class Scene:
         for part in parts:
             if isinstance(part, FlexiblePart):
                 self.flexible.append(part)
+                if part.body.reason and (item["entry"], part.body.reason) not in self.by_lines:  # several pieces of a body have one entry
+                    self.by_lines.append((item["entry"], part.body.reason))
                 point = part.body.points.mean(axis=0)
             else:
                 self.parts.append(part)

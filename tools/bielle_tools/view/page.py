@@ -28,10 +28,10 @@ FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page")
 
 
 class Report:
-    """Sizes, errors and notes of a page that was built."""
+    """Sizes, errors and notes of a page that was built. notes, by_lines: as in a Scene."""
 
-    def __init__(self, seconds, size, errors, notes, contents):
-        self.seconds, self.size, self.errors, self.notes, self.contents = seconds, size, errors, notes, contents
+    def __init__(self, seconds, size, errors, notes, by_lines, contents):
+        self.seconds, self.size, self.errors, self.notes, self.by_lines, self.contents = seconds, size, errors, notes, by_lines, contents
 
     def lines(self):
         """Sentences for the terminal."""
@@ -39,6 +39,8 @@ class Report:
         return [f"{self.contents}; {self.size / 1e6:.1f} MB, built in {self.seconds:.1f} s",
                 f"errors by 16-bit numbers: positions {e['position']:.1e} of the size, rotations {e['rotation']:.1e} rad, "
                 f"deformations {e['shape']:.1e} of the size, stresses {e['stress']:.1e} of the largest",
+                *(f"drawn as lines between its interfaces: {entry}: {reason}" for entry, reason in self.by_lines[:MOST_NOTES]),
+                *([f"drawn as lines: {len(self.by_lines) - MOST_NOTES} more, which the page lists"] if len(self.by_lines) > MOST_NOTES else []),
                 *(f"not drawn: {entry}: {reason}" for entry, reason in self.notes[:MOST_NOTES]),
                 *([f"not drawn: {len(self.notes) - MOST_NOTES} more, which the page lists"] if len(self.notes) > MOST_NOTES else [])]
 
@@ -48,7 +50,7 @@ def build_page(paths, frames=500, superelements=None, analysis=None, live=None):
     @raises InputError"""
     start, pack = time.monotonic(), Pack()
     data = {"runs": [], "layouts": [], "live": live, "colours": [hexadecimal(colour) for colour in ANCHORS]}
-    scenes, opened, notes, layouts = None, [], [], {}
+    scenes, opened, notes, by_lines, layouts = None, [], [], [], {}
     try:
         for path in paths:
             found, results = sequences(path, frames, superelements, analysis)
@@ -64,15 +66,16 @@ def build_page(paths, frames=500, superelements=None, analysis=None, live=None):
                                 gravity=None if scene.gravity is None else scene.gravity.tolist(), title=results[0].title)
                 described.append(_described(sequence, scene, scenes, pack, layouts, data["layouts"]))
                 notes += [note for note in scene.notes if note not in notes]
+                by_lines += [note for note in scene.by_lines if note not in by_lines]
             data["runs"].append({"name": os.path.basename(path), "created_by": results[0].created_by, "keys": keys_of(results[0]), "sequences": described})
     finally:
         for results in opened:
             results.file.close()
-    data.update(bodies=scenes.bodies, errors=scenes.errors, notes=notes[:500])
+    data.update(bodies=scenes.bodies, errors=scenes.errors, notes=notes[:500], by_lines=by_lines[:500])
     text = _page(data, pack)
     contents = ", ".join(f"{run['name']}: " + ", ".join(s["title"] for s in run["sequences"][:6]) + (", .." if len(run["sequences"]) > 6 else "")
                          for run in data["runs"])
-    return text, Report(time.monotonic() - start, len(text), scenes.errors, notes, contents)
+    return text, Report(time.monotonic() - start, len(text), scenes.errors, notes, by_lines, contents)
 
 
 def _described(sequence, scene, scenes, pack, layouts, listed):

@@ -51,7 +51,7 @@ class Details {
     if (point && point.world && point.shown === app.shown) {
       line("point", () => app.real(app.pointNow(point)).map(x => shown(x)).join(", ") + " m");
       if (point.cell >= 0) line("stress here", () => { const stress = app.shown.stresses.at(point.cell); return stress === null ? "-" : `${shown(1e-6 * stress)} MPa`; });
-      if (point.flexible) line(`mesh node ${point.node}`, () => app.settings.stress !== "none" && point.flexible.body.stress ? `${shown(1e-6 * point.flexible.values[point.corner])} MPa` : "-");
+      if (point.flexible && point.node >= 0) line(`mesh node ${point.node}`, () => app.settings.stress !== "none" && point.flexible.body.stress ? `${shown(1e-6 * point.flexible.values[point.corner])} MPa` : "-");
     }
     app.quantities.of(entry).forEach(quantity => quantity.columns.forEach((column, k) => line(
       `${quantity.name}${column ? " " + column : ""}`, () => `${shown(app.quantities.now(quantity, k))} ${quantity.unitsOf(k)}`, () => app.plot.toggle(quantity, k))));

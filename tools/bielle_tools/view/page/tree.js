@@ -15,7 +15,8 @@ class Tree {
       box.append(element("details", {open: list.length < 400 && !(last(section) && sections.size > 1)}, element("summary", {textContent: `${section} (${list.length})`}), ...list.map(one => this.line(one))));
     document.getElementById("filter").addEventListener("input", event => this.filter(event.target.value));
     const notes = app.data.notes.map(([entry, reason]) => element("div", {textContent: `not drawn: ${entry}: ${reason}`}));
-    document.getElementById("notes").append(...notes);
+    const lines = app.data.by_lines.map(([entry, reason]) => element("div", {textContent: `drawn as lines between its interfaces: ${entry}: ${reason}`}));
+    document.getElementById("notes").append(...notes, ...lines);
   }
 
   line(one) {
