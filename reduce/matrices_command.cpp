@@ -22,6 +22,7 @@ namespace {
 constexpr Eigen::Index most_verified = 150000;
 
 /// Verifies the matrices as they were read. @returns the line of the summary
+/// @throws InputError for a mass that is not positive
 std::string verified(const MatrixSet& matrices, const CommonOptions& common, Progress& progress) {
   if (matrices.size() > most_verified)
     return fmt::format("{}: not verified, since {} take long; --verify does it\n", matrices.source,
@@ -29,6 +30,9 @@ std::string verified(const MatrixSet& matrices, const CommonOptions& common, Pro
   progress.start("verification");
   const Verification verification = verify(matrices, common.threads);
   const std::vector<Finding> failures = verification.failures();
+  for (const Finding& finding : failures)
+    if (finding.check.name == "mass_definiteness")  // all other faults leave a body that can be looked at
+      throw InputError(fmt::format("{}: {}", matrices.source, finding.fault));
   for (const Finding& finding : failures) progress.warn(finding.fault);
   return failures.empty()
              ? fmt::format("{}: verified, {} passed\n", matrices.source, counted(verification.checks(), "check"))

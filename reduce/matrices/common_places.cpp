@@ -69,24 +69,30 @@ bool same_unknowns(const MatrixSet& a, const MatrixSet& b, double tolerance) {
 
 PlacedMotions placed_motions(const MatrixSet& set, const Eigen::MatrixXd& motions) {
   PlacedMotions result;
-  const std::vector<bool> moves = nodes_with(set, 0);
+  const std::vector<bool> moves = nodes_with(set, 0), turns = nodes_with(set, 3);
   for (std::size_t a = 0; a < moves.size(); ++a)
     if (moves[a]) result.nodes.push_back(static_cast<Eigen::Index>(a));
   const auto nodes = static_cast<Eigen::Index>(result.nodes.size());
   const Eigen::Index points = set.shapes ? set.shapes->points.cols() : 0;
   result.places.resize(3, nodes + points);
   result.displacements.resize(3 * (nodes + points), motions.cols());
-  const Eigen::MatrixXd all = nodal_motions(set, false) * motions;
+  result.rotations.setZero(3 * (nodes + points), motions.cols());
+  const Eigen::MatrixXd moved = nodal_motions(set, false) * motions, turned = nodal_motions(set, true) * motions;
   for (Eigen::Index k = 0; k < nodes; ++k) {
     const Eigen::Index node = result.nodes[static_cast<std::size_t>(k)];
     result.numbers.push_back(set.numbers[static_cast<std::size_t>(node)]);
+    result.turns.push_back(turns[static_cast<std::size_t>(node)]);
     result.places.col(k) = set.positions.col(node);
-    result.displacements.middleRows(3 * k, 3) = all.middleRows(3 * node, 3);
+    result.displacements.middleRows(3 * k, 3) = moved.middleRows(3 * node, 3);
+    if (result.turns.back()) result.rotations.middleRows(3 * k, 3) = turned.middleRows(3 * node, 3);
   }
   if (points == 0) return result;
   result.numbers.insert(result.numbers.end(), set.shapes->numbers.begin(), set.shapes->numbers.end());
   result.places.rightCols(points) = set.shapes->points;
   result.displacements.bottomRows(3 * points) = set.shapes->displacement * motions;
+  const bool points_turn = set.shapes->rotation.size() > 0;
+  result.turns.resize(static_cast<std::size_t>(nodes + points), points_turn);
+  if (points_turn) result.rotations.bottomRows(3 * points) = set.shapes->rotation * motions;
   return result;
 }
 
@@ -115,11 +121,24 @@ CommonPlaces common_places(const PlacedMotions& a, const PlacedMotions& b, doubl
   return result;
 }
 
-Eigen::MatrixXd displacements_at(const PlacedMotions& motions, const std::vector<Eigen::Index>& places) {
-  Eigen::MatrixXd result(3 * static_cast<Eigen::Index>(places.size()), motions.displacements.cols());
-  for (std::size_t k = 0; k < places.size(); ++k)
-    result.middleRows(3 * static_cast<Eigen::Index>(k), 3) = motions.displacements.middleRows(3 * places[k], 3);
-  return result;
+CommonMotions common_motions(const PlacedMotions& a, const PlacedMotions& b, const CommonPlaces& common,
+                             double length) {
+  std::vector<Eigen::Index> turning;
+  for (std::size_t k = 0; k < common.a.size(); ++k)
+    if (a.turns[static_cast<std::size_t>(common.a[k])] && b.turns[static_cast<std::size_t>(common.b[k])])
+      turning.push_back(static_cast<Eigen::Index>(k));
+  const auto places = static_cast<Eigen::Index>(common.a.size()), turns = static_cast<Eigen::Index>(turning.size());
+  const auto rows_of = [&](const PlacedMotions& motions, const std::vector<Eigen::Index>& at) {
+    Eigen::MatrixXd result(3 * (places + turns), motions.displacements.cols());
+    for (Eigen::Index k = 0; k < places; ++k)
+      result.middleRows(3 * k, 3) = motions.displacements.middleRows(3 * at[static_cast<std::size_t>(k)], 3);
+    for (Eigen::Index k = 0; k < turns; ++k) {
+      const auto place = static_cast<std::size_t>(turning[static_cast<std::size_t>(k)]);
+      result.middleRows(3 * (places + k), 3) = length * motions.rotations.middleRows(3 * at[place], 3);
+    }
+    return result;
+  };
+  return {rows_of(a, common.a), rows_of(b, common.b)};
 }
 
 std::optional<Eigen::MatrixXd> expressed_in(const MatrixSet& to, const MatrixSet& from, const Eigen::MatrixXd& motions,
@@ -128,22 +147,16 @@ std::optional<Eigen::MatrixXd> expressed_in(const MatrixSet& to, const MatrixSet
   if (to.scalars() > 0) return std::nullopt;
   const PlacedMotions source = placed_motions(from, motions);
   const PlaceGrid grid(source.places, tolerance);
-  const std::vector<bool> turns = nodes_with(from, 3);
-  const Eigen::MatrixXd rotations = nodal_motions(from, true) * motions;
   Eigen::MatrixXd result(to.size(), motions.cols());
   for (Eigen::Index k = 0; k < to.size(); ++k) {
     const NodalUnknown& u = to.unknowns[static_cast<std::size_t>(k)];
     const std::vector<Eigen::Index> near = grid.near(to.positions.col(u.node));
     const auto found = std::find_if(near.begin(), near.end(), [&](Eigen::Index j) {
-      if (!u.is_rotation()) return true;
-      return j < static_cast<Eigen::Index>(source.nodes.size()) &&
-             turns[static_cast<std::size_t>(source.nodes[static_cast<std::size_t>(j)])];
+      return !u.is_rotation() || source.turns[static_cast<std::size_t>(j)];
     });
     if (found == near.end()) return std::nullopt;
     const Eigen::RowVector3d direction = to.axes[static_cast<std::size_t>(u.node)].col(u.component % 3).transpose();
-    result.row(k) = u.is_rotation()
-                        ? direction * rotations.middleRows(3 * source.nodes[static_cast<std::size_t>(*found)], 3)
-                        : direction * source.displacements.middleRows(3 * *found, 3);
+    result.row(k) = direction * (u.is_rotation() ? source.rotations : source.displacements).middleRows(3 * *found, 3);
   }
   return result;
 }

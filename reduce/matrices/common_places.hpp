@@ -17,6 +17,8 @@ struct PlacedMotions {
   std::vector<std::int64_t> numbers;  ///< of places in the file
   Eigen::Matrix3Xd places;            ///< [m]
   Eigen::MatrixXd displacements;      ///< (3 places, motions), body axes
+  std::vector<bool> turns;            ///< places that have all three rotations as well
+  Eigen::MatrixXd rotations;          ///< (3 places, motions), body axes; zero at places without them
 };
 
 PlacedMotions placed_motions(const MatrixSet& set, const Eigen::MatrixXd& motions);
@@ -29,8 +31,14 @@ struct CommonPlaces {
 
 CommonPlaces common_places(const PlacedMotions& a, const PlacedMotions& b, double tolerance);
 
-/// Rows x y z of some places.
-Eigen::MatrixXd displacements_at(const PlacedMotions& motions, const std::vector<Eigen::Index>& places);
+/// Motions of two sets at their common places: rows x y z of each place, then rotations times a length where both have
+/// them. These tell torsion, which moves no place on its axis.
+struct CommonMotions {
+  Eigen::MatrixXd a, b;  ///< (rows, motions) [m]
+};
+
+/// @param length  by which rotations are multiplied [m]
+CommonMotions common_motions(const PlacedMotions& a, const PlacedMotions& b, const CommonPlaces& common, double length);
 
 /// Values of the unknowns of another set in these motions (n,motions); nothing if an unknown has no counterpart.
 /// Displacements follow from any place, rotations and scalars from those of a set with the same nodes or count.

@@ -29,6 +29,7 @@ Eigenpairs all_modes(const HeldMatrices& held) {
   const Eigen::VectorXd inverse = (scale.array() > 0).select(scale.cwiseInverse(), 0.0);
   const SymmetricEigenpairs masses = symmetric_eigenpairs(inverse.asDiagonal() * mass * inverse.asDiagonal());
   const Eigen::Index inertial = (masses.values.array() > massless * masses.values.cwiseAbs().maxCoeff()).count();
+  if (inertial == 0) return result;  // all mass is at the interfaces
   const Eigen::MatrixXd root =
       scale.asDiagonal() * masses.vectors.rightCols(inertial) * masses.values.tail(inertial).cwiseSqrt().asDiagonal();
   const Eigen::MatrixXd moved = held.solve(root);

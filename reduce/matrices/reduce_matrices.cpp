@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -20,6 +21,7 @@
 #include "reduce/matrices/set_algebra.hpp"
 #include "reduce/matrices/set_points.hpp"
 #include "reduce/matrices/set_recovery.hpp"
+#include "reduce/matrices/verification.hpp"
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
@@ -50,6 +52,22 @@ void make_symmetric(const MatrixSet& set, const char* name, SparseColumns& matri
   matrix = symmetric_part(matrix);
 }
 
+std::string told_mass(const MatrixSet& set, double mass) {
+  return fmt::format("{}: moved as a whole, the body has the mass {:.6g} kg; a mass matrix is needed", set.source,
+                     mass);
+}
+
+/// @throws InputError for a mass without entries, or with a negative entry on its diagonal that is no rounding
+void check_mass_entries(const MatrixSet& set) {
+  const Eigen::VectorXd sizes = largest_entries(set.mass);
+  if (sizes.isZero(0)) throw InputError(told_mass(set, 0));
+  const Eigen::VectorXd diagonal = set.mass.diagonal();
+  for (Eigen::Index k = 0; k < set.size(); ++k)
+    if (diagonal(k) < -text_rounding * sizes(k))
+      throw InputError(fmt::format("{}: the mass has a negative entry on its diagonal, {:.6g} at {}", set.source,
+                                   diagonal(k), set.name_of(k)));
+}
+
 void prepare(MatrixSet& set, Progress& progress) {
   clear_rounding(set);
   make_symmetric(set, "stiffness", set.stiffness);
@@ -60,6 +78,7 @@ void prepare(MatrixSet& set, Progress& progress) {
     progress.note(fmt::format("{} without any stiffness and mass {} left out", counted(removed, "unknown"),
                               removed == 1 ? "is" : "are"));
   if (set.size() == 0) throw InputError(fmt::format("{}: stiffness and mass are zero", set.source));
+  check_mass_entries(set);
 }
 
 /// Mass properties of M~ under rigid motions. Masses along x, y and z that differ in their last digits need iterations.
@@ -67,14 +86,21 @@ MassProperties mass_of(const MatrixSet& set, Superelement body) {
   body.centre.setZero();
   for (int iteration = 0; iteration < 4; ++iteration) {
     const ReducedMassProperties found = reduced_mass_properties(body);
-    if (!(found.mass > 0))
-      throw InputError(fmt::format("{}: moved as a whole, the body has the mass {:.6g} kg; a mass matrix is needed",
-                                   set.source, found.mass));
+    if (!(found.mass > 0)) throw InputError(told_mass(set, found.mass));
     body.total_mass = found.mass;
     body.centre = found.centre;
     body.inertia = (found.inertia + found.inertia.transpose()) / 2;
   }
   return mass_properties(body);
+}
+
+/// @throws InputError for a reduced mass that is not positive: no mechanism can be moved with it
+void check_reduced_mass(const MatrixSet& set, const Eigen::MatrixXd& mass, int threads) {
+  const std::optional<LeastEigenvalue> least = least_scaled_eigenvalue(mass.sparseView(), threads);
+  if (least && least->value < -text_rounding)
+    throw InputError(fmt::format(
+        "{}: the mass is not positive: reduced and scaled to a unit diagonal, its least eigenvalue is {:.3g}",
+        set.source, least->value));
 }
 
 /// A mechanism needs inertia in every coordinate. Lumped masses leave rotations of nodes without any: these get a
@@ -198,7 +224,9 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
   body.stiffness.setZero(size, size);
   const Eigen::MatrixXd mass = transposed_product(T, set.mass * T);
   body.mass = (mass + mass.transpose()) / 2;
-  add_missing_inertia(mass_of(set, body), body, progress);
+  const MassProperties entered = mass_of(set, body);
+  check_reduced_mass(set, body.mass, threads);
+  add_missing_inertia(entered, body, progress);
   const MassProperties properties = mass_of(set, body);
   body.total_mass = properties.mass;
   body.centre = properties.centre;

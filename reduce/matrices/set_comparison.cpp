@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -26,6 +28,9 @@ constexpr double frequency_limit = 1e-2;
 constexpr double shape_limit = 0.1;
 /// Modes whose frequencies differ less count together, since any combination of them is a mode: 1 %.
 constexpr double multiple = 1e-2;
+/// Counterparts whose MAC differs less look alike at the common places: 0.01. The one of the nearest frequency is
+/// meant.
+constexpr double alike = 1e-2;
 constexpr double same_place = 1e-4;  // in lengths of the body
 
 std::string vector_text(const Eigen::Vector3d& x) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", x.x(), x.y(), x.z()); }
@@ -86,6 +91,15 @@ ElasticModes elastic_modes_of(const MatrixStudy& study) {
   return {study.modes->eigenvalues.tail(count).unaryExpr(&signed_frequency), study.modes->vectors.rightCols(count)};
 }
 
+/// Modes that move a common place by more than rounding: the MAC of others is that of rounding.
+std::vector<bool> seen_modes(const Eigen::MatrixXd& u) {
+  const Eigen::VectorXd lengths = u.colwise().norm();
+  const double least = text_rounding * lengths.maxCoeff();
+  std::vector<bool> result(static_cast<std::size_t>(lengths.size()));
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = lengths(static_cast<Eigen::Index>(k)) > least;
+  return result;
+}
+
 /// MAC_ij = (u_i . v_j)^2 / (|u_i|^2 |v_j|^2)
 Eigen::MatrixXd assurance(const Eigen::MatrixXd& u, const Eigen::MatrixXd& v) {
   const Eigen::VectorXd lengths = u.colwise().norm().cwiseMax(1e-300), others = v.colwise().norm().cwiseMax(1e-300);
@@ -93,34 +107,65 @@ Eigen::MatrixXd assurance(const Eigen::MatrixXd& u, const Eigen::MatrixXd& v) {
       .cwiseAbs2();
 }
 
+/// Modes of a second body at the common places.
+struct SeenModes {
+  const ElasticModes& modes;
+  const Eigen::MatrixXd& v;
+  std::vector<bool> seen;
+};
+
+/// The mode that looks most like a mode of the first body; -1 if none is seen.
+/// @param mac  of that mode with those of b @param frequency  of that mode
+Eigen::Index counterpart(const Eigen::RowVectorXd& mac, double frequency, const SeenModes& b) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < mac.size(); ++k)
+    if (b.seen[static_cast<std::size_t>(k)]) largest = std::max(largest, mac(k));
+  const auto distance = [&](Eigen::Index k) { return std::abs(b.modes.frequencies(k) - frequency); };
+  Eigen::Index best = -1;
+  for (Eigen::Index k = 0; k < mac.size(); ++k)
+    if (b.seen[static_cast<std::size_t>(k)] && mac(k) >= largest - alike && (best < 0 || distance(k) < distance(best)))
+      best = k;
+  return best;
+}
+
 /// Share of u in the span of the modes that are as frequent as mode j.
-double group_assurance(const Eigen::VectorXd& u, const ElasticModes& b, const Eigen::MatrixXd& v, Eigen::Index j) {
+double group_assurance(const Eigen::VectorXd& u, const SeenModes& b, Eigen::Index j) {
   std::vector<Eigen::Index> group;
-  for (Eigen::Index k = 0; k < b.frequencies.size(); ++k)
-    if (std::abs(b.frequencies(k) / b.frequencies(j) - 1) < multiple) group.push_back(k);
-  const Eigen::MatrixXd basis = v(Eigen::all, group);
+  for (Eigen::Index k = 0; k < b.modes.frequencies.size(); ++k)
+    if (b.seen[static_cast<std::size_t>(k)] && std::abs(b.modes.frequencies(k) / b.modes.frequencies(j) - 1) < multiple)
+      group.push_back(k);
+  const Eigen::MatrixXd basis = b.v(Eigen::all, group);
   const Eigen::VectorXd rest = u - basis * few_least_squares(basis, u);
   return 1 - rest.squaredNorm() / std::max(u.squaredNorm(), 1e-300);
 }
 
-void compare_shapes(const ElasticModes& a, const ElasticModes& b, const Eigen::MatrixXd& u, const Eigen::MatrixXd& v,
+void compare_shapes(const ElasticModes& a, const ElasticModes& modes_b, const CommonMotions& common,
                     VerifiedSubject& subject) {
-  const Eigen::MatrixXd mac = assurance(u, v);
+  const Eigen::MatrixXd mac = assurance(common.a, common.b);
+  const std::vector<bool> seen = seen_modes(common.a);
+  const SeenModes b{modes_b, common.b, seen_modes(common.b)};
+  bool is_first = true;
   subject.lines.push_back("  mode      Hz   of mode        Hz   difference   MAC");
   for (Eigen::Index i = 0; i < mac.rows(); ++i) {
-    Eigen::Index j = 0;
-    mac.row(i).maxCoeff(&j);
-    const double difference = a.frequencies(i) / b.frequencies(j) - 1, group = group_assurance(u.col(i), b, v, j);
+    const Eigen::Index j =
+        seen[static_cast<std::size_t>(i)] ? counterpart(mac.row(i), a.frequencies(i), b) : Eigen::Index(-1);
+    if (j < 0) {
+      subject.lines.push_back(fmt::format("{:5} {:10.6g}   moves no place in common", i + 1, a.frequencies(i)));
+      continue;
+    }
+    const double other = modes_b.frequencies(j), difference = a.frequencies(i) / other - 1;
+    const double group = group_assurance(common.a.col(i), b, j);
     subject.lines.push_back(fmt::format("{:5} {:10.6g} {:5} {:10.6g} {:+9.3g} % {:8.4f}", i + 1, a.frequencies(i),
-                                        j + 1, b.frequencies(j), 100 * difference, group));
-    if (i > 0) continue;
-    add_finding(subject, {"against_first_shape", 1 - group, shape_limit, "the first free mode has a counterpart"},
-                fmt::format("the first free mode, {:.6g} Hz, has no counterpart: its largest MAC is {:.3f}",
-                            a.frequencies(0), group));
+                                        j + 1, other, 100 * difference, group));
+    if (!std::exchange(is_first, false)) continue;
+    const std::string first = i == 0 ? "the first free mode" : "the first free mode that moves a place in common";
+    add_finding(
+        subject, {"against_first_shape", 1 - group, shape_limit, first + " has a counterpart"},
+        fmt::format("{}, {:.6g} Hz, has no counterpart: its largest MAC is {:.3f}", first, a.frequencies(i), group));
     add_finding(
         subject, {"against_first_frequency", std::abs(difference), frequency_limit, "the first free frequencies agree"},
         fmt::format("the first free frequency is {:.6g} Hz, that of the other's mode of the same shape {:.6g} Hz",
-                    a.frequencies(0), b.frequencies(j)));
+                    a.frequencies(i), other));
   }
 }
 
@@ -186,7 +231,7 @@ VerifiedSubject compare(MatrixSet a, MatrixSet b, int threads) {
   if (common.a.size() < 3) {
     list_frequencies(modes_a, modes_b, subject);
   } else {
-    compare_shapes(modes_a, modes_b, displacements_at(u, common.a), displacements_at(v, common.b), subject);
+    compare_shapes(modes_a, modes_b, common_motions(u, v, common, of_b.length), subject);
   }
   compare_orthogonality(of_a, of_b, modes_a, modes_b, tolerance, subject);
   return subject;

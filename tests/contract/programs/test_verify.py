@@ -1,5 +1,6 @@
 """bielle-reduce --verify and --against: exit statuses and sentences, on superelements and matrix files."""
 
+import os
 import unittest
 
 import h5py
@@ -77,6 +78,24 @@ class Verify(CommandTest):
         said = self.verified(1, "beam.h5")
         self.assertRegex(said.splitlines()[2], r"^\d of \d+ checks fail: ")
         self.assertIn("the stiffness holds the body to the ground: 1 of 6 rigid motions cause force; most at node 2 rx", said)
+
+    def test_a_mass_that_is_not_positive_is_not_reduced(self):
+        def negative(K, M, positions):
+            M *= -1
+
+        def none(K, M, positions):
+            M *= 0
+
+        def coupled(K, M, positions):
+            M[8, 14] = M[14, 8] = 10 * M[8, 8]  # node 2 z and node 3 z
+
+        for change, says in ((negative, "the mass is not positive: scaled to a unit diagonal its least eigenvalue is -"),
+                             (none, "moved as a whole, the body has the mass 0 kg; a mass matrix is needed"), (coupled, "the mass is not positive")):
+            with self.subTest(says):
+                self.write_matrices("beam.h5", change=change)
+                self.write("body.yaml", "body: beam\nmatrices: beam.h5\ninterfaces: {root: {node: 1}, tip: {node: 7}}\nmodes: {count: 8}\n")
+                self.expect_refusal(1, "body.yaml", says=[says])
+                self.assertFalse(os.path.exists(self.path("body.h5")))
 
     def test_a_wrong_unit_of_positions(self):
         self.write_matrices("beam.h5", scale=1000)

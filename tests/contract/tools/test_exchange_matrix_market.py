@@ -46,6 +46,8 @@ class MatrixMarket(Exchange):
                             ({"mass": MASS[2:]}, "expected %%MatrixMarket"), ({"mass": HEAD}, "ends before the counts"), ({"mass": MASS.rstrip()[:-20]}, "the head tells 9 entries"),
                             ({"nodes": "node,x,y\n9,1,2\n"}, "K_nodes.csv:1: there is no column 'z'"),
                             ({"nodes": "9,1,2,3\n9,1,2,4\n"}, "node 9 stands twice"), ({"nodes": "9,1,2,3\n8,1,x,4\n"}, "K_nodes.csv:2: expected a number, found 'x'"),
+                            ({"nodes": "9,1,2,3\n8,1,nan,4\n"}, "K_nodes.csv:2: node 8 has the coordinate 'nan'; expected a finite number"),
+                            ({"nodes": "9,-inf,2,3\n"}, "K_nodes.csv:1: node 9 has the coordinate '-inf'; expected"),
                             ({"nodes": "9,1,2,3\n8,1,2,4\n"}, "2 nodes with 3 or 6 unknowns each do not make the 3 rows"), ({"nodes": ""}, "holds no nodes")):
             with self.subTest(told):
                 self.refuse("matrix_market", self.files(**given), told)
@@ -54,6 +56,8 @@ class MatrixMarket(Exchange):
         self.refuse("matrix_market", path, "has 2 unknowns for matrices of 3 rows", unknowns=self.write("u.csv", "9,x\n9,y\n"))
         self.refuse("matrix_market", path, "u.csv:2: there is no component 'xx'", unknowns=self.write("u.csv", "9,x\n9,xx\n"))
         self.refuse("matrix_market", path, "u.csv:1: node 4 has no position", unknowns=self.write("u.csv", "4,x\n"))
+        deck = self.write("nodes.inp", "*NODE\n9, 1., nan, 3.\n")
+        self.refuse("matrix_market", path, "nodes.inp': node 9 has the position (1, nan, 3); expected finite numbers", nodes=deck)
         self.refuse("matrix_market", self.write("lone.mtx", STIFFNESS), "the positions of the nodes are missing")
         self.refuse("matrix_market", self.path("lone.mtx"), "the file of the mass matrix is missing", nodes=self.path("K_nodes.csv"))
 

@@ -10,6 +10,7 @@ import unittest
 import numpy as np
 
 from box_mesh import InFolder
+from exchange_bodies import cloud_body
 from exchange_samples import assert_same, beam, shuffled, turned, with_modes
 from op4_samples import binary, text
 from bielle_tools.exchange import dmig, op4
@@ -163,15 +164,50 @@ class Dmig(Decks):
         self.check(self.read(SMALL.replace("0       6       2       0", "0       6       4       0")))  # complex by its type alone
 
     def test_cut_off(self):
-        found = self.read(SMALL[:-2])
-        self.assertIn("ends in the middle of a line: it may be truncated", found.notes[-1])
+        self.refuse(SMALL[:-2], "line 16: the file ends in the middle of a line, in the card 'DMIG MAAX 11 0': it is cut off; if it is whole, end its last line")
         self.assertEqual(self.read(SMALL).notes, [])
+        self.assertEqual(self.read(SMALL + "enddata").notes, [])
+        self.assertIn("ends in the middle of a line: it may be cut off", self.read(SMALL + "PARAM,POST,0").notes[-1])
+        self.refuse(SMALL[:SMALL.rindex("DMIG")], "DMIG MAAX has no mass of 1 amplitude of modes that has a stiffness, the first 11 0")
         for cut in range(1, len(SMALL)):
-            try:
-                found = self.read(SMALL[:cut])
-            except InputError:
-                continue
-            self.assertEqual(found.notes == [], SMALL[cut - 1] == "\n")
+            with self.assertRaises(InputError):
+                self.read(SMALL[:cut])
+
+    def test_written_columns_of_shapes_are_complete(self):
+        body = cloud_body(scalars=3, points=6, damping=False)
+        body.shapes.displacement[:, -1] = 0
+        body.shapes.rotation = None
+        dmig.write(body, self.path("written.pch"))
+        found = dmig.read(self.path("written.pch"), Options())
+        self.assertFalse([note for note in found.notes if "no card" in note])
+        np.testing.assert_array_equal(found.shapes.displacement[:, -1], 0)
+        with open(self.path("written.pch"), encoding="ascii") as file:
+            lines = file.readlines()
+        self.refuse("".join(lines[:-1]), f"has no card for the column {body.size} of {body.size}: the end of the file is cut off")
+
+    def test_columns_of_shapes_that_are_missing(self):
+        columns = "".join(f"DMIG    MUG1    {k:8d}       0               2       1{k:8d}\n" for k in (1, 2, 3))
+        shapes = "DMIG    MUG1           0       9       2       0                       {}\n"
+        whole = SMALL + shapes.format(3) + columns
+        found = self.read(whole)
+        self.assertEqual(found.notes, [])
+        np.testing.assert_array_equal(found.shapes.displacement, [[1, 2, 3], [0, 0, 0], [0, 0, 0]])
+        lines = whole.splitlines(keepends=True)
+        told = "DMIG MUG1 has no card for the column {} of 3: zero, unless the file lacks lines"
+        without = "".join(lines[:-1])
+        self.assertIn(told.format(3), self.read(without).notes)       # that of the only mode: all of its shapes may be zero
+        self.assertIn(told.format(2), self.read("".join(lines[:-2] + lines[-1:])).notes)
+        empty = self.read(without + "DMIG,MUG1,3,0\n")
+        self.assertEqual(empty.notes, [])
+        np.testing.assert_array_equal(empty.shapes.displacement, [[1, 2, 0], [0, 0, 0], [0, 0, 0]])
+        second = ("DMIG    KAAX          12       0              12       0      7.\n", "DMIG    MAAX          12       0              12       0      1.\n")
+        modes = SMALL.replace("DMIG    MAAX           0", second[0] + "DMIG    MAAX           0").replace("0      11\n", "0      11      12\n") + second[1]
+        modes += shapes.format(4) + columns
+        self.refuse(modes, "line 19: DMIG MUG1 has no card for the column 4 of 4: the end of the file is cut off; if a column is zero, write its card "
+                    "without rows: DMIG,MUG1,4,0")
+        for end in ("ENDDATA\n", "PARAM,POST,0\n"):
+            self.assertIn("DMIG MUG1 has no card for the column 4 of 4: zero, unless the file lacks lines", self.read(modes + end).notes)
+        self.assertEqual(self.read(modes + "DMIG,MUG1,4,0\n").notes, [])
 
     def test_damaged(self):
         random = np.random.default_rng(5)

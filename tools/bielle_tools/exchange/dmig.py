@@ -1,7 +1,5 @@
 """Matrices of bodies as DMIG cards of Nastran: what EXTSEOUT(DMIGPCH) of Nastran and PARAM,EXTOUT of OptiStruct write."""
 
-import os
-
 import numpy as np
 import scipy.sparse
 
@@ -9,6 +7,7 @@ from ..decks.nastran_cards import read_cards
 from ..messages import InputError, counted
 from . import nastran_quantities
 from .dmig_cards import arrays, read_dmig
+from .dmig_ends import check_columns, check_end, check_modal_mass, last_matrix
 from .dmig_writer import write  # noqa: F401  (the second half of this format)
 from .matrix_set import sparse
 from .nastran_matrices import RECTANGULAR, add_stress, blocks_of_rows, matrix_set, shapes_of
@@ -23,10 +22,14 @@ POINTS = ("GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "C
 def read(path, options):
     """@returns MatrixSet @raises InputError"""
     cards = read_cards(path)
+    notes = check_end(cards)
     found = read_dmig(cards)
     if not found:
         raise InputError(f"'{path}': the deck holds no DMIG")
-    chosen = matrices_by_role(found, read_dmig(read_cards(options.mass)) if options.mass else {}, options, path)
+    last = last_matrix(cards)
+    masses = read_cards(options.mass) if options.mass else []
+    notes += check_end(masses)
+    chosen = matrices_by_role(found, read_dmig(masses), options, path)
     if options.nodes:
         cards = read_cards(options.nodes) + [card for card in cards if card.name not in POINTS]
     deck = Deck(cards)
@@ -35,7 +38,14 @@ def read(path, options):
     places = {pair: place for place, pair in enumerate(unknowns)}
     members = {role: _square(matrix, places) for role, matrix in squares.items()}
     asked = nastran_quantities.wanted(found, options.quantities, path)
-    notes = left_out(found, {**chosen, **{f"quantity {name}": matrix for name, (matrix, _) in asked.items()}}) + _cut_off(path)
+    notes += left_out(found, {**chosen, **{f"quantity {name}": matrix for name, (matrix, _) in asked.items()}})
+    check_modal_mass(deck, chosen["stiffness"], chosen["mass"])
+    filled = sum(np.diff(scipy.sparse.csc_matrix(members[role]).indptr) for role in ("stiffness", "mass")) > 0
+    modal = np.array([pair[1] == SCALAR or pair in deck.modal for pair in unknowns])
+    for matrix in [chosen[role] for role in RECTANGULAR if role in chosen] + [matrix for matrix, _ in asked.values()]:
+        _columns(matrix, places)
+        if matrix.rectangular:
+            notes += check_columns(matrix, filled, modal, matrix.name == last)
     if "shapes" in chosen:
         blocks, values = _rows_of_points(chosen["shapes"], places)
         members["shapes"], more = shapes_of(deck, blocks, values)
@@ -50,13 +60,6 @@ def read(path, options):
     result = matrix_set(deck, unknowns, members, options, path, "Nastran DMIG")
     result.notes += notes
     return result
-
-
-def _cut_off(path):
-    """A note on a file whose last line has no end: nothing else tells that columns of its last matrix are missing."""
-    with open(path, "rb") as file:
-        file.seek(-1, os.SEEK_END)
-        return [] if file.read() in b"\r\n" else [f"'{path}' ends in the middle of a line: it may be truncated"]
 
 
 def _unknowns(deck, matrices):

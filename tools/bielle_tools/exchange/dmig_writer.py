@@ -54,16 +54,17 @@ class _Cards:
 
     def rectangular(self, name, pairs, values):
         self._header(name, RECTANGULAR, str(values.shape[1]))
-        self._columns(name, values, pairs, [(k + 1, 0) for k in range(values.shape[1])])
+        self._columns(name, values, pairs, [(k + 1, 0) for k in range(values.shape[1])], empty=True)
 
     def _header(self, name, form, count):
         self.lines.append(f"DMIG    {name:8s}{0:8d}{form:8d}{2:8d}{0:8d}{'':8s}{'':8s}{count:>8s}".rstrip())
 
-    def _columns(self, name, matrix, rows, columns):
+    def _columns(self, name, matrix, rows, columns, empty=False):
+        """@param empty: writes a card for columns without entries as well, so that a missing one tells that the file was cut off"""
         by_column = scipy.sparse.csc_matrix(matrix)
         by_column.sort_indices()
         for (point, component), begin, end in zip(columns, by_column.indptr, by_column.indptr[1:]):
-            if begin < end:
+            if begin < end or empty:
                 self.lines.append(f"DMIG*   {name:16s}{point:15d}{component:16d}")
             for row, value in zip(by_column.indices[begin:end], by_column.data[begin:end]):
                 text = wide_number(float(value))

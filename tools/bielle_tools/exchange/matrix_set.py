@@ -80,8 +80,9 @@ class MatrixSet:
         n, nodes = self.size, len(self.numbers)
         if n == 0:
             raise InputError("holds no unknowns")
-        if self.positions.shape != (nodes, 3) or not np.isfinite(self.positions).all():
-            raise InputError("holds positions of nodes that are no numbers")
+        if self.positions.shape != (nodes, 3):
+            raise InputError(f"holds positions of the shape {self.positions.shape} for {counted(nodes, 'node')}")
+        check_positions(self.numbers, self.positions)
         if self.axes is not None:
             self._check_axes()
         for name, matrix in self.matrices().items():
@@ -131,6 +132,14 @@ class MatrixSet:
     def name_of(self, node, component):
         """Name of an unknown, as messages show it."""
         return f"scalar {component + 1}" if node < 0 else f"node {self.numbers[node]} {COMPONENTS[component]}"
+
+
+def check_positions(numbers, positions, before=""):
+    """@param before: text before the sentence @raises InputError naming the first node whose position is not finite"""
+    wrong = np.flatnonzero(~np.isfinite(positions).all(axis=1))
+    if len(wrong):
+        told = ", ".join(f"{each:g}" for each in positions[wrong[0]])
+        raise InputError(f"{before}node {numbers[wrong[0]]} has the position ({told}); expected finite numbers")
 
 
 def sparse(matrix):

@@ -7,6 +7,7 @@ stand in another order.
 """
 
 import csv
+import math
 import os
 from dataclasses import dataclass, field
 
@@ -17,7 +18,7 @@ from ..decks.abaqus_file import read_deck
 from ..decks.abaqus_lines import number
 from ..messages import InputError, counted, did_you_mean
 from ..text_lines import lines_of
-from .matrix_set import COMPONENTS
+from .matrix_set import COMPONENTS, check_positions
 
 NODE_COLUMNS, UNKNOWN_COLUMNS = ("node", "x", "y", "z"), ("node", "component")
 ALIASES = {"id": "node", "number": "node", "dof": "component", "direction": "component"}
@@ -40,7 +41,7 @@ def read_nodes(path):
     if os.path.splitext(path)[1].lower() == ".csv":
         rows = _table(path, NODE_COLUMNS)
         numbers = [_label(path, line, words[0]) for line, words in rows]
-        positions = [[_number(path, line, word) for word in words[1:]] for line, words in rows]
+        positions = [[_coordinate(path, line, words[0], word) for word in words[1:]] for line, words in rows]
     else:
         numbers, positions, scalars, blocks = _nodes_of_deck(path)
     if len(set(numbers)) < len(numbers):
@@ -59,6 +60,7 @@ def _nodes_of_deck(path):
                          "are read in global axes; "
                          "remove it and generate them again")
     numbers = list(deck.numbers)
+    check_positions(numbers, np.asarray(deck.points, float).reshape(-1, 3), f"'{path}': ")
     if any(not 0 < each < LABELS for each in numbers):
         raise InputError(f"'{path}': several instances have nodes, whose numbers are not those of the matrices: give "
                          "a table of nodes "
@@ -147,11 +149,14 @@ def _label(path, line, word):
     return label
 
 
-def _number(path, line, word):
+def _coordinate(path, line, node, word):
     try:
-        return number(word)
+        found = number(word)
     except ValueError as error:
         raise InputError(f"{path}:{line}: {error}") from None
+    if not math.isfinite(found):
+        raise InputError(f"{path}:{line}: node {node} has the coordinate '{word}'; expected a finite number")
+    return found
 
 
 def _component(path, line, word):

@@ -72,6 +72,31 @@ TEST_CASE("Directions that a node does not have are named") {
   CHECK_THROWS_WITH(test::reduced(test::matrices_of(mesh), options), Contains("singular"));
 }
 
+TEST_CASE("A negative mass is refused, with its entry or by what is left of it at the interfaces") {
+  MatrixSet set = test::beam_set(5);
+  MatrixOptions options;
+  options.interfaces = {test::tied("a", {10}), test::tied("b", {60})};
+  set.mass = -set.mass;
+  CHECK_THROWS_WITH(test::reduced(set, options), Contains("negative entry on its diagonal") && Contains("node 10 x"));
+  set.mass = -set.mass;
+  set.mass.coeffRef(0, 30) = set.mass.coeffRef(30, 0) = 10 * set.mass.coeff(0, 0);  // couples both ends
+  CHECK_THROWS_WITH(test::reduced(set, options), Contains("the mass is not positive: reduced and scaled"));
+}
+
+TEST_CASE("A body whose mass is at its interfaces alone has no modes") {
+  MatrixSet set = test::beam_set(2);
+  MatrixOptions options;
+  options.interfaces = {test::tied("a", {10}), test::tied("b", {30})};
+  Eigen::MatrixXd M = set.mass;
+  M.setZero();
+  M.diagonal().head(6).setConstant(2);
+  M.diagonal().tail(6).setConstant(2);
+  set.mass = test::sparse(M);
+  const Superelement body = test::reduced(set, options);
+  CHECK(body.frequencies.size() == 0);
+  CHECK(body.total_mass == Approx(4));
+}
+
 TEST_CASE("Matrices without mass or without anything are refused") {
   MatrixSet set = test::beam_set();
   set.mass.setZero();

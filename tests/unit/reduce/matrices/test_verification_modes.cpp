@@ -1,8 +1,12 @@
 // Frequencies and effective masses against those of beams (W. C. Young, Roark's Formulas, table of natural
 // frequencies), and sets side by side.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -95,6 +99,62 @@ TEST_CASE("Different bodies are told apart") {
   CHECK(finding_of(found, "against_mass").fault == "their masses differ: 6.06 and 6 kg");
   CHECK(finding_of(found, "against_first_frequency").check.value == Approx(std::sqrt(1.5 / 1.01) - 1).epsilon(1e-6));
   CHECK(finding_of(found, "against_first_shape").passed());
+}
+
+namespace {
+
+/// Lines of a comparison that list a mode of the first body: "    1    ..".
+std::vector<std::string> mode_lines(const VerifiedSubject& found) {
+  std::vector<std::string> lines;
+  for (const std::string& line : found.lines)
+    if (line.size() > 5 && line.substr(0, 4).find_first_not_of(" 0123456789") == std::string::npos &&
+        std::isdigit(line[4]))
+      lines.push_back(line);
+  return lines;
+}
+
+/// A beam as a superelement between its ends, whose points on the axis have displacements alone.
+MatrixSet reduced_beam(double stiffness, double mass) {
+  MatrixSet set = test::beam_set(6);
+  set.stiffness *= stiffness;
+  set.mass *= mass;
+  MatrixOptions options;
+  options.interfaces = {test::tied("root", {10}), test::tied("tip", {70})};
+  return matrix_set_of(test::reduced(set, options));
+}
+
+}  // namespace
+
+TEST_CASE("Torsion, which moves no place on the axis, is paired by rotations") {
+  const double stiffer = GENERATE(1.01, 1.3);
+  const VerifiedSubject found = compare(reduced_beam(stiffer, 1), reduced_beam(1, 1));
+  const std::vector<std::string> lines = mode_lines(found);
+  REQUIRE(lines.size() == elastic_modes);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    INFO(lines[k]);
+    int mode = 0, other = 0;
+    double frequency = 0, counterpart = 0, difference = 0;
+    REQUIRE(std::sscanf(lines[k].c_str(), "%d %lf %d %lf %lf", &mode, &frequency, &other, &counterpart, &difference) ==
+            5);
+    CHECK(other == mode);
+    CHECK(difference == Approx(100 * (std::sqrt(stiffer) - 1)).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("A mode that moves no place in common has no counterpart") {
+  MatrixSet set = test::beam_set(6), twin = set;
+  for (MatrixSet* each : {&set, &twin}) {  // rotations become scalars, whose counterparts are not known
+    int scalars = 0;
+    for (NodalUnknown& u : each->unknowns)
+      if (u.is_rotation()) u = {-1, scalars++};
+  }
+  const std::vector<std::string> lines = mode_lines(compare(set, twin));
+  REQUIRE(lines.size() == elastic_modes);
+  const auto unseen = std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.find("moves no place in common") != std::string::npos;
+  });
+  CHECK(unseen > 0);
+  CHECK(unseen < elastic_modes / 2);
 }
 
 TEST_CASE("Inertias are compared entry by entry about one point") {
