@@ -115,7 +115,7 @@ struct SeenModes {
 };
 
 /// The mode that looks most like a mode of the first body; -1 if none is seen.
-/// @param mac  of that mode with those of b @param frequency  of that mode
+/// @param mac  that of the mode with each mode of b @param frequency  that of the mode
 Eigen::Index counterpart(const Eigen::RowVectorXd& mac, double frequency, const SeenModes& b) {
   double largest = 0;
   for (Eigen::Index k = 0; k < mac.size(); ++k)
