@@ -181,15 +181,8 @@ void RopeFriction::add_pattern(const Slots& slots, LocalPattern& pattern) const 
 
 void RopeFriction::add_energy(const LocalState& state, Energy& energy) const {
   const Sides& sides = calc_sides(state);
-  // The rope is longer by its strain than the length that slips.
-  const auto strain_energy = [&](const RopeSection::Stretch& side) {  // per unloaded length
-    const double strain = side.stretched ? side.E / side.natural : 0;
-    return 0.5 * after_.material().EA * strain * strain;
-  };
-  const double drop = sides.stretch[1].tension - sides.stretch[0].tension,
-               of_strain = strain_energy(sides.stretch[1]) - strain_energy(sides.stretch[0]);
-  const double power = (drop + of_strain) * RopeSlip::rate(slip_of(state)).value;
-  energy.input += power;  // the sections give it away by the slip
+  const double power = (sides.stretch[1].tension - sides.stretch[0].tension) * RopeSlip::rate(slip_of(state)).value;
+  energy.input += power;  // the power that the sections give away by the slip
   energy.dissipation += power;
 }
 

@@ -13,7 +13,7 @@
 // no model of friction: they keep a rope whose other side is slack under a negligible tension greater than zero while
 // it slides, c = 1e-10 s/m EA, and make the slip unique where several pulleys of a belt slip at once. A negative wrap
 // counts as zero: both tensions are then equal. The friction T_2 - T_1 acts on the rim of the pulley by the tensions
-// themselves. The power (T_2 - T_1) (1 + (T_1 + T_2)/(2 EA)) ds/dt is dissipated, on the length of the stretched rope.
+// themselves. The power (T_2 - T_1) ds/dt is dissipated.
 //
 // At the beginning of a branch the rate of the slip of a damped rope follows from the same equation in place of d: the
 // accelerations with which the branch begins need the tensions after the discontinuity.
