@@ -122,7 +122,6 @@ int SparsePattern::find(int row, int column) const {
 
 template <class Scalar>
 struct SparseFactors<Scalar>::Factors {
-  using Functions = Klu<Scalar>;
   klu_common common = defaults();
   klu_symbolic* symbolic = nullptr;  ///< the chosen ordering, owned by the pattern
   klu_numeric* numeric = nullptr;
@@ -136,7 +135,7 @@ struct SparseFactors<Scalar>::Factors {
   Factors& operator=(const Factors&) = delete;
   ~Factors() { drop_numeric(); }
   void drop_numeric() {
-    if (numeric) Functions::free_numeric(&numeric, &common);
+    if (numeric) Klu<Scalar>::free_numeric(&numeric, &common);
     known_cost.reset();
   }
   /// Factorises `scaled` with the ordering; false if the matrix is singular, or the limit of entries is exceeded.
@@ -145,7 +144,7 @@ struct SparseFactors<Scalar>::Factors {
     // Without a limit the memory grows by the default factor; with one, KLU fails as soon as it would have to grow.
     common.memgrow = room > 0 ? 1e30 : defaults().memgrow;
     common.initmem_amd = room > 0 ? 0.5 * room / symbolic->lnz : defaults().initmem_amd;
-    numeric = Functions::factor(starts(pattern), rows(pattern), numbers(scaled.data()), symbolic, &common);
+    numeric = Klu<Scalar>::factor(starts(pattern), rows(pattern), numbers(scaled.data()), symbolic, &common);
     if (numeric && common.status == KLU_OK) return true;
     drop_numeric();
     if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -156,7 +155,7 @@ struct SparseFactors<Scalar>::Factors {
   bool gave_up() const { return common.status == KLU_TOO_LARGE; }
   FactorCost cost() {
     if (!known_cost) {
-      Functions::flops(symbolic, numeric, &common);
+      Klu<Scalar>::flops(symbolic, numeric, &common);
       known_cost = {common.flops, static_cast<double>(numeric->lnz) + static_cast<double>(numeric->unz)};
     }
     return *known_cost;
