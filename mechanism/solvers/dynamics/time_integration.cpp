@@ -142,18 +142,11 @@ void TimeIntegration::make_consistent_anew(StartReport& report) {
   State& state = step_.state();
   KktMatrix& saddle = correction_.saddle();
   const State begun = state;
-  const StartReport before = report;
-  const auto make = [&] {  // by one factorisation
-    report = before;
-    make_velocities_consistent(system_, environment_, state, report, saddle);
-    make_accelerations_consistent(system_, environment_, state, saddle);
-  };
-  make();
-  if (auto flags = exchange_one_sided(system_, environment_, begun, state, saddle)) {
-    state = begun;
-    state.idle = *std::move(flags);
-    make();
-  }
+  StartReport exchanged = report;
+  // The same factorisation is used for both.
+  make_velocities_consistent(system_, environment_, state, report, saddle);
+  make_accelerations_consistent(system_, environment_, state, saddle);
+  if (exchange_one_sided(system_, environment_, begun, state, exchanged, saddle)) report = std::move(exchanged);
   balance_massless(system_, environment_, state, report);
   step_.take_rates();
 }

@@ -61,12 +61,7 @@ StartReport make_consistent(const System& system, const Environment& environment
   refuse_holds(system, environment, state, active_holds(system, state), Overloaded::holds, saddle);
   const State begun = state;
   make_accelerations_consistent(system, environment, state, saddle);
-  if (auto flags = exchange_one_sided(system, environment, begun, state, saddle)) {
-    state = begun;
-    state.idle = *std::move(flags);
-    make_velocities_consistent(system, environment, state, report, saddle);
-    make_accelerations_consistent(system, environment, state, saddle);
-  }
+  exchange_one_sided(system, environment, begun, state, report, saddle);
   // Start values that depend on reactions are known only now, and may change the reactions.
   constexpr int most = 20;
   for (int k = 0; k < most && begin_first_order(system, environment, state); ++k)

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -131,17 +134,22 @@ class Exchange {
 
 }  // namespace
 
-std::optional<std::vector<char>> exchange_one_sided(const System& system, const Environment& environment,
-                                                    const State& begun, const State& made, KktMatrix& saddle) {
+bool exchange_one_sided(const System& system, const Environment& environment, const State& begun, State& made,
+                        StartReport& report, KktMatrix& saddle) {
   Exchange exchange(system, environment, begun, saddle);
-  if (!exchange.any_aside()) return {};
+  if (!exchange.any_aside()) return false;
   State found = made;
   found.reaction.resize(0);
   const Exchange::Wrong wrong = exchange.find_wrong(found);
-  if (wrong.none()) return {};
+  if (wrong.none()) return false;
   std::optional<Flags> flags = exchange.find(wrong);
   saddle.serve_no_more();
-  return flags;
+  if (!flags) return false;
+  made = begun;
+  made.idle = *std::move(flags);
+  make_velocities_consistent(system, environment, made, report, saddle);
+  make_accelerations_consistent(system, environment, made, saddle);
+  return true;
 }
 
 }  // namespace bielle::mechanism

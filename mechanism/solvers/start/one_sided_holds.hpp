@@ -9,21 +9,20 @@
 // Complementarity: F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts (1996), chapter 6.
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "mechanism/solvers/constraints/kkt_matrix.hpp"
+#include "mechanism/solvers/start/start_report.hpp"
 
 namespace bielle::mechanism {
 
-/// Seeks another set of active one-sided constraints if some are set aside, and motions or forces have wrong signs.
+/// Begins with another set of active one-sided constraints if some are set aside, and motions or forces have wrong
+/// signs.
 /// @param begun   state before its velocities and accelerations were made consistent
-/// @param made    the same state with consistent velocities and accelerations
-/// @param saddle  its factors belong to other constraints afterwards, if there is another set
-/// @returns flags of the constraints (State::idle) from which to begin instead; nothing if this set is right, or if
-/// none is better
+/// @param made    the same state with consistent velocities and accelerations; those of the other set afterwards
+/// @param report  receives the changes of velocities with the other set
+/// @param saddle  its factors belong to the set that is used
+/// @returns whether there is another set: not if this one is right, or if none is better
 /// @throws ComputationError naming a violated constraint if all sets have one
-std::optional<std::vector<char>> exchange_one_sided(const System& system, const Environment& environment,
-                                                    const State& begun, const State& made, KktMatrix& saddle);
+bool exchange_one_sided(const System& system, const Environment& environment, const State& begun, State& made,
+                        StartReport& report, KktMatrix& saddle);
 
 }  // namespace bielle::mechanism
