@@ -34,12 +34,12 @@ CoordinateRate Joint::principal_coordinate(std::size_t index, const LocalState& 
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames_.on_first, &B = frames_.on_second;
   const JointCoordinate& coordinate = coordinates_[index];
-  if (coordinate.kind == JointCoordinate::Kind::rotation && coordinate.axis != JointCoordinate::by_type) {
+  if (is_rotation(index)) {
     const PairRotation rotation(first, second, A.R, B.R);
     return {rotation.psi()[coordinate.axis], rotation.omega(first, second)[coordinate.axis]};
   }
   if (coordinate.axis == JointCoordinate::by_type) {
-    const PairMeasure m = calc_own_coordinate(index, state);
+    const PairSlope m = calc_own_slope(index, state);
     return {m.value, m.rate(pair_rate(first, second))};
   }
   const auto [value, rate] = coordinate.kind == JointCoordinate::Kind::displacement
@@ -48,13 +48,18 @@ CoordinateRate Joint::principal_coordinate(std::size_t index, const LocalState& 
   return {value, rate};
 }
 
-PairMeasure Joint::position(int axis, const LocalState& state) const {
-  const Frame &A = frames().on_first, &B = frames().on_second;
-  return measure_position(state.node(0), state.node(1), A.R.col(axis), A.x, B.x);
+bool Joint::is_rotation(std::size_t index) const {
+  const JointCoordinate& coordinate = coordinates_[index];
+  return coordinate.kind == JointCoordinate::Kind::rotation && coordinate.axis != JointCoordinate::by_type;
 }
 
 PairMeasure Joint::calc_own_coordinate(std::size_t index, const LocalState& /*state*/) const {
   throw std::logic_error(fmt::format("a {} does not define its coordinate '{}'", type(), coordinates_[index].name));
+}
+
+PairSlope Joint::calc_own_slope(std::size_t index, const LocalState& state) const {
+  const PairMeasure m = calc_own_coordinate(index, state);
+  return {m.value, m.gradient};
 }
 
 double Joint::counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const {
@@ -72,24 +77,46 @@ CoordinateRate Joint::coordinate(std::size_t index, const LocalState& state) con
   return {counted(index, state, principal), principal.rate};
 }
 
+template <int order>
+PairMeasureOf<order> Joint::measure(std::size_t index, const LocalState& state) const {
+  const JointCoordinate& coordinate = coordinates_[index];
+  if (coordinate.axis != JointCoordinate::by_type) {
+    if (coordinate.kind != JointCoordinate::Kind::angle) return position<order>(coordinate.axis, state);
+    return measure_angle<order>(state.node(0), state.node(1), frames_.on_first.R, frames_.on_second.R);
+  }
+  if constexpr (order == 1)
+    return calc_own_slope(index, state);
+  else
+    return calc_own_coordinate(index, state);
+}
+
+template <class Measure>
+void Joint::set_slopes(std::size_t index, const LocalState& state, const Measure& m, CoordinateSlopes& slopes) const {
+  slopes.g().head<12>() = slopes.w().head<12>() = m.gradient;
+  slopes.principal = m.value;
+  slopes.rate = m.rate(pair_rate(state.node(0), state.node(1)));
+  slopes.value = counted(index, state, {slopes.principal, slopes.rate});
+}
+
+void Joint::calc_slopes(std::size_t index, const LocalState& state, CoordinateSlopes& slopes) const {
+  const NodeState &first = state.node(0), &second = state.node(1);
+  slopes.prepare(state.slots().size());
+  if (!is_rotation(index)) return set_slopes(index, state, measure<1>(index, state), slopes);
+  PairRotation(first, second, frames_.on_first.R, frames_.on_second.R)
+      .calc_slopes(coordinates_[index].axis, first, second, slopes);
+}
+
 void Joint::calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const {
   const NodeState &first = state.node(0), &second = state.node(1);
-  const Frame &A = frames_.on_first, &B = frames_.on_second;
-  const JointCoordinate& coordinate = coordinates_[index];
   jet.prepare(state.slots().size());
-  if (coordinate.kind == JointCoordinate::Kind::rotation && coordinate.axis != JointCoordinate::by_type) {
-    PairRotation(first, second, A.R, B.R).calc(coordinate.axis, first, second, jet);
+  if (is_rotation(index)) {
+    PairRotation(first, second, frames_.on_first.R, frames_.on_second.R)
+        .calc(coordinates_[index].axis, first, second, jet);
     return;
   }
-  const PairMeasure m = coordinate.axis == JointCoordinate::by_type ? calc_own_coordinate(index, state)
-                        : coordinate.kind == JointCoordinate::Kind::angle
-                            ? measure_angle(first, second, A.R, B.R)
-                            : measure_position(first, second, A.R.col(coordinate.axis), A.x, B.x);
-  jet.g().head<12>() = jet.w().head<12>() = m.gradient;
+  const PairMeasure m = measure<2>(index, state);
+  set_slopes(index, state, m, jet);
   jet.S().topLeftCorner<12, 12>() = jet.W().topLeftCorner<12, 12>() = m.second;
-  jet.principal = m.value;
-  jet.rate = m.rate(pair_rate(first, second));
-  jet.value = counted(index, state, {jet.principal, jet.rate});
 }
 
 std::pair<double, double> Joint::calc_coordinate_rates(const LocalState& state, CoordinateDerivatives& jet) {

@@ -40,6 +40,8 @@ class Joint : public Component {
   CoordinateRate coordinate(std::size_t index, const LocalState& state) const;
   /// Computes the coordinate with all derivatives over the joint's local layout.
   virtual void calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const;
+  /// Computes the coordinate with its gradients alone: for residuals, which need no more.
+  virtual void calc_slopes(std::size_t index, const LocalState& state, CoordinateSlopes& slopes) const;
   /// Computes first and second time derivative of the coordinate. @param jet  result of calc_coordinate at the state
   static std::pair<double, double> calc_coordinate_rates(const LocalState& state, CoordinateDerivatives& jet);
 
@@ -108,13 +110,25 @@ class Joint : public Component {
 
  protected:
   /// Component x, y or z, in the frame J_A, of the vector from the origin of J_A to that of J_B.
-  PairMeasure position(int axis, const LocalState& state) const;
+  template <int order = 2>
+  PairMeasureOf<order> position(int axis, const LocalState& state) const {
+    const Frame &A = frames_.on_first, &B = frames_.on_second;
+    return measure_position<order>(state.node(0), state.node(1), A.R.col(axis), A.x, B.x);
+  }
   /// Computes a coordinate that the type defines (JointCoordinate::by_type): an angle is in (-pi, pi].
   virtual PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const;
+  /// Computes the same with its gradient alone. By default the second derivatives are dropped.
+  virtual PairSlope calc_own_slope(std::size_t index, const LocalState& state) const;
   /// Returns a coordinate's value, angles in (-pi, pi], and its rate.
   virtual CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const;
 
  private:
+  bool is_rotation(std::size_t index) const;  ///< whether it is a component of the rotation vector
+  template <int order>
+  PairMeasureOf<order> measure(std::size_t index, const LocalState& state) const;
+  /// Sets value, rate and gradients. The type is that of a measure of either order.
+  template <class Measure>
+  void set_slopes(std::size_t index, const LocalState& state, const Measure& m, CoordinateSlopes& slopes) const;
   /// Returns an angle with the number of whole turns predicted from the joint's memory and the rates, so that a step
   /// may rotate by more than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted step.
   double counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const;

@@ -4,6 +4,7 @@ namespace bielle::mechanism {
 namespace {
 
 thread_local CoordinateDerivatives jet;
+thread_local CoordinateSlopes slopes;
 
 }  // namespace
 
@@ -13,9 +14,9 @@ double CoordinateMeasure::value(const LocalState& state) const {
 
 double CoordinateMeasure::calc(const LocalState& state, MeasureGradient& gradient) const {
   gradient.prepare(state.slots().size());
-  joint().calc_coordinate(coordinate_, state.of(0), jet);
-  gradient.position().segment(state.slots().reference_row(0), jet.g().size()) = jet.g();
-  return jet.value;
+  joint().calc_slopes(coordinate_, state.of(0), slopes);
+  gradient.position().segment(state.slots().reference_row(0), slopes.g().size()) = slopes.g();
+  return slopes.value;
 }
 
 double CoordinateRateMeasure::value(const LocalState& state) const {

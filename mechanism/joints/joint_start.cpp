@@ -15,12 +15,12 @@ std::vector<StartCoordinate> Joint::start_coordinates() const {
 
 StartCoordinateValue Joint::calc_start_coordinate(std::size_t index, const LocalState& state,
                                                   MeasureGradient& gradient) const {
-  thread_local CoordinateDerivatives jet;
-  calc_coordinate(index, state, jet);
+  thread_local CoordinateSlopes slopes;
+  calc_slopes(index, state, slopes);
   gradient.prepare(state.slots().size());
-  gradient.position() = jet.g();
-  gradient.rate() = jet.w();
-  return {jet.principal, jet.rate};
+  gradient.position() = slopes.g();
+  gradient.rate() = slopes.w();
+  return {slopes.principal, slopes.rate};
 }
 
 std::string Joint::remark() const {

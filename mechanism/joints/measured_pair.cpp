@@ -16,27 +16,26 @@ void MeasuredPair::declare(Declaration& declaration) const {
   }
 }
 
-std::span<const PairMeasure> MeasuredPair::calc(const LocalState& state, Rows& rows) const {
-  const std::span<PairMeasure> declared(rows.data(), rows_.size());
+std::span<const PairMeasure> MeasuredPair::calc(const LocalState& state, Rows& memory) const {
+  const std::span<PairMeasure> declared(memory.data(), rows_.size());
   calc_rows(state, declared);
   return declared;
 }
 
-PairMeasure MeasuredPair::squared_distance(const LocalState& state) const {
-  return square(position(0, state)) + square(position(1, state)) + square(position(2, state));
-}
-
-PairMeasure MeasuredPair::alignment(int first_axis, int second_axis, const LocalState& state) const {
-  return measure_alignment(state.node(0), state.node(1), frames().on_first.R.col(first_axis),
-                           frames().on_second.R.col(second_axis));
+void MeasuredPair::calc_row_slopes(const LocalState& state, std::span<PairSlope> rows) const {
+  Rows memory;
+  const std::span<const PairMeasure> whole = calc(state, memory);
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = {whole[k].value, whole[k].gradient};
 }
 
 void MeasuredPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const auto lambda = state.multiplier();
   const Vector12 v = pair_rate(state.node(0), state.node(1));
-  Rows memory;
+  std::array<PairSlope, 6> memory;
+  const std::span<PairSlope> rows(memory.data(), rows_.size());
+  calc_row_slopes(state, rows);
   Eigen::Index k = 0;
-  for (const PairMeasure& row : calc(state, memory)) {
+  for (const PairSlope& row : rows) {
     r.head<12>() += lambda[k] * row.gradient;
     const bool holonomic = rows_[static_cast<std::size_t>(k)].kind == ConstraintKind::holonomic;
     r[12 + k] += holonomic ? row.value : row.rate(v);

@@ -1,8 +1,9 @@
 // Joints whose constraints are scalar measures of their two nodes.
 //
 // A type computes its rows as numbers with derivatives (reduce/common/autodiff.hpp); residual, tangent and rates of the
-// rows follow from them. Rows are holonomic, m = 0, or non-holonomic, w . v = 0: for the latter the gradient is w and
-// the second derivatives are dw, and the value is not used.
+// rows follow from them. Most types derive from MeasuredRows, and write their rows once for both orders of derivatives.
+// Rows are holonomic, m = 0, or non-holonomic, w . v = 0: for the latter the gradient is w and the second derivatives
+// are dw, and the value is not used.
 #pragma once
 
 #include <array>
@@ -32,17 +33,43 @@ class MeasuredPair : public Joint {
  protected:
   /// @param rows  as many rows as declared
   virtual void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const = 0;
+  /// Computes the same with gradients alone, for residuals. By default the second derivatives are dropped.
+  virtual void calc_row_slopes(const LocalState& state, std::span<PairSlope> rows) const;
 
   // Terms of rows, in addition to positions.
   /// The product d . d, with the vector d from the origin of J_A to that of J_B.
-  PairMeasure squared_distance(const LocalState& state) const;
+  template <int order = 2>
+  PairMeasureOf<order> squared_distance(const LocalState& state) const {
+    return square(position<order>(0, state)) + square(position<order>(1, state)) + square(position<order>(2, state));
+  }
   /// Alignment of an axis of J_A with an axis of J_B.
-  PairMeasure alignment(int first_axis, int second_axis, const LocalState& state) const;
+  template <int order = 2>
+  PairMeasureOf<order> alignment(int first_axis, int second_axis, const LocalState& state) const {
+    return measure_alignment<order>(state.node(0), state.node(1), frames().on_first.R.col(first_axis),
+                                    frames().on_second.R.col(second_axis));
+  }
 
  private:
   using Rows = std::array<PairMeasure, 6>;
-  std::span<const PairMeasure> calc(const LocalState& state, Rows& rows) const;
+  std::span<const PairMeasure> calc(const LocalState& state, Rows& memory) const;
   std::vector<Row> rows_;
+};
+
+/// Base of a type that writes its rows once, as a template:
+///     template <int order> void rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const;
+template <class Type>
+class MeasuredRows : public MeasuredPair {
+ protected:
+  using MeasuredPair::MeasuredPair;
+
+ private:
+  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const final {
+    type().template rows<2>(state, rows);
+  }
+  void calc_row_slopes(const LocalState& state, std::span<PairSlope> rows) const final {
+    type().template rows<1>(state, rows);
+  }
+  const Type& type() const { return static_cast<const Type&>(*this); }
 };
 
 }  // namespace bielle::mechanism

@@ -35,31 +35,42 @@ struct CoordinateRate {
   double rate = 0;
 };
 
-/// A coordinate with all its derivatives, see the head of this file. The object is reused from call to call: it
-/// allocates memory only when it grows.
-class CoordinateDerivatives {
+/// A coordinate with its gradients, see the head of this file: enough for residuals. The object is reused from call to
+/// call: it allocates memory only when it grows.
+class CoordinateSlopes {
  public:
   double value = 0;      ///< value; angles are counted over turns
   double principal = 0;  ///< an angle in (-pi, pi], accurate after any number of turns; otherwise the value
   double rate = 0;
 
   using VectorMap = Eigen::Map<VectorX>;
+  /// Sets the gradients to zero. @param size  size of the joint's local layout
+  void prepare(int size) {
+    for (std::vector<double>* vector : {&g_, &w_}) vector->assign(static_cast<std::size_t>(size), 0.0);
+  }
+  int size() const { return static_cast<int>(g_.size()); }
+  VectorMap g() { return {g_.data(), size()}; }
+  VectorMap w() { return {w_.data(), size()}; }
+
+ private:
+  std::vector<double> g_, w_;
+};
+
+/// A coordinate with all its derivatives.
+class CoordinateDerivatives : public CoordinateSlopes {
+ public:
   using MatrixMap = Eigen::Map<MatrixX>;
   /// Sets all derivatives to zero. @param size  size of the joint's local layout
   void prepare(int size) {
-    size_ = size;
+    CoordinateSlopes::prepare(size);
     const auto n = static_cast<std::size_t>(size);
-    for (std::vector<double>* vector : {&g_, &w_}) vector->assign(n, 0.0);
     for (std::vector<double>* matrix : {&S_, &W_}) matrix->assign(n * n, 0.0);
   }
-  VectorMap g() { return {g_.data(), size_}; }
-  VectorMap w() { return {w_.data(), size_}; }
-  MatrixMap S() { return {S_.data(), size_, size_}; }
-  MatrixMap W() { return {W_.data(), size_, size_}; }
+  MatrixMap S() { return {S_.data(), size(), size()}; }
+  MatrixMap W() { return {W_.data(), size(), size()}; }
 
  private:
-  int size_ = 0;
-  std::vector<double> g_, w_, S_, W_;
+  std::vector<double> S_, W_;
 };
 
 }  // namespace bielle::mechanism

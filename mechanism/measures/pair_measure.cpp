@@ -120,30 +120,49 @@ void AxisPair::add_second(double factor, PairHessian& S) const {
   S.W += factor * skew_product(b_hat_, a_2_);
 }
 
-PairMeasure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
-                             const Vector3& c_2) {
+template <int order>
+PairMeasureOf<order> measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat,
+                                      const Vector3& c_1, const Vector3& c_2) {
   const PointPair pair(first, second, first.R.transpose() * second.R, c_2);
-  PairHessian S;
-  pair.add_second(e_hat, S);
-  return {pair.value(e_hat, c_1), pair.gradient(e_hat), S.dense()};
-}
-
-PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat,
-                              const Vector3& b_hat) {
-  const Matrix3 R_12 = first.R.transpose() * second.R;
-  const AxisPair pair(R_12, a_hat, b_hat);
-  PairHessian S;
-  pair.add_second(1, S);
-  PairMeasure m{pair.value(), Vector12::Zero(), S.dense()};
-  m.gradient.segment<3>(3) = pair.first_gradient();
-  m.gradient.segment<3>(9) = pair.second_gradient();
+  PairMeasureOf<order> m{pair.value(e_hat, c_1), pair.gradient(e_hat)};
+  if constexpr (order == 2) {
+    PairHessian S;
+    pair.add_second(e_hat, S);
+    m.second = S.dense();
+  }
   return m;
 }
 
-PairMeasure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B) {
-  return atan2(measure_alignment(first, second, A.col(1), B.col(0)),
-               measure_alignment(first, second, A.col(0), B.col(0)));
+template <int order>
+PairMeasureOf<order> measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat,
+                                       const Vector3& b_hat) {
+  const Matrix3 R_12 = first.R.transpose() * second.R;
+  const AxisPair pair(R_12, a_hat, b_hat);
+  PairMeasureOf<order> m(pair.value());
+  m.gradient.template segment<3>(3) = pair.first_gradient();
+  m.gradient.template segment<3>(9) = pair.second_gradient();
+  if constexpr (order == 2) {
+    PairHessian S;
+    pair.add_second(1, S);
+    m.second = S.dense();
+  }
+  return m;
 }
+
+template <int order>
+PairMeasureOf<order> measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A,
+                                   const Matrix3& B) {
+  return atan2(measure_alignment<order>(first, second, A.col(1), B.col(0)),
+               measure_alignment<order>(first, second, A.col(0), B.col(0)));
+}
+
+template PairSlope measure_position(const NodeState&, const NodeState&, const Vector3&, const Vector3&, const Vector3&);
+template PairMeasure measure_position(const NodeState&, const NodeState&, const Vector3&, const Vector3&,
+                                      const Vector3&);
+template PairSlope measure_alignment(const NodeState&, const NodeState&, const Vector3&, const Vector3&);
+template PairMeasure measure_alignment(const NodeState&, const NodeState&, const Vector3&, const Vector3&);
+template PairSlope measure_angle(const NodeState&, const NodeState&, const Matrix3&, const Matrix3&);
+template PairMeasure measure_angle(const NodeState&, const NodeState&, const Matrix3&, const Matrix3&);
 
 PairMeasure exchanged(const PairMeasure& measure) {
   PairMeasure result;

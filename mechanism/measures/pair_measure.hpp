@@ -39,7 +39,11 @@ struct PairHessian {
   Matrix12 dense() const;
 };
 
-using PairMeasure = AutoDiff<12, 2>;
+/// A measure with its derivatives; of order 1 (its gradient alone) for residuals, of order 2 for tangents.
+template <int order>
+using PairMeasureOf = AutoDiff<12, order>;
+using PairMeasure = PairMeasureOf<2>;
+using PairSlope = PairMeasureOf<1>;
 
 /// Positions of a point p_2 = x_2 + R_2 c_2 of node 2 relative to node 1: measures e . (p_2 - p_1), p_1 = x_1 + R_1
 /// c_1, along axes e = R_1 e^ carried by node 1. Gradient and second derivative are linear in e^: several axes, each
@@ -96,17 +100,22 @@ class AxisPair {
   const Matrix3& R_12_;
 };
 
+// The following functions exist for orders 1 and 2.
+
 /// Computes the position measure of one axis, with its derivatives.
-PairMeasure measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat, const Vector3& c_1,
-                             const Vector3& c_2);
+template <int order = 2>
+PairMeasureOf<order> measure_position(const NodeState& first, const NodeState& second, const Vector3& e_hat,
+                                      const Vector3& c_1, const Vector3& c_2);
 
 /// Computes the alignment measure, with its derivatives.
-PairMeasure measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat,
-                              const Vector3& b_hat);
+template <int order = 2>
+PairMeasureOf<order> measure_alignment(const NodeState& first, const NodeState& second, const Vector3& a_hat,
+                                       const Vector3& b_hat);
 
 /// Computes the angle atan2(y_A . x_B, x_A . x_B) in (-pi, pi] by which frame B of node 2 is rotated relative to frame
 /// A of node 1 about their common z axis. @param A,B  axes in the components of their nodes
-PairMeasure measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
+template <int order = 2>
+PairMeasureOf<order> measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
 /// Converts a measure of nodes (second, first) to one of (first, second).
 PairMeasure exchanged(const PairMeasure& measure);

@@ -48,16 +48,21 @@ void PairRotation::add_second(const Vector3& c, Matrix12& S) const {
 }
 
 void PairRotation::calc(int axis, const NodeState& first, const NodeState& second, CoordinateDerivatives& jet) const {
-  jet.value = jet.principal = psi_[axis];
-  jet.rate = omega(first, second)[axis];
+  calc_slopes(axis, first, second, jet);
   const Vector3 e = Vector3::Unit(axis);
   Matrix12 S = Matrix12::Zero(), W = Matrix12::Zero();
   add_second(e, S);
   add_rate_second(e, W);
-  jet.w().head<12>() = rate_gradients().row(axis).transpose();
-  jet.g().head<12>() = gradients().row(axis).transpose();
   jet.S().topLeftCorner<12, 12>() = S;
   jet.W().topLeftCorner<12, 12>() = W;
+}
+
+void PairRotation::calc_slopes(int axis, const NodeState& first, const NodeState& second,
+                               CoordinateSlopes& slopes) const {
+  slopes.value = slopes.principal = psi_[axis];
+  slopes.rate = omega(first, second)[axis];
+  slopes.w().head<12>() = rate_gradients().row(axis).transpose();
+  slopes.g().head<12>() = gradients().row(axis).transpose();
 }
 
 }  // namespace bielle::mechanism

@@ -28,6 +28,7 @@ class PairRotation {
   /// Computes the coordinate psi[axis] with omega[axis] as its rate, on a local layout whose first twelve rows are
   /// those of the two nodes. @param jet  must be prepared
   void calc(int axis, const NodeState& first, const NodeState& second, CoordinateDerivatives& jet) const;
+  void calc_slopes(int axis, const NodeState& first, const NodeState& second, CoordinateSlopes& slopes) const;
 
  private:
   Matrix3 A_, R_12_;

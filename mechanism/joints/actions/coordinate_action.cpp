@@ -22,6 +22,12 @@ CoordinateDerivatives& CoordinateAction::calc(const LocalState& state) const {
   return jet;
 }
 
+CoordinateSlopes& CoordinateAction::calc_slopes(const LocalState& state) const {
+  thread_local CoordinateSlopes slopes;
+  joint_.calc_slopes(coordinate_, state.of(0), slopes);
+  return slopes;
+}
+
 const VectorX& CoordinateAction::rate_slope(const LocalState& state, CoordinateDerivatives& jet) {
   thread_local VectorX v, slope;
   const LocalState of_joint = state.of(0);
@@ -32,9 +38,9 @@ const VectorX& CoordinateAction::rate_slope(const LocalState& state, CoordinateD
   return slope;
 }
 
-void CoordinateAction::add_kept(const LocalState& state, CoordinateDerivatives& jet, double distance,
+void CoordinateAction::add_kept(const LocalState& state, CoordinateSlopes& slopes, double distance,
                                 Eigen::Ref<VectorX> r) {
-  r.segment(row(state), jet.g().size()) += state.multiplier()[0] * jet.g();
+  r.segment(row(state), slopes.g().size()) += state.multiplier()[0] * slopes.g();
   r[0] += distance;
 }
 

@@ -28,12 +28,14 @@ class CoordinateAction : public Component {
   CoordinateRate value(const LocalState& state) const { return joint_.coordinate(coordinate_, state.of(0)); }
   /// Returns the coordinate with derivatives: valid until the next call in this thread.
   CoordinateDerivatives& calc(const LocalState& state) const;
+  /// Returns the coordinate with its gradients: valid until the next call in this thread.
+  CoordinateSlopes& calc_slopes(const LocalState& state) const;
   /// First local row of the joint.
   static int row(const LocalState& state) { return state.slots().reference_row(0); }
   /// Returns v^T W of a jet: derivatives of the rate by positions.
   static const VectorX& rate_slope(const LocalState& state, CoordinateDerivatives& jet);
   // Adds a constraint on the coordinate, `distance` = 0, as the component's only row.
-  static void add_kept(const LocalState& state, CoordinateDerivatives& jet, double distance, Eigen::Ref<VectorX> r);
+  static void add_kept(const LocalState& state, CoordinateSlopes& slopes, double distance, Eigen::Ref<VectorX> r);
   static void add_kept_tangent(const LocalState& state, CoordinateDerivatives& jet, LocalTangent& tangent);
   /// Computes first and second time derivative of the coordinate.
   std::pair<double, double> calc_kept_rates(const LocalState& state) const;

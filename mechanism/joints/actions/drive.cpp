@@ -11,8 +11,8 @@ namespace bielle::mechanism {
 void Drive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const double Q = force(state);
   if (Q == 0) return;
-  CoordinateDerivatives& jet = calc(state);
-  r.segment(row(state), jet.w().size()) -= Q * jet.w();
+  CoordinateSlopes& slopes = calc_slopes(state);
+  r.segment(row(state), slopes.w().size()) -= Q * slopes.w();
 }
 
 void Drive::add_energy(const LocalState& state, Energy& energy) const {

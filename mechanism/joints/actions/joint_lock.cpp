@@ -27,8 +27,8 @@ double JointLock::distance(const LocalState& state, double value) const {
 }
 
 void JointLock::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateDerivatives& jet = calc(state);
-  add_kept(state, jet, distance(state, jet.principal), r);
+  CoordinateSlopes& slopes = calc_slopes(state);
+  add_kept(state, slopes, distance(state, slopes.principal), r);
 }
 
 void JointLock::add_tangent(const LocalState& state, LocalTangent& tangent) const {

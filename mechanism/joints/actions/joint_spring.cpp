@@ -18,13 +18,13 @@ void JointSpring::declare(Declaration& declaration) const {
 }
 
 void JointSpring::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateDerivatives& jet = calc(state);
-  const LawForce law = law_.calc(state, jet.value - rest_, jet.rate, splits());
-  auto of_joint = r.segment(row(state), jet.g().size());
+  CoordinateSlopes& slopes = calc_slopes(state);
+  const LawForce law = law_.calc(state, slopes.value - rest_, slopes.rate, splits());
+  auto of_joint = r.segment(row(state), slopes.g().size());
   if (splits())
-    of_joint += law.N_elastic * jet.g() + (law.N - law.N_elastic) * jet.w();
+    of_joint += law.N_elastic * slopes.g() + (law.N - law.N_elastic) * slopes.w();
   else
-    of_joint += law.N * jet.g();
+    of_joint += law.N * slopes.g();
 }
 
 // dN = N_x g + N_v (v^T W dz + w dv) + measures;   d(N g) = N S + g dN; the terms along w are similar

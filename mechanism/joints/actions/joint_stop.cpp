@@ -22,9 +22,9 @@ StopLaw::Contact JointStop::contact(const LocalState& state, double q, double v)
 }
 
 void JointStop::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateDerivatives& jet = calc(state);
-  if (const StopLaw::Contact c = contact(state, jet.value, jet.rate); c.pushes)
-    r.segment(row(state), jet.w().size()) += c.N * jet.w();
+  CoordinateSlopes& slopes = calc_slopes(state);
+  if (const StopLaw::Contact c = contact(state, slopes.value, slopes.rate); c.pushes)
+    r.segment(row(state), slopes.w().size()) += c.N * slopes.w();
 }
 
 void JointStop::add_tangent(const LocalState& state, LocalTangent& tangent) const {

@@ -43,8 +43,8 @@ void PositionDrive::declare(Declaration& declaration) const {
 }
 
 void PositionDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateDerivatives& jet = calc(state);
-  add_kept(state, jet, distance(state, jet.principal), r);
+  CoordinateSlopes& slopes = calc_slopes(state);
+  add_kept(state, slopes, distance(state, slopes.principal), r);
 }
 
 void PositionDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -70,9 +70,9 @@ void RateDrive::declare(Declaration& declaration) const {
 }
 
 void RateDrive::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateDerivatives& jet = calc(state);
-  r.segment(row(state), jet.w().size()) += state.multiplier()[0] * jet.w();
-  r[0] += jet.rate - law()(state.time());
+  CoordinateSlopes& slopes = calc_slopes(state);
+  r.segment(row(state), slopes.w().size()) += state.multiplier()[0] * slopes.w();
+  r[0] += slopes.rate - law()(state.time());
 }
 
 void RateDrive::add_tangent(const LocalState& state, LocalTangent& tangent) const {

@@ -149,9 +149,9 @@ void RigidOneWay::calc_event_functions(const LocalState& state, Eigen::Ref<Vecto
 }
 
 void RigidOneWay::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateDerivatives& jet = calc(state);
-  const double away = jet.principal - held_value(state);
-  add_kept(state, jet, coordinate().kind == JointCoordinate::Kind::angle ? std::remainder(away, 2 * M_PI) : away, r);
+  CoordinateSlopes& slopes = calc_slopes(state);
+  const double away = slopes.principal - held_value(state);
+  add_kept(state, slopes, coordinate().kind == JointCoordinate::Kind::angle ? std::remainder(away, 2 * M_PI) : away, r);
 }
 
 void RigidOneWay::add_tangent(const LocalState& state, LocalTangent& tangent) const {
@@ -188,9 +188,9 @@ ElasticOneWay::Contact ElasticOneWay::contact(const LocalState& state, double q,
 }
 
 void ElasticOneWay::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  CoordinateDerivatives& jet = calc(state);
-  if (const Contact c = contact(state, jet.value, jet.rate); c.pushes)
-    r.segment(row(state), jet.w().size()) -= sense() * c.N * jet.w();
+  CoordinateSlopes& slopes = calc_slopes(state);
+  if (const Contact c = contact(state, slopes.value, slopes.rate); c.pushes)
+    r.segment(row(state), slopes.w().size()) -= sense() * c.N * slopes.w();
 }
 
 void ElasticOneWay::add_tangent(const LocalState& state, LocalTangent& tangent) const {

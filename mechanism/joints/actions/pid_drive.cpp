@@ -91,9 +91,9 @@ void PidDrive::calc_error(const LocalState& state, Effort& error) const {
     error.by_position.segment(at, size) -= controlled.position();
     error.by_rate.segment(at, size) -= controlled.rate();
   } else {
-    CoordinateDerivatives& jet = calc(state);
-    error.value -= jet.value;
-    error.by_position.segment(row(state), jet.g().size()) -= jet.g();
+    CoordinateSlopes& slopes = calc_slopes(state);
+    error.value -= slopes.value;
+    error.by_position.segment(row(state), slopes.g().size()) -= slopes.g();
   }
 }
 

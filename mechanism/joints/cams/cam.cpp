@@ -83,15 +83,14 @@ void LiftedCoordinate::declare(Declaration& declaration) const {
 
 // Phi = c_2 - f(c_1)
 void LiftedCoordinate::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  thread_local Derivatives derivatives;
-  angle_.joint->calc_coordinate(angle_.index, state.of(of_angle_), derivatives.angle);
-  lifted_.joint->calc_coordinate(lifted_.index, state.of(of_lifted_), derivatives.lifted);
-  const Interpolation::Values f = lift_(derivatives.angle.value);
+  thread_local CoordinateSlopes angle, lifted;
+  angle_.joint->calc_slopes(angle_.index, state.of(of_angle_), angle);
+  lifted_.joint->calc_slopes(lifted_.index, state.of(of_lifted_), lifted);
+  const Interpolation::Values f = lift_(angle.value);
   const double lambda = state.multiplier()[0];
-  r.segment(state.slots().reference_row(of_angle_), derivatives.angle.g().size()) -=
-      lambda * f.slope * derivatives.angle.g();
-  r.segment(state.slots().reference_row(of_lifted_), derivatives.lifted.g().size()) += lambda * derivatives.lifted.g();
-  r[0] += derivatives.lifted.value - f.value;
+  r.segment(state.slots().reference_row(of_angle_), angle.g().size()) -= lambda * f.slope * angle.g();
+  r.segment(state.slots().reference_row(of_lifted_), lifted.g().size()) += lambda * lifted.g();
+  r[0] += lifted.value - f.value;
 }
 
 void LiftedCoordinate::add_tangent(const LocalState& state, LocalTangent& tangent) const {

@@ -12,6 +12,7 @@ namespace bielle::mechanism {
 namespace {
 
 thread_local CoordinateDerivatives term_jet;
+thread_local CoordinateSlopes term_slopes;
 thread_local VectorX sum_gradient, sum_rate_slope, joint_rates;
 
 /// "pair.deformation", "pair.force"
@@ -94,8 +95,9 @@ void ElasticCoupling::add_residual(const LocalState& state, Eigen::Ref<VectorX> 
   const double F = force(state);
   if (F == 0) return;
   for (const Term& term : terms()) {
-    term.joint->calc_coordinate(term.coordinate, state.of(term.reference), term_jet);
-    r.segment(state.slots().reference_row(term.reference), term_jet.g().size()) += (F * term.factor) * term_jet.g();
+    term.joint->calc_slopes(term.coordinate, state.of(term.reference), term_slopes);
+    r.segment(state.slots().reference_row(term.reference), term_slopes.g().size()) +=
+        (F * term.factor) * term_slopes.g();
   }
 }
 

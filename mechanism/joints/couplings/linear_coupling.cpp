@@ -11,13 +11,13 @@ void LinearCoupling::declare(Declaration& declaration) const {
 }
 
 void LinearCoupling::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  thread_local CoordinateDerivatives jet;
+  thread_local CoordinateSlopes slopes;
   const double lambda = state.multiplier()[0];
   long double sum = 0;  // angles of many turns cancel in the sum
   for (const Term& term : terms()) {
-    term.joint->calc_coordinate(term.coordinate, state.of(term.reference), jet);
-    r.segment(state.slots().reference_row(term.reference), jet.g().size()) += (lambda * term.factor) * jet.g();
-    sum += static_cast<long double>(term.factor) * jet.value;
+    term.joint->calc_slopes(term.coordinate, state.of(term.reference), slopes);
+    r.segment(state.slots().reference_row(term.reference), slopes.g().size()) += (lambda * term.factor) * slopes.g();
+    sum += static_cast<long double>(term.factor) * slopes.value;
   }
   r[0] += static_cast<double>(sum);
 }

@@ -57,7 +57,10 @@ JointFriction::Slip& JointFriction::slip(const LocalState& state, bool with_posi
   for (std::size_t k = 0; k < surface_.parts.size(); ++k) {
     const auto& [coordinate, component, arm] = surface_.parts[k];
     CoordinateDerivatives& jet = slip.jets[k];
-    joint_.calc_coordinate(coordinate, of_joint, jet);
+    if (with_positions)
+      joint_.calc_coordinate(coordinate, of_joint, jet);
+    else
+      joint_.calc_slopes(coordinate, of_joint, jet);
     slip.v[component] += arm * jet.rate;
     slip.w.col(component) += arm * jet.w();
     if (with_positions) slip.by_position.col(component).noalias() += arm * (jet.W().transpose() * velocities);

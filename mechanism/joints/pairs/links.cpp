@@ -25,7 +25,10 @@ double length_at(const Expression& length, double t, const std::string& name) {
 using RowList = std::vector<MeasuredPair::Row>;
 
 /// (d . d - L^2)/(2 L)
-PairMeasure length_row(const PairMeasure& dd, double L) { return (0.5 / L) * (dd - L * L); }
+template <class Measure>
+Measure length_row(const Measure& dd, double L) {
+  return (0.5 / L) * (dd - L * L);
+}
 
 /// Angular velocity of the line between the two points [rad/s].
 double turning_of_rod(const LocalState& state, const JointFrames& frames) {
@@ -43,11 +46,12 @@ Vector3 point_of(const NodeState& node, const Vector3& c) { return node.x + node
 
 DistanceJoint::DistanceJoint(std::string type, std::string name, JointFrames frames, Expression length,
                              const Model& model)
-    : MeasuredPair(std::move(type), std::move(name), std::move(frames), {}, RowList{{"tension", "N"}}, model),
+    : MeasuredRows(std::move(type), std::move(name), std::move(frames), {}, RowList{{"tension", "N"}}, model),
       length_(std::move(length)) {}
 
-void DistanceJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  rows[0] = length_row(squared_distance(state), length_at(length_, state.time(), name()));
+template <int order>
+void DistanceJoint::rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const {
+  rows[0] = length_row(squared_distance<order>(state), length_at(length_, state.time(), name()));
 }
 
 // The derivative L' d/dL of the row is -L' (1 + d.d/L^2)/2; it is applied once more along the motion.
@@ -56,7 +60,7 @@ void DistanceJoint::add_constraint_rates(const LocalState& state, Eigen::Ref<Vec
   MeasuredPair::add_constraint_rates(state, velocity, acceleration);
   if (length_.is_constant()) return;
   const double t = state.time(), L = length_(t), L1 = length_.derivative(t, 1), L2 = length_.derivative(t, 2);
-  const PairMeasure dd = squared_distance(state);
+  const PairSlope dd = squared_distance<1>(state);
   const double u = dd.value / (L * L), dd_rate = dd.rate(pair_rate(state.node(0), state.node(1)));
   velocity[0] -= 0.5 * L1 * (1 + u);
   acceleration[0] += -0.5 * L2 * (1 + u) + L1 * L1 * u / L - L1 * dd_rate / (L * L);
@@ -96,19 +100,24 @@ void DistanceJoint::describe(const LocalState& state, Description& description) 
 
 RevoluteSphericalLink::RevoluteSphericalLink(std::string name, JointFrames frames, double length, double offset,
                                              const Model& model)
-    : MeasuredPair("revolute_spherical", std::move(name), std::move(frames),
+    : MeasuredRows("revolute_spherical", std::move(name), std::move(frames),
                    {{"angle", JointCoordinate::Kind::angle, JointCoordinate::by_type}},
                    RowList{{"tension", "N"}, {"axial", "N"}}, model),
       length_(length),
       offset_(offset) {}
 
-void RevoluteSphericalLink::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  rows[0] = length_row(squared_distance(state), length_);
-  rows[1] = position(2, state) - offset_;
+template <int order>
+void RevoluteSphericalLink::rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const {
+  rows[0] = length_row(squared_distance<order>(state), length_);
+  rows[1] = position<order>(2, state) - offset_;
 }
 
 PairMeasure RevoluteSphericalLink::calc_own_coordinate(std::size_t /*index*/, const LocalState& state) const {
   return atan2(position(1, state), position(0, state));
+}
+
+PairSlope RevoluteSphericalLink::calc_own_slope(std::size_t /*index*/, const LocalState& state) const {
+  return atan2(position<1>(1, state), position<1>(0, state));
 }
 
 double RevoluteSphericalLink::turning_rate(const LocalState& state) const { return turning_of_rod(state, frames()); }

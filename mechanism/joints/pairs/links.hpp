@@ -16,7 +16,7 @@
 
 namespace bielle::mechanism {
 
-class DistanceJoint final : public MeasuredPair, public TimeDependent {
+class DistanceJoint final : public MeasuredRows<DistanceJoint>, public TimeDependent {
  public:
   /// @param length  positive [m], as a function of t
   DistanceJoint(std::string type, std::string name, JointFrames frames, Expression length, const Model& model);
@@ -31,11 +31,13 @@ class DistanceJoint final : public MeasuredPair, public TimeDependent {
   void draw(Drawing& drawing) const override;
 
  private:
-  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  friend MeasuredRows;
+  template <int order>
+  void rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const;
   Expression length_;
 };
 
-class RevoluteSphericalLink final : public MeasuredPair {
+class RevoluteSphericalLink final : public MeasuredRows<RevoluteSphericalLink> {
  public:
   /// @param length,offset  |d| and z_A . d [m]
   RevoluteSphericalLink(std::string name, JointFrames frames, double length, double offset, const Model& model);
@@ -44,8 +46,11 @@ class RevoluteSphericalLink final : public MeasuredPair {
   void draw(Drawing& drawing) const override;
 
  private:
-  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  friend MeasuredRows;
+  template <int order>
+  void rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const;
   PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const override;
+  PairSlope calc_own_slope(std::size_t index, const LocalState& state) const override;
   double length_, offset_;
 };
 

@@ -129,13 +129,18 @@ CoordinateRate PointOnCurve::principal_coordinate(std::size_t index, const Local
 void PointOnCurve::calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const {
   if (index > 0) return Joint::calc_coordinate(index, state, jet);
   const Curve::Place c = curve_(state.amplitude()[0]);
-  const double speed = c.first.norm();
   jet.prepare(state.slots().size());
+  calc_slopes(index, state, jet);
+  jet.S()(parameter, parameter) = jet.W()(parameter, parameter) = c.first.dot(c.second) / c.first.norm();
+}
+
+void PointOnCurve::calc_slopes(std::size_t index, const LocalState& state, CoordinateSlopes& slopes) const {
+  if (index > 0) return Joint::calc_slopes(index, state, slopes);
+  slopes.prepare(state.slots().size());
   const auto [value, rate] = principal_coordinate(index, state);
-  jet.value = jet.principal = value;
-  jet.rate = rate;
-  jet.g()[parameter] = jet.w()[parameter] = speed;
-  jet.S()(parameter, parameter) = jet.W()(parameter, parameter) = c.first.dot(c.second) / speed;
+  slopes.value = slopes.principal = value;
+  slopes.rate = rate;
+  slopes.g()[parameter] = slopes.w()[parameter] = curve_(state.amplitude()[0]).first.norm();
 }
 
 void PointOnCurve::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {

@@ -38,6 +38,7 @@ class PointOnCurve final : public Joint {
                             Eigen::Ref<VectorX> acceleration) const override;
   double turning_rate(const LocalState& state) const override;
   void calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const override;
+  void calc_slopes(std::size_t index, const LocalState& state, CoordinateSlopes& slopes) const override;
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void describe(const LocalState& state, Description& description) const override;
   void draw(Drawing& drawing) const override;

@@ -13,20 +13,21 @@ constexpr std::size_t screw_angle = 1;  ///< index of the angle
 }
 
 ScrewJoint::ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model)
-    : MeasuredPair(
+    : MeasuredRows(
           "screw", std::move(name), std::move(frames),
           {{"displacement", JointCoordinate::Kind::displacement, 2}, {"angle", JointCoordinate::Kind::angle, 2}},
           {{"x", "N"}, {"y", "N"}, {"rx", "N m"}, {"ry", "N m"}, {"thread", "N"}}, model),
       pitch_(pitch) {}
 
-void ScrewJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  rows[0] = position(0, state);
-  rows[1] = position(1, state);
-  rows[2] = alignment(1, 2, state);
-  rows[3] = alignment(0, 2, state);
-  PairMeasure angle = measure_angle(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R);
+template <int order>
+void ScrewJoint::rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const {
+  rows[0] = position<order>(0, state);
+  rows[1] = position<order>(1, state);
+  rows[2] = alignment<order>(1, 2, state);
+  rows[3] = alignment<order>(0, 2, state);
+  auto angle = measure_angle<order>(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R);
   angle.value = coordinate(screw_angle, state).value;  // including its turns
-  rows[4] = position(2, state) - (pitch_ / (2 * M_PI)) * angle;
+  rows[4] = position<order>(2, state) - (pitch_ / (2 * M_PI)) * angle;
 }
 
 void ScrewJoint::start_at(std::size_t coordinate, double value, bool by_motion) {

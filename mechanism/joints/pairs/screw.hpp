@@ -9,7 +9,7 @@
 
 namespace bielle::mechanism {
 
-class ScrewJoint final : public MeasuredPair {
+class ScrewJoint final : public MeasuredRows<ScrewJoint> {
  public:
   ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model);
   void start_at(std::size_t coordinate, double value, bool by_motion = true) override;
@@ -19,7 +19,9 @@ class ScrewJoint final : public MeasuredPair {
   void describe(const LocalState& state, Description& description) const override;
 
  private:
-  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  friend MeasuredRows;
+  template <int order>
+  void rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const;
   double pitch_;
 };
 

@@ -233,10 +233,15 @@ CoordinateRate SliderJoint::principal_coordinate(std::size_t /*index*/, const Lo
 
 void SliderJoint::calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const {
   jet.prepare(state.slots().size());
+  calc_slopes(index, state, jet);
+}
+
+void SliderJoint::calc_slopes(std::size_t index, const LocalState& state, CoordinateSlopes& slopes) const {
+  slopes.prepare(state.slots().size());
   const auto [value, rate] = principal_coordinate(index, state);
-  jet.value = jet.principal = value;
-  jet.rate = rate;
-  jet.g()[parameter()] = jet.w()[parameter()] = 1;
+  slopes.value = slopes.principal = value;
+  slopes.rate = rate;
+  slopes.g()[parameter()] = slopes.w()[parameter()] = 1;
 }
 
 void SliderJoint::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {

@@ -22,7 +22,7 @@ std::vector<MeasuredPair::Row> point_and(const char* torque) {
 }  // namespace
 
 UniversalJoint::UniversalJoint(std::string name, JointFrames frames, const Model& model)
-    : MeasuredPair("universal", std::move(name), std::move(frames),
+    : MeasuredRows("universal", std::move(name), std::move(frames),
                    {{"angle_1", CoordinateKind::angle, JointCoordinate::by_type},
                     {"angle_2", CoordinateKind::angle, JointCoordinate::by_type}},
                    point_and("cross"), model) {}
@@ -38,27 +38,38 @@ void UniversalJoint::declare(Declaration& declaration) const {
 }
 
 void UniversalJoint::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
-  for (std::size_t k : {0U, 1U}) values[static_cast<Eigen::Index>(k)] = std::cos(coordinate(k, state).value);
+  for (std::size_t k : {0U, 1U}) values[static_cast<Eigen::Index>(k)] = std::cos(own_angle<1>(k, state).value);
 }
 
-void UniversalJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  for (const int axis : {x, y, z}) rows[static_cast<std::size_t>(axis)] = position(axis, state);
-  rows[3] = alignment(z, x, state);
+template <int order>
+void UniversalJoint::rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const {
+  for (const int axis : {x, y, z}) rows[static_cast<std::size_t>(axis)] = position<order>(axis, state);
+  rows[3] = alignment<order>(z, x, state);
+}
+
+template <int order>
+PairMeasureOf<order> UniversalJoint::own_angle(std::size_t index, const LocalState& state) const {
+  return index == 0 ? atan2(alignment<order>(y, x, state), alignment<order>(x, x, state))
+                    : atan2(alignment<order>(z, y, state), alignment<order>(z, z, state));
 }
 
 PairMeasure UniversalJoint::calc_own_coordinate(std::size_t index, const LocalState& state) const {
-  return index == 0 ? atan2(alignment(y, x, state), alignment(x, x, state))
-                    : atan2(alignment(z, y, state), alignment(z, z, state));
+  return own_angle<2>(index, state);
+}
+
+PairSlope UniversalJoint::calc_own_slope(std::size_t index, const LocalState& state) const {
+  return own_angle<1>(index, state);
 }
 
 ConstantVelocityJoint::ConstantVelocityJoint(std::string name, JointFrames frames, const Model& model)
-    : MeasuredPair("constant_velocity", std::move(name), std::move(frames),
+    : MeasuredRows("constant_velocity", std::move(name), std::move(frames),
                    {{"bend_x", CoordinateKind::rotation, x}, {"bend_y", CoordinateKind::rotation, y}},
                    point_and("torque"), model) {}
 
-void ConstantVelocityJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  for (const int axis : {x, y, z}) rows[static_cast<std::size_t>(axis)] = position(axis, state);
-  rows[3] = 0.5 * (alignment(y, x, state) - alignment(x, y, state));
+template <int order>
+void ConstantVelocityJoint::rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const {
+  for (const int axis : {x, y, z}) rows[static_cast<std::size_t>(axis)] = position<order>(axis, state);
+  rows[3] = 0.5 * (alignment<order>(y, x, state) - alignment<order>(x, y, state));
 }
 
 std::string ConstantVelocityJoint::wrong_branch(const LocalState& state) const {

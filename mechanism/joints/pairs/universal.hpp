@@ -28,7 +28,7 @@
 
 namespace bielle::mechanism {
 
-class UniversalJoint final : public MeasuredPair {
+class UniversalJoint final : public MeasuredRows<UniversalJoint> {
  public:
   UniversalJoint(std::string name, JointFrames frames, const Model& model);
   void declare(Declaration& declaration) const override;
@@ -37,17 +37,24 @@ class UniversalJoint final : public MeasuredPair {
   std::vector<SlidingSurface> sliding_surfaces() const override { return {{{0}}, {{1}}}; }
 
  private:
-  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  friend MeasuredRows;
+  template <int order>
+  void rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const;
   PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const override;
+  PairSlope calc_own_slope(std::size_t index, const LocalState& state) const override;
+  template <int order>
+  PairMeasureOf<order> own_angle(std::size_t index, const LocalState& state) const;
 };
 
-class ConstantVelocityJoint final : public MeasuredPair {
+class ConstantVelocityJoint final : public MeasuredRows<ConstantVelocityJoint> {
  public:
   ConstantVelocityJoint(std::string name, JointFrames frames, const Model& model);
   std::string wrong_branch(const LocalState& state) const override;
 
  private:
-  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  friend MeasuredRows;
+  template <int order>
+  void rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const;
 };
 
 const KeyTable& universal_keys();

@@ -104,6 +104,13 @@ void check_coordinates(const Joints& joints, const Joint& joint, const State& st
     CHECK((g.transpose() - jet.g()).cwiseAbs().maxCoeff() < accurate);
     CHECK((S - jet.S()).cwiseAbs().maxCoeff() < accurate * std::max(1.0, S.cwiseAbs().maxCoeff()));
     CHECK((W - jet.W()).cwiseAbs().maxCoeff() < accurate);
+    CoordinateSlopes slopes;
+    joint.calc_slopes(k, local, slopes);
+    CHECK((slopes.g() - jet.g()).isZero(1e-14));
+    CHECK((slopes.w() - jet.w()).isZero(1e-14));
+    CHECK_THAT(slopes.value, Catch::WithinAbs(jet.value, 1e-14));
+    CHECK_THAT(slopes.principal, Catch::WithinAbs(jet.principal, 1e-14));
+    CHECK_THAT(slopes.rate, Catch::WithinAbs(jet.rate, 1e-13));
     // The rate is w . v, and the values computed without derivatives are the same.
     VectorX v(n);
     get_local_velocities(local, v);
