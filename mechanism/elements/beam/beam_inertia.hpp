@@ -60,14 +60,18 @@ class BeamInertia {
   void add_energy(const LocalState& state, Energy& energy) const;
 
  private:
-  /// A mass w at sum_k (N_k x_k + R_k a_k), k = A, B. (For y the sum of N_k is zero: no weight, no momentum.)
-  struct Point {
-    double w = 0;  ///< [kg]
-    std::array<double, 2> N{};
-    std::array<Vector3, 2> a;  ///< [m], node axes
-  };
-  std::array<Point, 4> points_;
-  std::array<std::array<Matrix3, 2>, 2> J_;  ///< rotary inertia of nodes and between nodes [kg m^2], node axes
+  template <class Value>
+  using Pairs = std::array<std::array<Value, 2>, 2>;  ///< values for nodes (i,j)
+  /// What depends on the rotations.
+  struct Turning;
+  Turning turning(const LocalState& state) const;
+
+  // Sums over points with the mass w at sum_k (N_k x_k + R_k a_k), k = A, B, and a_k in node axes. (For y the sum of
+  // N_k is zero: no weight, no momentum.)
+  Pairs<double> m_{};  ///< sum w N_i N_j [kg]
+  Pairs<Vector3> s_;   ///< sum w N_i a_j [kg m], axes of node j
+  Matrix3 T_;          ///< sum w a_A a_B^T [kg m^2], axes of nodes A and B
+  Pairs<Matrix3> J_;   ///< rotary inertia of nodes, with sum w a_i~^T a_i~, and between nodes [kg m^2], node axes
   bool massless_;
 };
 
