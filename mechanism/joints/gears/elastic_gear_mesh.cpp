@@ -27,26 +27,32 @@ Vector3 ElasticGearMesh::normal(int side) const {
   return (side == 0 ? 1 : -1) * std::cos(g.pressure_angle) * g.t + std::sin(g.pressure_angle) * g.nu;
 }
 
-MeshMeasure ElasticGearMesh::stiffness(const LocalState& state) const {
-  const MeshMeasure k = spring_.stiffness(contact(), state);
+template <int order>
+MeshMeasureOf<order> ElasticGearMesh::stiffness(const LocalState& state) const {
+  const auto k = spring_.stiffness.calc<order>(contact(), state);
   if (!(k.value > 0))
     throw ComputationError(fmt::format(
         "the stiffness of the teeth of '{}' is {:.6g} N/m at the angles {:.6g} and {:.6g} rad of its wheels; "
         "it has to be positive",
-        name(), k.value, contact().turned(0, state).value, contact().turned(1, state).value));
+        name(), k.value, contact().turned<1>(0, state).value, contact().turned<1>(1, state).value));
   return k;
 }
 
-MeshMeasure ElasticGearMesh::penetration(int side, const MeshMeasure& error, const LocalState& state) const {
-  MeshMeasure p = contact().approach(normal(side), state) - 0.5 * spring_.backlash;
+template MeshSlope ElasticGearMesh::stiffness(const LocalState&) const;
+
+template <int order>
+MeshMeasureOf<order> ElasticGearMesh::penetration(int side, const MeshMeasureOf<order>& error,
+                                                  const LocalState& state) const {
+  auto p = contact().approach<order>(normal(side), state) - 0.5 * spring_.backlash;
   if (!errors().is_zero()) p += (side == 0 ? 1.0 : -1.0) * error;
   return p;
 }
 
-ElasticGearMesh::Flank ElasticGearMesh::flank(int side, double stiffness, const MeshMeasure& error,
-                                              const LocalState& state) const {
-  Flank flank;
-  flank.p = penetration(side, error, state);
+template <int order>
+ElasticGearMesh::Flank<order> ElasticGearMesh::flank(int side, double stiffness, const MeshMeasureOf<order>& error,
+                                                     const LocalState& state) const {
+  Flank<order> flank;
+  flank.p = penetration<order>(side, error, state);
   flank.rate = flank.p.rate(ToothContact::rates(state));
   // Without play, one of the flanks is always loaded: nothing jumps when they change.
   flank.touches = !plays() || (state.environment().statics ? flank.p.value >= 0
@@ -60,36 +66,36 @@ ElasticGearMesh::Flank ElasticGearMesh::flank(int side, double stiffness, const 
 }
 
 std::array<double, 2> ElasticGearMesh::flank_forces(const LocalState& state) const {
-  const double k = stiffness(state).value;
-  const MeshMeasure e = errors()(contact(), state);
-  return {flank(0, k, e, state).force, flank(1, k, e, state).force};
+  const double k = stiffness<1>(state).value;
+  const MeshSlope e = error<1>(state);
+  return {flank<1>(0, k, e, state).force, flank<1>(1, k, e, state).force};
 }
 
-MeshMeasure ElasticGearMesh::deformation(const LocalState& state) const {
-  const MeshMeasure e = errors()(contact(), state);
-  const MeshMeasure forwards = penetration(0, e, state), backwards = penetration(1, e, state);
+MeshSlope ElasticGearMesh::deformation(const LocalState& state) const {
+  const MeshSlope e = error<1>(state);
+  const MeshSlope forwards = penetration<1>(0, e, state), backwards = penetration<1>(1, e, state);
   return forwards.value >= backwards.value ? forwards : backwards;
 }
 
 void ElasticGearMesh::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const MeshMeasure k = stiffness(state), e = errors()(contact(), state);
+  const MeshSlope k = stiffness<1>(state), e = error<1>(state);
   for (const int side : {0, 1}) {
-    const Flank f = flank(side, k.value, e, state);
+    const Flank<1> f = flank<1>(side, k.value, e, state);
     if (f.pushes) r.head<18>() += f.force * f.p.gradient;
     if (spring_.stiffness.varies()) r.head<18>() += 0.5 * f.pressed * f.pressed * k.gradient;
   }
 }
 
-MeshMeasure::Gradient ElasticGearMesh::force_gradient(const Flank& flank, const MeshMeasure& stiffness,
+MeshMeasure::Gradient ElasticGearMesh::force_gradient(const Flank<2>& flank, const MeshMeasure& stiffness,
                                                       const LocalState& state) const {
   return stiffness.value * flank.p.gradient + flank.p.value * stiffness.gradient +
          spring_.damping * (flank.p.second.transpose() * ToothContact::rates(state));
 }
 
 void ElasticGearMesh::add_tangent(const LocalState& state, LocalTangent& tangent) const {
-  const MeshMeasure k = stiffness(state), e = errors()(contact(), state);
+  const MeshMeasure k = stiffness<2>(state), e = error<2>(state);
   for (const int side : {0, 1}) {
-    const Flank f = flank(side, k.value, e, state);
+    const Flank<2> f = flank<2>(side, k.value, e, state);
     const MeshMeasure::Gradient& g = f.p.gradient;
     if (tangent.wants_K && f.pushes)
       tangent.K.dense() += f.force * f.p.second + g * force_gradient(f, k, state).transpose();
@@ -100,10 +106,10 @@ void ElasticGearMesh::add_tangent(const LocalState& state, LocalTangent& tangent
 }
 
 double ElasticGearMesh::calc_force(const LocalState& state, MeasureGradient& gradient) const {
-  const MeshMeasure k = stiffness(state), e = errors()(contact(), state);
+  const MeshMeasure k = stiffness<2>(state), e = error<2>(state);
   double force = 0;
   for (const int side : {0, 1}) {
-    const Flank f = flank(side, k.value, e, state);
+    const Flank<2> f = flank<2>(side, k.value, e, state);
     if (!f.pushes) continue;
     const double sign = side == 0 ? 1 : -1;
     force += sign * f.force;
@@ -114,10 +120,10 @@ double ElasticGearMesh::calc_force(const LocalState& state, MeasureGradient& gra
 }
 
 void ElasticGearMesh::add_energy(const LocalState& state, Energy& energy) const {
-  const double k = stiffness(state).value;
-  const MeshMeasure e = errors()(contact(), state);
+  const double k = stiffness<1>(state).value;
+  const MeshSlope e = error<1>(state);
   for (const int side : {0, 1}) {
-    const Flank f = flank(side, k, e, state);
+    const Flank<1> f = flank<1>(side, k, e, state);
     energy.elastic += 0.5 * k * f.pressed * f.pressed;
     energy.dissipation += (f.force - k * f.pressed) * f.rate;
   }
@@ -125,24 +131,24 @@ void ElasticGearMesh::add_energy(const LocalState& state, Energy& energy) const 
 
 void ElasticGearMesh::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   if (!plays()) return;
-  const MeshMeasure e = errors()(contact(), state);
-  for (const int side : {0, 1}) values[side] = penetration(side, e, state).value;
+  const MeshSlope e = error<1>(state);
+  for (const int side : {0, 1}) values[side] = penetration<1>(side, e, state).value;
 }
 
 bool ElasticGearMesh::leaves_branch(const LocalState& state) const {
   if (!plays()) return false;
-  const MeshMeasure e = errors()(contact(), state);
+  const MeshSlope e = error<1>(state);
   for (const int side : {0, 1})
-    if (state.memory()[ToothContact::memories + side] != 0 && penetration(side, e, state).value < 0) return true;
+    if (state.memory()[ToothContact::memories + side] != 0 && penetration<1>(side, e, state).value < 0) return true;
   return false;
 }
 
 void ElasticGearMesh::begin_branch(const LocalState& state, std::span<const int> /*crossed*/,
                                    Eigen::Ref<VectorX> memory) const {
   if (!plays()) return;
-  const MeshMeasure e = errors()(contact(), state);
+  const MeshSlope e = error<1>(state);
   for (const int side : {0, 1}) {
-    const MeshMeasure p = penetration(side, e, state);
+    const MeshSlope p = penetration<1>(side, e, state);
     const bool touches = p.value > 0 || (p.value == 0 && p.rate(ToothContact::rates(state)) >= 0);
     memory[ToothContact::memories + side] = touches ? 1 : 0;
   }
@@ -150,7 +156,7 @@ void ElasticGearMesh::begin_branch(const LocalState& state, std::span<const int>
 
 void ElasticGearMesh::describe(const LocalState& state, Description& description) const {
   GearMesh::describe(state, description);
-  std::string text = fmt::format("tooth stiffness {:.6g} N/m", stiffness(state).value);
+  std::string text = fmt::format("tooth stiffness {:.6g} N/m", stiffness<1>(state).value);
   if (spring_.stiffness.varies()) text += " as drawn";
   if (spring_.damping > 0) text += fmt::format(", damping {:.6g} N s/m", spring_.damping);
   if (spring_.backlash > 0) text += fmt::format(", backlash {:.6g} m", spring_.backlash);

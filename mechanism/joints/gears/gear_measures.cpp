@@ -10,14 +10,14 @@ namespace {
 /// A function of the positions of the nodes.
 class MeshPositionMeasure final : public OwnMeasure {
  public:
-  using Function = std::function<MeshMeasure(const LocalState& own)>;
+  using Function = std::function<MeshSlope(const LocalState& own)>;
   MeshPositionMeasure(std::string name, const GearMesh& mesh, const char* units, Function function)
       : OwnMeasure(std::move(name), mesh), units_(units), function_(std::move(function)) {}
   std::string units() const override { return units_; }
 
  private:
   double calc_own(const LocalState& own, MeasureGradient& gradient) const override {
-    const MeshMeasure m = function_(own);
+    const MeshSlope m = function_(own);
     gradient.position().head<18>() = m.gradient;
     return m.value;
   }
@@ -56,12 +56,12 @@ std::unique_ptr<Measure> GearMesh::make_measure(const std::string& name, const s
   };
   if (measure == "force") return std::make_unique<ToothForceMeasure>(name, *this);
   if (measure == "approach")
-    return of_position("m", [this](const LocalState& own) { return contact_.approach(contact_.geometry().t, own); });
+    return of_position("m", [this](const LocalState& own) { return contact_.approach<1>(contact_.geometry().t, own); });
   if (measure == "transmission_error")
     return of_position("m", [this](const LocalState& own) { return transmission_error(own); });
   for (const int wheel : {0, 1})
     if (measure == (wheel == 0 ? "angle_1" : "angle_2"))
-      return of_position("rad", [this, wheel](const LocalState& own) { return contact_.turned(wheel, own); });
+      return of_position("rad", [this, wheel](const LocalState& own) { return contact_.turned<1>(wheel, own); });
   return Component::make_measure(name, measure);
 }
 
@@ -71,7 +71,7 @@ std::unique_ptr<Measure> ElasticGearMesh::make_measure(const std::string& name, 
                                                  [this](const LocalState& own) { return deformation(own); });
   if (measure == "stiffness")
     return std::make_unique<MeshPositionMeasure>(name, *this, "N/m",
-                                                 [this](const LocalState& own) { return stiffness(own); });
+                                                 [this](const LocalState& own) { return stiffness<1>(own); });
   return GearMesh::make_measure(name, measure);
 }
 

@@ -36,16 +36,16 @@ std::vector<OutputField> GearMesh::output_fields() const {
 }
 
 void GearMesh::write_output(const LocalState& state, double* values) const {
-  values[0] = contact_.approach(contact_.geometry().t, state).value;
+  values[0] = contact_.approach<1>(contact_.geometry().t, state).value;
   const std::array<double, 2> forces = flank_forces(state);
   values[1] = forces[0];
   values[2] = forces[1];
   values[3] = transmission_error(state).value;
 }
 
-MeshMeasure GearMesh::transmission_error(const LocalState& state) const {
+MeshSlope GearMesh::transmission_error(const LocalState& state) const {
   const ToothGeometry& g = contact_.geometry();
-  return -std::cos(g.pressure_angle) * contact_.approach(g.t, state);
+  return -std::cos(g.pressure_angle) * contact_.approach<1>(g.t, state);
 }
 
 void GearMesh::describe(const LocalState& state, Description& description) const {

@@ -50,7 +50,7 @@ class GearMesh : public Component {
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
   /// Computes TE.
-  MeshMeasure transmission_error(const LocalState& state) const;
+  MeshSlope transmission_error(const LocalState& state) const;
   /// Computes the normal force, positive if wheel 1 drives wheel 2 forwards, with its derivatives over the local
   /// layout.
   /// @param gradient  zero on entry
@@ -82,7 +82,8 @@ class RigidGearMesh final : public GearMesh {
   bool force_is_reaction() const override { return true; }
 
  private:
-  MeshMeasure gap(const LocalState& state) const;  ///< u_1(t) - u_2(t) + e/cos(alpha)
+  template <int order>
+  MeshMeasureOf<order> gap(const LocalState& state) const;  ///< u_1(t) - u_2(t) + e/cos(alpha)
   std::array<double, 2> flank_forces(const LocalState& state) const override;
 };
 
@@ -123,25 +124,34 @@ class ElasticGearMesh final : public GearMesh {
   double calc_force(const LocalState& state, MeasureGradient& gradient) const override;
   bool force_is_reaction() const override { return false; }
   /// @throws ComputationError if it is not positive at these angles
-  MeshMeasure stiffness(const LocalState& state) const;
+  template <int order>
+  MeshMeasureOf<order> stiffness(const LocalState& state) const;
   /// Computes p of the flank that is deeper in contact, or nearer to it [m].
-  MeshMeasure deformation(const LocalState& state) const;
+  MeshSlope deformation(const LocalState& state) const;
 
  private:
+  template <int order>
   struct Flank {
-    MeshMeasure p;  ///< penetration p [m]
+    MeshMeasureOf<order> p;  ///< penetration p [m]
     double rate = 0;
     bool touches = false, pushes = false;
     double force = 0;    ///< normal force [N]
     double pressed = 0;  ///< p as far as it stores energy [m]
   };
   bool plays() const { return spring_.backlash > 0; }
-  MeshMeasure penetration(int side, const MeshMeasure& error, const LocalState& state) const;
+  template <int order>
+  MeshMeasureOf<order> error(const LocalState& state) const {
+    return errors().calc<order>(contact(), state);
+  }
+  template <int order>
+  MeshMeasureOf<order> penetration(int side, const MeshMeasureOf<order>& error, const LocalState& state) const;
   /// @param stiffness,error  k and e at the state
-  Flank flank(int side, double stiffness, const MeshMeasure& error, const LocalState& state) const;
+  template <int order>
+  Flank<order> flank(int side, double stiffness, const MeshMeasureOf<order>& error, const LocalState& state) const;
   /// Computes N of a flank that pushes, with its derivatives by positions. (That by rates is d times the gradient of
   /// p.)
-  MeshMeasure::Gradient force_gradient(const Flank& flank, const MeshMeasure& stiffness, const LocalState& state) const;
+  MeshMeasure::Gradient force_gradient(const Flank<2>& flank, const MeshMeasure& stiffness,
+                                       const LocalState& state) const;
   Vector3 normal(int side) const;  ///< 0: n_+, 1: n_-
   std::array<double, 2> flank_forces(const LocalState& state) const override;
   ToothSpring spring_;

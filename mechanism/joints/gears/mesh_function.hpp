@@ -38,7 +38,8 @@ class MeshFunction {
   bool varies() const { return !terms_.empty() || !of_both_.empty(); }
   bool is_zero() const { return !varies() && constant_ == 0; }
   /// Computes the function with its derivatives. @param contact,state  of the mesh, which give the angles
-  MeshMeasure operator()(const ToothContact& contact, const LocalState& state) const;
+  template <int order>
+  MeshMeasureOf<order> calc(const ToothContact& contact, const LocalState& state) const;
   /// Computes the value at given angles.
   double value(const std::array<double, 2>& angle) const;
 

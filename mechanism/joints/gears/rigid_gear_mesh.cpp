@@ -10,22 +10,23 @@ void RigidGearMesh::declare(Declaration& declaration) const {
   declaration.multipliers.push_back({"teeth", "N"});
 }
 
-MeshMeasure RigidGearMesh::gap(const LocalState& state) const {
+template <int order>
+MeshMeasureOf<order> RigidGearMesh::gap(const LocalState& state) const {
   const ToothGeometry& g = contact().geometry();
-  MeshMeasure gap = contact().approach(g.t, state);
-  if (!errors().is_zero()) gap += 1 / std::cos(g.pressure_angle) * errors()(contact(), state);
+  auto gap = contact().approach<order>(g.t, state);
+  if (!errors().is_zero()) gap += 1 / std::cos(g.pressure_angle) * errors().calc<order>(contact(), state);
   return gap;
 }
 
 void RigidGearMesh::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const MeshMeasure m = gap(state);
+  const MeshSlope m = gap<1>(state);
   r.head<18>() += state.multiplier()[0] * m.gradient;
   r[18] += m.value;
 }
 
 void RigidGearMesh::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K) return;
-  const MeshMeasure m = gap(state);
+  const MeshMeasure m = gap<2>(state);
   auto K = tangent.K.dense();
   K.topLeftCorner<18, 18>() += state.multiplier()[0] * m.second;
   K.block<18, 1>(0, 18) += m.gradient;
@@ -34,7 +35,7 @@ void RigidGearMesh::add_tangent(const LocalState& state, LocalTangent& tangent) 
 
 void RigidGearMesh::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                          Eigen::Ref<VectorX> acceleration) const {
-  const MeshMeasure m = gap(state);
+  const MeshMeasure m = gap<2>(state);
   const MeshMeasure::Gradient v = ToothContact::rates(state);
   velocity[0] += m.rate(v);
   acceleration[0] += m.acceleration(v, ToothContact::accelerations(state));
@@ -63,7 +64,7 @@ void GearSeparation::declare(Declaration& declaration) const {
 
 void GearSeparation::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const LocalState of_mesh = state.of(0);
-  const MeshMeasure m = mesh_.contact().approach(mesh_.contact().geometry().nu, of_mesh);
+  const MeshSlope m = mesh_.contact().approach<1>(mesh_.contact().geometry().nu, of_mesh);
   r.segment<18>(state.slots().reference_row(0)) += slope_ * std::abs(of_mesh.reaction()[0]) * m.gradient;
 }
 
@@ -71,7 +72,7 @@ void GearSeparation::add_tangent(const LocalState& state, LocalTangent& tangent)
   if (!tangent.wants_K) return;
   const LocalState of_mesh = state.of(0);
   const double lambda = of_mesh.reaction()[0];
-  const MeshMeasure m = mesh_.contact().approach(mesh_.contact().geometry().nu, of_mesh);
+  const MeshMeasure m = mesh_.contact().approach<2>(mesh_.contact().geometry().nu, of_mesh);
   const int at = state.slots().reference_row(0);
   auto K = tangent.K.dense();
   K.block<18, 18>(at, at) += slope_ * std::abs(lambda) * m.second;
@@ -80,7 +81,7 @@ void GearSeparation::add_tangent(const LocalState& state, LocalTangent& tangent)
 
 void GearSeparation::add_energy(const LocalState& state, Energy& energy) const {
   const LocalState of_mesh = state.of(0);
-  const MeshMeasure m = mesh_.contact().approach(mesh_.contact().geometry().nu, of_mesh);
+  const MeshSlope m = mesh_.contact().approach<1>(mesh_.contact().geometry().nu, of_mesh);
   energy.input -= slope_ * std::abs(of_mesh.reaction()[0]) * m.rate(ToothContact::rates(of_mesh));
 }
 

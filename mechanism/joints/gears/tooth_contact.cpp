@@ -9,16 +9,18 @@ namespace bielle::mechanism {
 namespace {
 
 /// Extends a measure of carrier and one wheel to the three nodes.
-MeshMeasure in_mesh(const PairMeasure& pair, int wheel) {
+template <int order>
+MeshMeasureOf<order> in_mesh(const PairMeasureOf<order>& pair, int wheel) {
   const int at = wheel == 0 ? 6 : 12;
-  MeshMeasure m;
-  m.value = pair.value;
-  m.gradient.head<6>() = pair.gradient.head<6>();
-  m.gradient.segment<6>(at) = pair.gradient.tail<6>();
-  m.second.topLeftCorner<6, 6>() = pair.second.topLeftCorner<6, 6>();
-  m.second.block<6, 6>(0, at) = pair.second.topRightCorner<6, 6>();
-  m.second.block<6, 6>(at, 0) = pair.second.bottomLeftCorner<6, 6>();
-  m.second.block<6, 6>(at, at) = pair.second.bottomRightCorner<6, 6>();
+  MeshMeasureOf<order> m(pair.value);
+  m.gradient.template head<6>() = pair.gradient.template head<6>();
+  m.gradient.template segment<6>(at) = pair.gradient.template tail<6>();
+  if constexpr (order == 2) {
+    m.second.template topLeftCorner<6, 6>() = pair.second.template topLeftCorner<6, 6>();
+    m.second.template block<6, 6>(0, at) = pair.second.template topRightCorner<6, 6>();
+    m.second.template block<6, 6>(at, 0) = pair.second.template bottomLeftCorner<6, 6>();
+    m.second.template block<6, 6>(at, at) = pair.second.template bottomRightCorner<6, 6>();
+  }
   return m;
 }
 
@@ -30,34 +32,43 @@ ToothContact::ToothContact(const ToothGeometry& geometry)
   for (std::size_t k = 0; k < 2; ++k) geometry_.wheel[k] = geometry_.wheel[k] * on_carrier_[k];
 }
 
-PairMeasure ToothContact::angle(int wheel, const LocalState& state) const {
+template <int order>
+PairMeasureOf<order> ToothContact::angle(int wheel, const LocalState& state) const {
   const auto k = static_cast<std::size_t>(wheel);
   const NodeState &carrier = state.node(0), &node = state.node(1 + wheel);
-  PairMeasure m = measure_angle(carrier, node, on_carrier_[k], geometry_.wheel[k]);
+  PairMeasureOf<order> m = measure_angle<order>(carrier, node, on_carrier_[k], geometry_.wheel[k]);
   const auto memory = state.memory();
   const CoordinateRate principal{m.value, m.rate(pair_rate(carrier, node))};
   m.value = counted_angle(principal, {memory[2 * wheel], memory[2 * wheel + 1]}, memory[4], state);
   return m;
 }
 
-PairMeasure ToothContact::displacement(int wheel, const Vector3& e, const LocalState& state) const {
+template <int order>
+PairMeasureOf<order> ToothContact::displacement(int wheel, const Vector3& e, const LocalState& state) const {
   const auto k = static_cast<std::size_t>(wheel);
   const NodeState &carrier = state.node(0), &node = state.node(1 + wheel);
   const Vector3 &z = geometry_.axis[k], &c = geometry_.centre[k];
   const Vector3 moment = (geometry_.P - c).cross(e);
   // m . tau = m . (z x z') = z' . (m x z)
   const Vector3 tilting = moment.cross(z), wheel_axis = geometry_.wheel[k].col(2);
-  return measure_position(carrier, node, e, c, Vector3::Zero()) +
-         measure_alignment(carrier, node, tilting, wheel_axis) + moment.dot(z) * angle(wheel, state);
+  return measure_position<order>(carrier, node, e, c, Vector3::Zero()) +
+         measure_alignment<order>(carrier, node, tilting, wheel_axis) + moment.dot(z) * angle<order>(wheel, state);
 }
 
-MeshMeasure ToothContact::approach(const Vector3& e, const LocalState& state) const {
-  return in_mesh(displacement(0, e, state), 0) - in_mesh(displacement(1, e, state), 1);
+template <int order>
+MeshMeasureOf<order> ToothContact::approach(const Vector3& e, const LocalState& state) const {
+  return in_mesh<order>(displacement<order>(0, e, state), 0) - in_mesh<order>(displacement<order>(1, e, state), 1);
 }
 
-MeshMeasure ToothContact::turned(int wheel, const LocalState& state) const {
-  return in_mesh(angle(wheel, state), wheel);
+template <int order>
+MeshMeasureOf<order> ToothContact::turned(int wheel, const LocalState& state) const {
+  return in_mesh<order>(angle<order>(wheel, state), wheel);
 }
+
+template MeshSlope ToothContact::approach(const Vector3&, const LocalState&) const;
+template MeshMeasure ToothContact::approach(const Vector3&, const LocalState&) const;
+template MeshSlope ToothContact::turned(int, const LocalState&) const;
+template MeshMeasure ToothContact::turned(int, const LocalState&) const;
 
 double ToothContact::arm(int wheel) const {
   const auto k = static_cast<std::size_t>(wheel);
@@ -70,7 +81,7 @@ void ToothContact::declare_memory(Declaration& declaration) {
 
 void ToothContact::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   for (const int wheel : {0, 1}) {
-    const PairMeasure m = angle(wheel, state);
+    const PairSlope m = angle<1>(wheel, state);
     memory[2 * wheel] = m.value;
     memory[2 * wheel + 1] = m.rate(pair_rate(state.node(0), state.node(1 + wheel)));
   }

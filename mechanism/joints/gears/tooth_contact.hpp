@@ -25,8 +25,11 @@
 
 namespace bielle::mechanism {
 
-/// Derivatives along the increments of carrier, wheel 1, wheel 2.
-using MeshMeasure = AutoDiff<18, 2>;
+/// Derivatives along the increments of carrier, wheel 1, wheel 2: of order 1 for residuals, of order 2 for tangents.
+template <int order>
+using MeshMeasureOf = AutoDiff<18, order>;
+using MeshMeasure = MeshMeasureOf<2>;
+using MeshSlope = MeshMeasureOf<1>;
 
 struct ToothGeometry {
   std::array<Vector3, 2> axis;    ///< z_i, unit vectors, carrier's axes
@@ -42,9 +45,11 @@ class ToothContact {
   const ToothGeometry& geometry() const { return geometry_; }
   /// Computes u_1(e) - u_2(e): displacement of the teeth of wheel 1 along e relative to those of wheel 2 [m].
   /// @param state  state of a component whose nodes are carrier, wheel 1, wheel 2 and whose memory begins as below
-  MeshMeasure approach(const Vector3& e, const LocalState& state) const;
+  template <int order>
+  MeshMeasureOf<order> approach(const Vector3& e, const LocalState& state) const;
   /// Computes theta_i of a wheel (0 or 1), counted over turns.
-  MeshMeasure turned(int wheel, const LocalState& state) const;
+  template <int order>
+  MeshMeasureOf<order> turned(int wheel, const LocalState& state) const;
   /// Torque about each wheel's axis per force along t: lever arms (P - c_i) x t . z_i [m], signed. Rates of the wheels
   /// are inversely proportional to them.
   double arm(int wheel) const;
@@ -58,8 +63,10 @@ class ToothContact {
   static MeshMeasure::Gradient accelerations(const LocalState& state);
 
  private:
-  PairMeasure displacement(int wheel, const Vector3& e, const LocalState& state) const;
-  PairMeasure angle(int wheel, const LocalState& state) const;  ///< counted over turns
+  template <int order>
+  PairMeasureOf<order> displacement(int wheel, const Vector3& e, const LocalState& state) const;
+  template <int order>
+  PairMeasureOf<order> angle(int wheel, const LocalState& state) const;  ///< counted over turns
   ToothGeometry geometry_;
   std::array<Matrix3, 2> on_carrier_;  ///< frames with z along z_i that initially coincide with the wheels' frames
 };

@@ -77,7 +77,7 @@ void PointOnCurve::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) 
   const Curve::Place c = curve_(state.amplitude()[0]);
   const auto lambda = state.multiplier();
   for (int axis = 0; axis < rows(); ++axis) {
-    const PairMeasure m = position(axis, state);
+    const PairSlope m = position<1>(axis, state);
     r.head<12>() += lambda[axis] * m.gradient;
     r[parameter] -= lambda[axis] * c.first[axis];
     r[first_row + axis] += m.value - c.point[axis];
