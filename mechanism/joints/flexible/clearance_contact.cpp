@@ -20,7 +20,16 @@ ClearanceContact::ClearanceContact(const NodeState& first, const NodeState& seco
     : place_(place), rotation_(rotation) {
   const Frame &A = frames.on_first, &B = frames.on_second;
   const Vector3 point = B.x + place.along * B.R.col(2);
-  for (int k = 0; k < 3; ++k) s_[static_cast<std::size_t>(k)] = measure_position(first, second, A.R.col(k), A.x, point);
+  for (int k = 0; k < 3; ++k) {
+    PairMeasure& s = s_[static_cast<std::size_t>(k)];
+    if (second_derivatives) {
+      s = measure_position(first, second, A.R.col(k), A.x, point);
+    } else {
+      const PairSlope slope = measure_position<1>(first, second, A.R.col(k), A.x, point);
+      s.value = slope.value;
+      s.gradient = slope.gradient;
+    }
+  }
   W_ = rotation.rate_gradients();
   if (is_face(place.kind)) {
     // Collars without play are in contact in the middle, too: the force is zero there, but its stiffness is not.

@@ -66,24 +66,26 @@ ShaftBearing::ShaftBearing(std::string type, std::string name, JointFrames frame
                            std::shared_ptr<const BearingLaw> law, const Model& model)
     : Joint(std::move(type), std::move(name), std::move(frames), bearing_coordinates(), model), law_(std::move(law)) {}
 
-ShaftBearing::Measures ShaftBearing::calc_measures(const LocalState& state) const {
-  Measures measures;
+template <int order>
+ShaftBearing::Measures<order> ShaftBearing::calc_measures(const LocalState& state) const {
+  Measures<order> measures;
   for (const int axis : {bearing_x, bearing_y, bearing_z})
-    measures[static_cast<std::size_t>(axis)] = position(axis, state);
+    measures[static_cast<std::size_t>(axis)] = position<order>(axis, state);
   const auto shaft_along = [&](int axis) {
-    return measure_alignment(state.node(0), state.node(1), frames().on_first.R.col(axis),
-                             frames().on_second.R.col(bearing_z));
+    return measure_alignment<order>(state.node(0), state.node(1), frames().on_first.R.col(axis),
+                                    frames().on_second.R.col(bearing_z));
   };
-  PairMeasure c = shaft_along(bearing_z);
+  const auto c = shaft_along(bearing_z);
   const TiltFactor tilt(std::min(1.0, c.value));
-  const PairMeasure factor = compose(c, tilt.f, tilt.f1, tilt.f2);
+  const auto factor = compose(c, tilt.f, tilt.f1, tilt.f2);
   measures[tilt_x] = -(factor * shaft_along(bearing_y));
   measures[tilt_y] = factor * shaft_along(bearing_x);
-  measures[spin] = measure_angle(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R);
+  measures[spin] = measure_angle<order>(state.node(0), state.node(1), frames().on_first.R, frames().on_second.R);
   return measures;
 }
 
-ShaftBearing::Motion ShaftBearing::motion(const LocalState& state, const Measures& measures) const {
+template <class Measure>
+ShaftBearing::Motion ShaftBearing::motion(const LocalState& state, const std::array<Measure, 6>& measures) const {
   const Vector12 v = pair_rate(state.node(0), state.node(1));
   Motion motion;
   for (std::size_t k = 0; k < measures.size(); ++k) {
@@ -104,7 +106,7 @@ void ShaftBearing::declare(Declaration& declaration) const {
 }
 
 void ShaftBearing::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const Measures m = calc_measures(state);
+  const Measures<1> m = calc_measures<1>(state);
   const auto [e, v] = motion(state, m);
   const Vector6 N = law_->calc(e, v).N;
   for (std::size_t k = 0; k < m.size(); ++k) r.head<12>() += N[static_cast<Eigen::Index>(k)] * m[k].gradient;
@@ -131,7 +133,7 @@ struct BearingSlopes {
 
 void ShaftBearing::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !(tangent.wants_C && law_->has_rates())) return;
-  const Measures m = calc_measures(state);
+  const Measures<2> m = calc_measures<2>(state);
   const auto [e, v] = motion(state, m);
   const BearingLaw::Force force = law_->calc(e, v);
   const BearingSlopes slopes(m, force, pair_rate(state.node(0), state.node(1)));
@@ -147,7 +149,7 @@ void ShaftBearing::add_tangent(const LocalState& state, LocalTangent& tangent) c
 }
 
 void ShaftBearing::add_energy(const LocalState& state, Energy& energy) const {
-  const auto [e, v] = motion(state, calc_measures(state));
+  const auto [e, v] = motion(state, calc_measures<1>(state));
   const BearingLaw::Potential potential = law_->potential(e);
   energy.elastic += potential.energy;
   Vector6 unturned = v;
@@ -166,12 +168,12 @@ std::vector<OutputField> ShaftBearing::output_fields() const {
 
 void ShaftBearing::write_output(const LocalState& state, double* values) const {
   Joint::write_output(state, values);
-  const auto [e, v] = motion(state, calc_measures(state));
+  const auto [e, v] = motion(state, calc_measures<1>(state));
   Eigen::Map<Eigen::Matrix<double, 5, 1>>(values + 2 * coordinates().size() + 12) = -law_->calc(e, v).N.head<5>();
 }
 
 double ShaftBearing::calc_force(const LocalState& state, Eigen::Index k, MeasureGradient& gradient) const {
-  const Measures m = calc_measures(state);
+  const Measures<2> m = calc_measures<2>(state);
   const auto [e, v] = motion(state, m);
   const BearingLaw::Force force = law_->calc(e, v);
   const BearingSlopes slopes(m, force, pair_rate(state.node(0), state.node(1)));
@@ -181,7 +183,11 @@ double ShaftBearing::calc_force(const LocalState& state, Eigen::Index k, Measure
 }
 
 PairMeasure ShaftBearing::calc_own_coordinate(std::size_t index, const LocalState& state) const {
-  return calc_measures(state)[index];
+  return calc_measures<2>(state)[index];
+}
+
+PairSlope ShaftBearing::calc_own_slope(std::size_t index, const LocalState& state) const {
+  return calc_measures<1>(state)[index];
 }
 
 void ShaftBearing::describe(const LocalState& state, Description& description) const {
@@ -191,7 +197,7 @@ void ShaftBearing::describe(const LocalState& state, Description& description) c
 
 void ShaftBearing::accept(const LocalState& state, Eigen::Ref<VectorX> memory) const {
   Joint::accept(state, memory);
-  const Measures measures = calc_measures(state);
+  const Measures<1> measures = calc_measures<1>(state);
   constexpr std::size_t entry = 2;  // the memory holds [value, rate] of each coordinate
   const Vector3 tilt(measures[tilt_x].value, measures[tilt_y].value, 0),
       before(memory[entry * tilt_x], memory[entry * tilt_y], 0);

@@ -46,14 +46,18 @@ class ShaftBearing final : public Joint {
   double calc_force(const LocalState& state, Eigen::Index k, MeasureGradient& gradient) const;
 
  private:
-  using Measures = std::array<PairMeasure, 6>;
+  template <int order>
+  using Measures = std::array<PairMeasureOf<order>, 6>;
   struct Motion {
     Vector6 e, v;
   };
-  Measures calc_measures(const LocalState& state) const;
-  Motion motion(const LocalState& state, const Measures& measures) const;
+  template <int order>
+  Measures<order> calc_measures(const LocalState& state) const;
+  template <class Measure>
+  Motion motion(const LocalState& state, const std::array<Measure, 6>& measures) const;
   /// Returns a tilt. @param index  3 or 4
   PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const override;
+  PairSlope calc_own_slope(std::size_t index, const LocalState& state) const override;
   std::shared_ptr<const BearingLaw> law_;
 };
 
