@@ -87,10 +87,12 @@ std::string blas_warning() {
   const char* forced = std::getenv("OPENBLAS_CORETYPE");
   return fmt::format(
       "OpenBLAS runs its {} kernels ({} bit) on a processor with {}-bit vectors: factorisations may take up to {} "
-      "times as "
-      "long{}",
+      "times "
+      "as long; {}",
       core, kernel, processor, processor / kernel,
-      forced ? fmt::format("; unset the environment variable OPENBLAS_CORETYPE ({})", forced) : std::string());
+      forced ? fmt::format("unset the environment variable OPENBLAS_CORETYPE ({})", forced)
+             : fmt::format("OpenBLAS does not know this processor; set the environment variable OPENBLAS_CORETYPE={}",
+                           processor == 512 ? "SkylakeX" : "Haswell"));
 }
 
 double measure_dgemm(int size, int threads, int repeats) {
