@@ -159,14 +159,18 @@ void check_placed(const YamlNode& entry, const std::string& section, const Scope
 
 Tree with_explicit_axes(const Tree& placed, const KeyTable& table, const Scope& scope, const NodeFrame& node_frame,
                         const std::string& path) {
-  if (placed->kind != YamlNode::Kind::map || !turns(scope.placement)) return placed;
-  const Tree type = find_value(*placed, "type");
-  if (type && type->scalar == "beam") return with_beam_orientation(placed, scope, node_frame, path);
-  if (!table.find("second_axis") || find_pair(*placed, "axes")) return placed;
+  if (placed->kind != YamlNode::Kind::map) return placed;
+  const Tree entry = table.find("curve_origin") && !find_pair(*placed, "curve_origin")
+                         ? with(*placed, "curve_origin", make_vector(scope.placement.frame.x, *placed))
+                         : placed;
+  if (!turns(scope.placement)) return entry;
+  const Tree type = find_value(*entry, "type");
+  if (type && type->scalar == "beam") return with_beam_orientation(entry, scope, node_frame, path);
+  if (!table.find("second_axis") || find_pair(*entry, "axes")) return entry;
   for (const char* key : {"axis", "line", "normal"})
     if (const Key* axis = table.find(key))
-      return with_joint_axes(placed, key, axis->forms.front(), scope, node_frame, path);
-  return placed;
+      return with_joint_axes(entry, key, axis->forms.front(), scope, node_frame, path);
+  return entry;
 }
 
 }  // namespace bielle::mechanism

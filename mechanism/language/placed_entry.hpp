@@ -1,4 +1,4 @@
-// Entries of a part that is turned or mirrored: what they would take from the inertial axes is written out.
+// Entries of a part that is moved, turned or mirrored: what they would take from the inertial axes is written out.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,8 @@ using NodeFrame = std::function<Frame(const YamlNode& name, const std::string& p
 /// @param entry    as the part writes it
 void check_placed(const YamlNode& entry, const std::string& section, const Scope& scope, const std::string& path);
 
-/// Adds the axes of a joint, and the orientation of a beam, that would follow from the inertial axes.
+/// Adds the axes of a joint, the orientation of a beam, and the origin of the points of a curve, that would follow from
+/// the inertial axes.
 /// @param placed  the entry in the model
 /// @param table   table of the entry
 Tree with_explicit_axes(const Tree& placed, const KeyTable& table, const Scope& scope, const NodeFrame& node_frame,

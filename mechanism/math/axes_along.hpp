@@ -1,16 +1,21 @@
 // Right-handed axes with one given direction.
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "mechanism/math/types.hpp"
 
 namespace bielle::mechanism {
 
-/// Returns the axis x, y or z that is most normal to a vector. @param v  not zero
+/// Returns the axis x, y or z that is most normal to a vector: the first one of several that are equally so, up to
+/// rounding. @param v  not zero
 inline Vector3 most_normal_axis(const Vector3& v) {
+  const double rounding = 1e-9 * v.norm();
   Eigen::Index least = 0;
-  v.cwiseAbs().minCoeff(&least);
+  for (const Eigen::Index k : {1, 2})
+    if (std::abs(v[k]) < std::abs(v[least]) - rounding) least = k;
   return Vector3::Unit(least);
 }
 

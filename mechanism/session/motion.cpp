@@ -131,7 +131,7 @@ void Motion::record_step(const MarchStep& step, double before, const EnergyBalan
   const Environment& environment = session_.environment();
   Recorder& recorder = session_.recorder();
   const State& now = state();
-  last_recorded_ = false;
+  if (now.time > before) last_recorded_ = false;  // an event at the start ends a run without a step
   if (!recording.times.empty()) {
     for (auto time = std::upper_bound(recording.times.begin(), recording.times.end(), before);
          time != recording.times.end() && *time <= now.time; ++time) {
@@ -139,12 +139,15 @@ void Motion::record_step(const MarchStep& step, double before, const EnergyBalan
       EnergyBalance energy_balance = balance_before;
       energy_balance.advance(*time, session_.system().energy(state, environment));
       recorder.record(state, environment, row(step, energy_balance));
+      last_recorded_ = *time == now.time;
     }
-    if (parts_.march->stopped()) recorder.record(now, environment, session_.report());
-  } else if ((step.on_grid && parts_.grid_steps % recording.every == 0) || done()) {
-    recorder.record(now, environment, session_.report());
-    last_recorded_ = true;
+    if (!parts_.march->stopped()) return;
+  } else if (!(step.on_grid && parts_.grid_steps % recording.every == 0) && !done()) {
+    return;
   }
+  if (last_recorded_) return;
+  recorder.record(now, environment, session_.report());
+  last_recorded_ = true;
 }
 
 bool Motion::step() {

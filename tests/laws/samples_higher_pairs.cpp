@@ -132,10 +132,14 @@ std::vector<Sample> higher_pair_samples() {
     list.push_back(variant(tyre, friction.empty() ? "linear tyre" : "saturating tyre"));
   }
   for (Sample& sample : tyre_samples()) list.push_back(std::move(sample));
-  for (const bool closed : {false, true}) {
+  for (const std::string kind : {"open", "closed", "placed"}) {
+    const bool closed = kind == "closed";
     Sample curve = higher_pair("point_on_curve",
                                "position: [0.55, 0.2, 0.15], curve: points.csv, stiffness: 2, damping: 0.3, closed: " +
-                                   std::string(closed ? "true" : "false"),
+                                   std::string(closed ? "true" : "false") +
+                                   (kind == "placed" ? ", axis: [0.1, 0, 1], second_axis: [1, 0.2, 0], curve_origin: "
+                                                       "[0.1, 0, -0.05]"
+                                                     : ""),
                                {{"curve", "none.csv", "none.csv"}});
     // One piece, or five: finite differences stay within a piece, where the curve has all derivatives.
     curve.files = [closed](const std::string& folder) {
@@ -144,7 +148,7 @@ std::vector<Sample> higher_pair_samples() {
                      : "0.2,0.1,0\n1.0,0.3,0.3\n1.2,1.0,0.2\n0.5,1.4,0\n");
     };
     curve.scales.amplitude = 0.2;
-    list.push_back(variant(curve, closed ? "closed" : "open"));
+    list.push_back(variant(curve, kind));
   }
   for (const std::string orientation : {"free", "tangent"}) {
     Sample slider{

@@ -67,6 +67,8 @@ void OneWay::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> v
     // If it has just opened, its velocity is rounding, or an error of the scheme: the acceleration decides.
     const double a = rule_.sense * calc_kept_rates(state).second;
     values[closes] = std::max(v + limit, a + acceleration_at_rest(state.of(0), 1));
+    // A ratchet that leaves its multiple may come back within the step.
+    if (rule_.pitch > 0) values[closes] = std::max(values[closes], clearance(state, q) - touching(q));
   }
 }
 

@@ -52,6 +52,8 @@ class OneWay : public CoordinateAction {
   /// The value of the coordinate at which it holds.
   static double held_value(const LocalState& state) { return state.memory()[held_at]; }
   double sense() const { return rule_.sense; }
+  /// Rounding of the distance of a ratchet from its multiples.
+  double rounding(double q) const;
 
  private:
   /// Function of a form that holds, which changes its sign when it opens.
@@ -61,12 +63,14 @@ class OneWay : public CoordinateAction {
   /// Force or torque on the coordinate.
   virtual double force(const LocalState& state) const = 0;
   virtual std::string form() const = 0;  ///< in words
+  /// Clearance at which a ratchet that has just opened is on its multiple. The elastic form opens and closes exactly
+  /// where its elongation is zero.
+  virtual double touching(double q) const = 0;
   /// Whether it stores energy, which a motion that follows another keeps.
   virtual bool is_wound(const LocalState& /*state*/) const { return false; }
   void hold_at(double value, Eigen::Ref<VectorX> memory) const;
   /// The distance u - u_0 of a ratchet from the multiple at which it holds.
   double clearance(const LocalState& state, double q) const;
-  double rounding(double q) const;
   OneWayRule rule_;
 };
 
@@ -84,6 +88,7 @@ class RigidOneWay final : public OneWay {
  private:
   double opening(const LocalState& state) const override { return sense() * state.reaction()[0]; }
   double not_opening() const override { return -1; }
+  double touching(double q) const override { return rounding(q); }
   double force(const LocalState& state) const override { return -state.reaction()[0]; }
   std::string form() const override { return "rigid"; }
 };
@@ -108,6 +113,7 @@ class ElasticOneWay final : public OneWay {
   Contact contact(const LocalState& state, double q, double rate) const;
   double opening(const LocalState& state) const override;
   double not_opening() const override { return 1; }
+  double touching(double /*q*/) const override { return 0; }
   double force(const LocalState& state) const override;
   std::string form() const override;
   bool is_wound(const LocalState& state) const override { return holds(state) && opening(state) > 0; }

@@ -31,7 +31,7 @@ void DividedRope::add(const std::vector<std::vector<std::size_t>>& sections, boo
   std::vector<const RopeSection*> added;
   for (const std::vector<std::size_t>& places : sections) added.push_back(&add_section(places, recorded));
   for (std::size_t k = closed ? 0 : 1; k < added.size(); ++k)
-    add_between(*added[(k + added.size() - 1) % added.size()], *added[k], sections[k].front());
+    add_between(*added[(k + added.size() - 1) % added.size()], *added[k], sections[k].front(), closed);
 }
 
 void DividedRope::add_slip(std::size_t place) {
@@ -67,13 +67,14 @@ const RopeSection& DividedRope::add_section(const std::vector<std::size_t>& plac
 }
 
 /// Adds a monitor of the wrap on the place between two sections, and friction.
-void DividedRope::add_between(const RopeSection& before, const RopeSection& after, std::size_t place) {
+void DividedRope::add_between(const RopeSection& before, const RopeSection& after, std::size_t place, bool closed) {
   if (path_.pulleys[place].radius == 0) return;
   const RopeWrap wrap(before, after, path_.turns[place]);
   const std::optional<double>& coefficient = frictions_[place];
   model_.add(std::make_unique<RopeGrip>(before, after, wrap, coefficient.has_value()), own(), Recorded::no);
   if (!coefficient) return;
-  model_.add(std::make_unique<RopeFriction>(before, after, wrap, *coefficient, frictions_added_++, count_), own());
+  model_.add(std::make_unique<RopeFriction>(before, after, wrap, *coefficient, frictions_added_++, count_, closed),
+             own());
 }
 
 }  // namespace bielle::mechanism

@@ -26,7 +26,7 @@ class DividedRope {
   Entry own() const { return {Section::joints, name_}; }
   void add_slip(std::size_t place);
   const RopeSection& add_section(const std::vector<std::size_t>& places, Recorded recorded);
-  void add_between(const RopeSection& before, const RopeSection& after, std::size_t place);
+  void add_between(const RopeSection& before, const RopeSection& after, std::size_t place, bool closed);
 
   const char* type_;
   const std::string& name_;

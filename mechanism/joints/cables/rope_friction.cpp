@@ -15,7 +15,7 @@ constexpr double hardening = 1e-9;
 }  // namespace
 
 RopeFriction::RopeFriction(const RopeSection& before, const RopeSection& after, RopeWrap wrap, double coefficient,
-                           std::size_t number, std::size_t count)
+                           std::size_t number, std::size_t count, bool closed)
     : Component(after.type(), after.name()),
       before_(before),
       after_(after),
@@ -23,6 +23,7 @@ RopeFriction::RopeFriction(const RopeSection& before, const RopeSection& after, 
       coefficient_(coefficient),
       number_(number),
       count_(count),
+      closed_(closed),
       stiffness_(after.material().EA * (1 / before.drawn_length() + 1 / after.drawn_length())),
       viscosity_(1e-10 * after.material().EA) {}
 
@@ -179,9 +180,21 @@ void RopeFriction::add_pattern(const Slots& slots, LocalPattern& pattern) const 
   pattern.add_block(slip_row(slots, 0), 0, damped() ? 2 : 1, slots.size());
 }
 
+/// Returns the flow of unloaded rope whose strain the friction changes [m/s].
+double RopeFriction::strain_flow(const Sides& sides, double slip_rate) const {
+  if (closed_) return 0;
+  const double turning =
+      0.5 * (sides.stretch[0].ends[RopeSection::last_end].rate + sides.stretch[1].ends[RopeSection::first_end].rate);
+  const double flow = slip_rate - wrap_.radius() * turning;
+  return std::clamp(flow, std::min(0.0, slip_rate), std::max(0.0, slip_rate));
+}
+
 void RopeFriction::add_energy(const LocalState& state, Energy& energy) const {
   const Sides& sides = calc_sides(state);
-  const double power = (sides.stretch[1].tension - sides.stretch[0].tension) * RopeSlip::rate(slip_of(state)).value;
+  const RopeSection::Stretch &before = sides.stretch[0], &after = sides.stretch[1];
+  const double rate = RopeSlip::rate(slip_of(state)).value;
+  const double power =
+      (after.tension - before.tension) * rate + (after.strain_energy - before.strain_energy) * strain_flow(sides, rate);
   energy.input += power;  // the power that the sections give away by the slip
   energy.dissipation += power;
 }

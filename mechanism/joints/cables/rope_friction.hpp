@@ -13,7 +13,17 @@
 // no model of friction: they keep a rope whose other side is slack under a negligible tension greater than zero while
 // it slides, c = 1e-10 s/m EA, and make the slip unique where several pulleys of a belt slip at once. A negative wrap
 // counts as zero: both tensions are then equal. The friction T_2 - T_1 acts on the rim of the pulley by the tensions
-// themselves. The power (T_2 - T_1) ds/dt is dissipated.
+// themselves.
+//
+// The rope passes the pulley with its strain energy w = T^2/(2 EA) per unloaded length. With the velocity v of the rim
+// and the flow q = v + ds/dt of unloaded rope, the friction dissipates the integral of the relative velocity
+// q (1 + T/EA) - v over the tensions,
+//     (T_2 - T_1) ds/dt + (w_2 - w_1) q.
+// The part (w_2 - w_1) v is due to the rim, which the sections take to carry the unloaded length v instead of v/(1 +
+// T/EA): the elastic creep is neglected, and this part is negative on a pulley that drives. The rope of a cable that
+// slips dissipates the other one, (w_2 - w_1) f with f = median(0, q, ds/dt): all of it on a pulley at rest, none of it
+// if the rope rests and the pulley turns below it. A belt returns to the pulleys that it grips, so that the parts of
+// all pulleys add up to zero if it runs steadily: it dissipates (T_2 - T_1) ds/dt.
 //
 // At the beginning of a branch the rate of the slip of a damped rope follows from the same equation in place of d: the
 // accelerations with which the branch begins need the tensions after the discontinuity.
@@ -36,8 +46,9 @@ class RopeFriction final : public Component, public StickingPart {
  public:
   /// @param before,after  sections that end and begin at the pulley; both refer to its slip
   /// @param number,count  number of the pulley among those of the rope with friction
+  /// @param closed        whether it is a belt
   RopeFriction(const RopeSection& before, const RopeSection& after, RopeWrap wrap, double coefficient,
-               std::size_t number, std::size_t count);
+               std::size_t number, std::size_t count, bool closed);
   void declare(Declaration& declaration) const override;
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
@@ -94,6 +105,7 @@ class RopeFriction final : public Component, public StickingPart {
   void add_held(const LocalState& state, const Sides& sides, LocalTangent& tangent) const;
   void add_other_tangent(const LocalState& state, LocalTangent& tangent) const;
   double resistance(const LocalState& state) const;
+  double strain_flow(const Sides& sides, double slip_rate) const;
   void add_pull(const LocalState& state, const Sides& sides, int side, double factor, MeasureGradient& gradient) const;
   void add_wrap(const LocalState& state, const Sides& sides, double factor, MeasureGradient& gradient) const;
 
@@ -101,6 +113,7 @@ class RopeFriction final : public Component, public StickingPart {
   RopeWrap wrap_;
   double coefficient_;
   std::size_t number_, count_;
+  bool closed_;
   double stiffness_;  ///< k_0 [N/m]
   double viscosity_;  ///< c [N s/m]
 };

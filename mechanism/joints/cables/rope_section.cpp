@@ -143,6 +143,7 @@ void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
         state.time(), type(), name(), path_.names.front(), path_.names.back()));
   const bool stretched = is_stretched(state, stretch.E);
   stretch.pull = material_.EA * (stretch.E + material_.damping * stretch.E_rate) / natural;
+  stretch.strain_energy = stretched ? 0.5 * material_.EA * (stretch.E / natural) * (stretch.E / natural) : 0;
   stretch.stretched = stretched;
   stretch.taut = stretched && stretch.pull >= 0;
   stretch.tension = stretch.taut ? stretch.pull : 0;
@@ -284,8 +285,8 @@ void RopeSection::add_energy(const LocalState& state, Energy& energy) const {
   const double natural = s.natural, L_rate = s.L_gradient.dot(v.head(s.L_gradient.size()));
   const double strain = s.E / natural, elastic_tension = material_.EA * strain;
   energy.elastic += 0.5 * elastic_tension * s.E;
-  // d/dt (EA E^2/(2 N)) = EA strain Edot - EA strain^2/2 Ndot
-  energy.input -= 0.5 * elastic_tension * strain * (L_rate - s.E_rate);
+  // d/dt (EA E^2/(2 N)) = EA strain Edot - w Ndot
+  energy.input -= s.strain_energy * (L_rate - s.E_rate);
   energy.dissipation += (s.tension - elastic_tension) * s.E_rate;
   for_each_slip(state, [&](End, const LocalState& slip, double sign) {
     energy.input += sign * s.tension * RopeSlip::rate(slip).value;

@@ -8,9 +8,11 @@
 // (rope_slip.hpp), and
 //     T = max(0, EA (E + tau Edot)/(L - E)) while E > 0, and 0 otherwise;   L - E: unloaded length of that piece.
 // Steps end when the rope leaves a pulley or touches it: the memory contains the touched ones. Drums wind and unwind
-// rope, so that the section's stiffness EA/(L - E) changes with its length. Wound rope keeps its strain: its energy 1/2
-// T^2/EA per length is counted as input (negative when wound). Rope that slips over a place takes the power T sdot out
-// of the section before it and into that after it, which is counted as input.
+// rope, so that the section's stiffness EA/(L - E) changes with its length. An unloaded length of rope equal to the arc
+// is wound, without elastic creep: the strain energy w = T^2/(2 EA) per unloaded length changes by - w d(L - E)/dt
+// besides T Edot, which is counted as input (positive when rope is wound). Rope that slips over a place takes the power
+// T sdot out of the section before it and into that after it, which is counted as input; the friction there gives this
+// power, and that of w, back (rope_friction.hpp).
 // A belt is a chain of sections of one span each. A rope has no mass and cannot push: steps end when it becomes slack
 // or taut.
 #pragma once
@@ -72,8 +74,9 @@ class RopeSection final : public Component {
   /// The whole section at a state, along the increments of its nodes.
   struct Stretch {
     double E = 0, E_rate = 0, L = 0, tension = 0;
-    double natural = 0;  ///< L - E: unloaded length of the piece [m]
-    double pull = 0;     ///< EA (E + tau Edot)/(L - E): the tension of a section that could push as well [N]
+    double natural = 0;        ///< L - E: unloaded length of the piece [m]
+    double strain_energy = 0;  ///< w = EA (E/(L - E))^2/2 while E > 0 [J/m]
+    double pull = 0;           ///< EA (E + tau Edot)/(L - E): the tension of a section that could push as well [N]
     VectorX E_gradient, L_gradient;
     MatrixX E_second;
     bool stretched = false;              ///< whether E > 0 on the present branch

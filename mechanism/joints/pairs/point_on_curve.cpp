@@ -1,6 +1,7 @@
 #include "mechanism/joints/pairs/point_on_curve.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -163,12 +164,12 @@ void PointOnCurve::describe(const LocalState& state, Description& description) c
 
 namespace {
 
-/// @param frame  frame in whose axes the curve is returned
-Curve read_curve(const YamlValue& value, bool closed, const Frame& frame) {
+/// Reads points that are given along the axes of the joint's frame.
+/// @param origin  of the points, in that frame
+Curve read_curve(const YamlValue& value, bool closed, const Vector3& origin) {
   return read_named_file(value, [&](const std::string& path) -> Curve {
     MatrixX points = read_table(path, 3);
-    for (Eigen::Index k = 0; k < points.rows(); ++k)
-      points.row(k) = (frame.R.transpose() * (points.row(k).transpose() - frame.x)).transpose();
+    points.rowwise() += origin.transpose();
     return {points, closed, path};
   });
 }
@@ -179,9 +180,12 @@ const KeyTable& point_on_curve_keys() {
   using namespace keys;
   static const KeyTable table{
       "a point_on_curve joint", "A joint that holds a point on a curve of the first node and leaves turning free.",
-      joined({joint_place_keys(),
+      joined({joint_frame_keys(AxisNeed::optional),
               {{"curve", file("table of three columns"), required,
-                "Points of the curve, as drawn [m]; a cubic spline joins them."},
+                "Points of the curve as drawn [m], along the axes of the joint's frame, which are the inertial ones "
+                "unless `axis` or `second_axis` is given; a cubic spline joins them."},
+               {"curve_origin", vector3("m").as_point().in_inertial_axes(), computed("the origin of the inertial axes"),
+                "Origin of these points as drawn."},
                {"closed", boolean(), otherwise("false"), "Whether the curve returns to its first point."}},
               joint_action_keys(Moves::slides)})};
   return table;
@@ -191,7 +195,9 @@ void read_point_on_curve(const std::string& name, const YamlValue& entry, Model&
   JointFrames frames = read_joint_frames(entry, model, AxisNeed::optional);
   // J_A is at the initial position of the point, or at its start (`at`).
   const Frame joint = model.node(frames.first).frame * frames.on_first;
-  Curve curve = read_curve(entry.at("curve"), entry.at("closed").boolean(), joint);
+  const std::optional<YamlValue> given = entry.find("curve_origin");
+  const Vector3 origin = given ? given->vector3() : Vector3::Zero();
+  Curve curve = read_curve(entry.at("curve"), entry.at("closed").boolean(), joint.R.transpose() * (origin - joint.x));
   const double start = curve.nearest(Vector3::Zero());
   add_pair(std::make_unique<PointOnCurve>("point_on_curve", name, std::move(frames), std::move(curve), start,
                                           PointOnCurve::Guide::space, model),

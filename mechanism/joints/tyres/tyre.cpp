@@ -72,7 +72,8 @@ PairMeasure Tyre::deflection(const LocalState& state) const {
 bool Tyre::touches(const LocalState& state) const {
   const auto memory = state.memory();
   const double known = memory[memory.size() - 2];
-  if (state.environment().statics || std::isnan(known)) return deflection(state).value > 0;
+  // A tyre that just touches has its stiffness: otherwise nothing would hold its wheel in statics.
+  if (state.environment().statics || std::isnan(known)) return deflection(state).value >= 0;
   return known > 0;
 }
 

@@ -103,7 +103,7 @@ TyreForces SpringTyreLaw::calc(const TyreValues& values, bool touches) const {
     const double e = values[tyre_e];
     const ForceCurve::Values spring = curve ? (*curve)(e) : ForceCurve::Values{stiffness * e, stiffness};
     const TyreNumber S = compose(z[tyre_e], spring.force, spring.slope), push = S + damping * z[tyre_e_rate];
-    if (push.value > 0) forces.N = push;
+    if (push.value >= 0) forces.N = push;
     forces.elastic = curve ? curve->energy(e) : 0.5 * stiffness * e * e;
     forces.dissipation = (forces.N.value - S.value) * values[tyre_e_rate];
     forces.along_roll = -(rolling_resistance * (forces.N * direction));

@@ -1000,7 +1000,9 @@ class Entries:
 
     def point_on_curve(self, name: str, *,
             nodes: Sequence[Any], curve: str, position: Sequence[Any] | None = None, at: Sequence[Any] | None = None,
-            closed: bool | None = None, stiffness: Mapping[str, Any] | float | str | None = None,
+            axis: Sequence[Any] | None = None, second_axis: Sequence[Any] | None = None,
+            curve_origin: Sequence[Any] | None = None, closed: bool | None = None,
+            stiffness: Mapping[str, Any] | float | str | None = None,
             damping: Mapping[str, Any] | float | str | None = None,
             rest: Mapping[str, Any] | float | str | None = None,
             preload: Mapping[str, Any] | float | str | None = None, stops: Mapping[str, Any] | None = None,
@@ -1011,11 +1013,20 @@ class Entries:
         """A joint that holds a point on a curve of the first node and leaves turning free.
 
         nodes: First and second node. (list of 2: name of a node)
-        curve: Points of the curve, as drawn [m]; a cubic spline joins them. (file (table of three columns))
+        curve: Points of the curve as drawn [m], along the axes of the joint's frame, which are the inertial ones
+        unless `axis` or `second_axis` is given; a cubic spline joins them. (file (table of three columns))
         position: Place of the joint as drawn, fixed on both nodes. (list of 3: number [m]; default: the position of
         the second node)
         at: Points in the axes of the first and of the second node, in place of `position`; the start brings the two
         together, in the directions that the joint constrains. (list of 2: list of 3: number [m])
+        axis: Direction of z of the joint's frame as drawn, fixed on both nodes; or one in the axes of each node,
+        which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3: number;
+        default: the inertial z axis)
+        second_axis: Direction of x of the joint's frame, which is made orthogonal to z; or one in the axes of each
+        node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
+        number; default: the inertial axis most normal to z, as drawn)
+        curve_origin: Origin of these points as drawn. (list of 3: number [m]; default: the origin of the inertial
+        axes)
         closed: Whether the curve returns to its first point. (true or false; default: false)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
@@ -1046,9 +1057,10 @@ class Entries:
         true)
         """
         self.add("joints", name, {"type": "point_on_curve", "nodes": nodes, "curve": curve, "position": position,
-            "at": at, "closed": closed, "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload,
-            "stops": stops, "locked": locked, "clutch": clutch, "one_way": one_way, "start": start,
-            "start_rate": start_rate, "friction": friction, "carries": carries, "active": active, **more})
+            "at": at, "axis": axis, "second_axis": second_axis, "curve_origin": curve_origin, "closed": closed,
+            "stiffness": stiffness, "damping": damping, "rest": rest, "preload": preload, "stops": stops,
+            "locked": locked, "clutch": clutch, "one_way": one_way, "start": start, "start_rate": start_rate,
+            "friction": friction, "carries": carries, "active": active, **more})
 
     def slider(self, name: str, *,
             node: Mapping[str, Any] | str, beam: str, at: Sequence[Any] | None = None,

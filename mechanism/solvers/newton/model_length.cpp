@@ -4,15 +4,20 @@
 #include <cmath>
 
 namespace bielle::mechanism {
+namespace {
+
+constexpr double rounding = 1e-13;  ///< rounding of positions of the same point, relative to the size
+
+}  // namespace
 
 double model_length(const State& state) {
   double squared = 0;
   for (const NodeState& node : state.nodes) squared = std::max(squared, node.x.squaredNorm());
-  return squared > 0 ? std::sqrt(squared) : 1;
+  const double length = std::sqrt(squared);
+  return length > rounding ? length : 1;  // without nodes elsewhere than at the origin
 }
 
 double spread(const State& state) {
-  constexpr double rounding = 1e-13;  // rounding of positions that formulas place at the same point
   Eigen::AlignedBox3d box;
   for (std::size_t i = 1; i < state.nodes.size(); ++i) box.extend(state.nodes[i].x);
   const double length = state.nodes.size() > 1 ? box.diagonal().norm() : 0;

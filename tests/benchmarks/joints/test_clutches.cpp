@@ -346,6 +346,28 @@ events:
   }
 }
 
+TEST_CASE("a load that bounces on an elastic pawl comes to rest on it, also if it is back within a step") {
+  for (const bool forwards : {true, false})
+    for (const double step : {1e-3, 4e-3})
+      for (const double start : {0.01, 0.06}) {
+        CAPTURE(forwards, step, start);
+        const double sense = forwards ? 1 : -1, tooth = start < 0.05 ? 0 : 0.05;
+        const std::string text = fmt::format(R"yaml(
+nodes: {{a: {{}}}}
+elements: {{a: {{type: rigid_body, node: a, mass: 1, inertia: [1, 1, 1]}}}}
+joints:
+  rail: {{type: prismatic, nodes: [ground, a], axis: [0, 0.6, 0.8], start: {},
+         one_way: {{direction: {}, pitch: 0.05, stiffness: 1e5, damping: 50}}}}
+drives: {{load: {{joint: rail, force: {}}}}}
+)yaml",
+                                             sense * start, forwards ? "forwards" : "backwards", -10 * sense);
+        move_to(text, step, 1, [&](const Session& session) {
+          CHECK(read(session, "rail/coordinate") == Approx(sense * (tooth - 1e-4)).margin(1e-7));  // F/k
+          CHECK(read(session, "rail/one_way_force") == Approx(10 * sense).epsilon(1e-3));
+        });
+      }
+}
+
 TEST_CASE("a ratchet holds at the last tooth that it has passed, and lets go forwards") {
   // Thrown forwards at 3 rad/s against 4 N m: up to 2.25 rad, back to the last of the teeth at 0.4 rad, 2 rad. The
   // torque turns at 8 s and moves it on.

@@ -134,6 +134,24 @@ TEST_CASE("a standing tyre never has more than its friction, slides by Coulomb's
   }
 }
 
+TEST_CASE(
+    "a tyre that rolls to and fro under a side force creeps by the slip of this force on the path that it rolls") {
+  // F = mu N g(rho) at each rolling speed in either direction: dy/|dx| = mu N rho/C_y, rho = 3 (1 - (1 - F/(mu
+  // N))^(1/3)).
+  constexpr double amplitude = 0.3, F = 16, C_y = 3e3, period = 1;
+  std::string text = standing(fmt::format("0, {}", F), "");
+  text.replace(text.find("fixed: [z, rx, ry, rz]"), 22, "motion: {x: '0.3*sin(2*pi*t)'}, fixed: [z, rx, rz]");
+  // It rolls freely, and its inertia across is small: 0.2 kg need 0.01 N.
+  text.replace(text.find("mass: 20, inertia: [1, 1, 1]"), 28, "mass: 0.2, inertia: [1, 1e-3, 1]");
+  std::vector<double> y;
+  move(text, 1e-3, 4 * period, [&](const Session& session) {
+    if (session.time() > (2 + static_cast<double>(y.size())) * period - 1e-6) y.push_back(session.node("hub").x.y());
+  });
+  REQUIRE(y.size() == 3);
+  const double rho = 3 * (1 - std::cbrt(1 - F / most)), crept = 4 * amplitude * most * rho / C_y;
+  for (std::size_t k : {1u, 2u}) CHECK(y[k] - y[k - 1] == Approx(crept).epsilon(1e-3));
+}
+
 TEST_CASE("a tyre that is dragged in a circle keeps within its friction in all directions") {
   for (const std::string damping : {"", ", damping: 0", ", damping: 3e3"})
     for (const std::string relaxation : {"0.25", "[0.2, 0.3]"}) {

@@ -8,6 +8,7 @@
 #include "mechanism/language/placement.hpp"
 #include "mechanism/math/rotation_parameters.hpp"
 #include "mechanism/math/so3.hpp"
+#include "mechanism/session/session.hpp"
 #include "mechanism/solvers/dynamics/scheme.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/run_model.hpp"
@@ -110,4 +111,45 @@ TEST_CASE("a machine that is placed elsewhere moves as where it is drawn") {
 TEST_CASE("a machine that is mirrored moves as its mirror image") {
   for (const int axis : {0, 1, 2}) check_moves_alike({{Vector3(0, 0, 0), Matrix3::Identity()}, axis});
   check_moves_alike({{Vector3(1, -2, 3), RotationVector::rotation(Vector3(0.4, 1.1, -0.7))}, 1});
+}
+
+TEST_CASE("axes of joints that are not given turn with their part, also where two are equally normal") {
+  // In-plane axes of a plane, whose normal is z of the part: the inertial x is as normal to it as y.
+  const std::string part = R"yaml(
+definitions:
+  ice:
+    nodes: {puck: {position: [0.2, 0.1, 0], velocity: [0.5, 0.2, 0], angular_velocity: [0, 0, 1]}}
+    elements: {puck: {type: rigid_body, node: puck, mass: 1, inertia: [1, 1, 1]}}
+    joints: {plane: {type: planar, nodes: [ground, puck], axis: [0, 0, 1]}}
+parts: {it: {part: ice)yaml";
+  for (const char* turn : {"[0.5, -0.9, 0.7]", "[0.4, 1.1, -0.7]", "[0, 0, 2]", "[3, 0.1, 0.2]"}) {
+    CAPTURE(turn);
+    Session session(read_mechanism_text(fmt::format("{}, rotation_vector: {}}}}}\n", part, turn), "model.yaml").model);
+    const std::vector<double> rates = session.read("joints/it.plane/rate");
+    CHECK(rates[0] == Approx(0.5).epsilon(1e-12));
+    CHECK(rates[1] == Approx(0.2).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the curve of a joint is placed with its part") {
+  const std::string part = fmt::format(R"yaml(
+definitions:
+  ring:
+    nodes: {{car: {{position: [7.5, 0, 0], velocity: [0, 1.5, 0], fixed: [rx, ry, rz]}}}}
+    elements: {{car: {{type: point_mass, node: car, mass: 1}}}}
+    joints: {{track: {{type: point_on_curve, nodes: [ground, car], curve: {}/mechanism/examples/track.csv, closed: true}}}}
+)yaml",
+                                       BIELLE_SOURCE_DIR);
+  const auto at_end = [&](const std::string& keys, const Vector3& gravity) {
+    const ReadyModel model(fmt::format("gravity: [{}, {}, {}]\n{}parts: {{it: {{part: ring{}}}}}\n", gravity[0],
+                                       gravity[1], gravity[2], part, keys));
+    return model.node(run(model), "it.car").x;
+  };
+  const Vector3 gravity(0.5, -1, -9), x(1, -2, 3), turn(0.4, 1.1, -0.7), drawn = at_end("", gravity);
+  const Matrix3 R = RotationVector::rotation(turn);
+  const std::string moved = ", position: [1, -2, 3]", turned = ", rotation_vector: [0.4, 1.1, -0.7]";
+  CHECK((drawn - Vector3(7.5, 0, 0)).norm() > 0.1);
+  CHECK((at_end(moved, gravity) - x - drawn).norm() < 1e-9);
+  CHECK((at_end(turned, R * gravity) - R * drawn).norm() < 1e-9);
+  CHECK((at_end(moved + turned, R * gravity) - x - R * drawn).norm() < 1e-9);
 }

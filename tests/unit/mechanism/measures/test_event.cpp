@@ -258,6 +258,26 @@ TEST_CASE("an event that stops ends the run there, with a last row") {
   CHECK(session.node("stone").x.z() == Approx(2 - 5 * session.time() * session.time()).epsilon(1e-11));
 }
 
+TEST_CASE("an event at the start that stops the run leaves the row of the start alone") {
+  for (const bool times : {false, true}) {
+    CAPTURE(times);
+    Session session(model_of(
+        stone("  high: {when: stone.position.z, crosses: 2, direction: rising, at_start: true, action: stop}\n")));
+    MemorySink sink(session.model());
+    session.add_sink(sink);
+    Recording recording;
+    if (times) recording.times = {0.05, 0.2};
+    session.set_recording(recording);
+    session.begin_analysis("dynamic");
+    Motion motion = session.dynamics(steps_of(1, 0.1));
+    CHECK(motion.finish());
+    CHECK(motion.time() == 0);
+    session.end_analysis();
+    CHECK(sink.read(0, "time") == std::vector<double>{0});
+    CHECK(sink.analyses()[0].events.size() == 1);
+  }
+}
+
 TEST_CASE("an event is noted where its measure jumps over its value") {
   // A lock stops the mass; its velocity is 0.9 m/s just before.
   std::string text = oscillator(
