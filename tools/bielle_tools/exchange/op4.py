@@ -17,6 +17,7 @@ from .nastran_tables import GRID, groups_of, table_of
 from .nastran_unknowns import Deck
 from .op4_writer import write  # noqa: F401  (the second half of this format)
 from .op4_writer import nodes_beside
+from .quantity_comments import told_quantities
 
 
 def read(path, options):
@@ -29,7 +30,8 @@ def read(path, options):
     # One row of zeros stands for a matrix that does not exist.
     empty = [matrix for matrix in found.values() if matrix.entries.shape[0] == 1 != len(unknowns) and not matrix.entries.nnz]
     chosen = {role: matrix for role, matrix in chosen.items() if matrix not in empty}
-    asked = {name: pair for name, pair in nastran_quantities.wanted(found, options.quantities, path).items() if pair[0] not in empty}
+    told = told_quantities(nodes)
+    asked = {name: pair for name, pair in nastran_quantities.wanted(found, options.quantities, path, told).items() if pair[0] not in empty}
     notes = [] if options.nodes else [f"the order of the unknowns is that of '{nodes}'"]
     used = {**chosen, **{f"quantity {name}": matrix for name, (matrix, _) in asked.items()}}
     notes += left_out({name: matrix for name, matrix in found.items() if matrix not in empty}, used)
@@ -42,7 +44,7 @@ def read(path, options):
     members["quantities"] = {}
     for name, (matrix, kind) in asked.items():
         _check_columns(matrix, len(unknowns), path)
-        members["quantities"][name], more = nastran_quantities.quantity(deck, matrix.name, kind, matrix.entries.toarray())
+        members["quantities"][name], more = nastran_quantities.quantity(deck, matrix.name, kind, matrix.entries.toarray(), told=told.get(matrix.name))
         notes += more
     result = matrix_set(deck, unknowns, members, options, path, "Nastran OUTPUT4")
     result.notes += notes
