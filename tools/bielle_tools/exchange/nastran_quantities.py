@@ -6,7 +6,7 @@ MGS1, which Bielle writes, has the stress at grid points, six rows of each: xx y
 """
 
 from ..messages import InputError, counted
-from .nastran_tables import groups_of, rows_of_elements, rows_of_points, table_of
+from .nastran_tables import groups_of, rows_of_elements, rows_of_points, unnamed_rows
 from .recovery import KINDS, UNKNOWN, Quantity
 
 STRESS_AT_POINTS = "MGS1"
@@ -59,8 +59,7 @@ def quantity(deck, name, kind, values, labels=None, told=None):
     if kind is not None:
         rows = {k: (label, KINDS[kind]) for k, (label, _) in rows.items()}
     places = sorted(rows)
-    if groups is not None and len(places) < count:
-        notes.append(f"left out: {counted(count - len(places), 'row')} of {name} that DTI,{table_of(name)} does not name")
+    notes += unnamed_rows(name, groups, count) if groups else []
     unknown = sum(rows[k][1] == UNKNOWN for k in places)
     if unknown:
         notes.append(f"the units of {counted(unknown, 'row')} of {name} are not known: their numbers stay as they are in the file; a request "
