@@ -1,5 +1,5 @@
-// Stress and forces inside the body vanish in its rigid motions. A matrix of recovery whose columns stand in another
-// order than the unknowns, or that belongs to another body, has some.
+// Stress, strain and forces inside the body vanish in its rigid motions. A matrix of recovery whose columns stand in
+// another order than the unknowns, or that belongs to another body, has some.
 #include <algorithm>
 #include <array>
 
@@ -48,7 +48,7 @@ WorstRow worst_row(const MatrixStudy& study, const Eigen::MatrixXd& matrix) {
 }
 
 bool vanishes_in_rigid_motions(const std::string& unit) {
-  constexpr std::array<const char*, 3> internal = {"Pa", "N", "N m"};
+  constexpr std::array<const char*, 4> internal = {"Pa", "m/m", "N", "N m"};
   return std::find(internal.begin(), internal.end(), unit) != internal.end();
 }
 

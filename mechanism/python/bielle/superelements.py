@@ -33,7 +33,7 @@ def superelement(output: str | os.PathLike, K: Any, M: Any, positions: Any, *, C
     the amplitude of a mode. Without it, rows are x y z (rx ry rz, if there are as many) of the nodes in order, then `scalars`.
     points: (p,3) places inside, displacement: (3p,n), x y z of each as functions of the unknowns, stress: (6p,n), xx yy zz yz xz xy
     of each, body axes. quantities: further numbers that follow from the unknowns, such as the strain of gauges, by name:
-    a matrix (k,n), names of its rows and their unit or units (Pa, -, N, N m, m, rad), which mechanisms record on request.
+    a matrix (k,n), names of its rows and their unit or units (Pa, m/m of strain, -, N, N m, m, rad), which mechanisms record on request.
     arguments: further ones of bielle-reduce. program: its path, unless it is installed next to this package or in PATH.
     Returns the path of the file. Raises InputError with the sentence of the program.
     """

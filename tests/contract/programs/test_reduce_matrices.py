@@ -1,39 +1,16 @@
 """Bodies of other programs' matrices: `--from`, body files with `matrices`, and their motion in a mechanism."""
 
 import os
-import shutil
 import subprocess
-import sys
 import unittest
 
 import h5py
 import numpy as np
-import scipy.linalg
 
 from command import PROGRAMS, CommandTest
 
-REPOSITORY = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..", ".."))
-sys.path.insert(0, os.path.join(REPOSITORY, "tools"))
-from bielle_tools.exchange import calculix_matrices, formats  # noqa: E402
-
 MECHANISM = os.path.join(PROGRAMS, "bielle-mechanism")
-LENGTH, WIDTH, THICKNESS = 1.0, 0.1, 0.02
-SWING = """\
-mechanism: swing
-gravity: [0, 0, -9.81]
-nodes: {{pin: {{position: [0, 0, 0]}}, tip: {{position: [{length}, 0, 0]}}}}
-elements: {{rod: {{type: superelement, file: {name}.h5, nodes: {{left: pin, right: tip}}}}}}
-joints: {{hinge: {{type: hinge, nodes: [ground, pin], axis: [0, 1, 0]}}}}
-analysis: [{{type: dynamic, duration: 0.4, step: 0.001}}]
-"""
-FLY = """\
-mechanism: flight
-nodes:
-  pin: {{position: [0, 0, 0], velocity: [0.5, -2, 1], angular_velocity: [0, 2, 4]}}
-  tip: {{position: [{length}, 0, 0], velocity: [0.5, 2, -1], angular_velocity: [0, 2, 4]}}
-elements: {{rod: {{type: superelement, file: {name}.h5, nodes: {{left: pin, right: tip}}}}}}
-analysis: [{{type: dynamic, duration: 0.4, step: 0.001}}]
-"""
+LENGTH = 1.0
 SPIN = """\
 mechanism: spin
 nodes:
@@ -176,104 +153,6 @@ damping: {ratio: 0.01}
         self.expect_refusal(1, "--from", "none.npz", says=["none.npz"])
         self.expect_refusal(1, "--from", "beam.npz", "-o", "beam.npz", says=["replace its own input"])
         self.expect_refusal(1, "body.yaml", "--units", "mm-t-s", says=["--units goes with --from and --verify"])
-
-
-@unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed (Debian: calculix-ccx)")
-class Shells(Matrices):
-    """A strip of CalculiX' shells S8, which it expands to solids, against Bielle's own reduction of the same strip."""
-
-    def shell_strip(self, cells=10):
-        """Writes the deck of a strip along x and runs it: matrices and expanded nodes."""
-        width, places, elements = WIDTH, {}, []
-
-        def node(i, j):
-            return places.setdefault((i, j), len(places) + 1)
-
-        for e in range(cells):
-            corners = ((2 * e, 0), (2 * e + 2, 0), (2 * e + 2, 2), (2 * e, 2))
-            middles = ((2 * e + 1, 0), (2 * e + 2, 1), (2 * e + 1, 2), (2 * e, 1))
-            elements.append([node(*place) for place in (*corners, *middles)])
-        lines = [f"{number}, {LENGTH * i / (2 * cells):.12g}, {width * (j - 1) / 2:.12g}, 0." for (i, j), number in places.items()]
-        cards = [f"{k}, " + ", ".join(map(str, nodes)) for k, nodes in enumerate(elements, 1)]
-        deck = ("*NODE\n" + "\n".join(lines) + "\n*ELEMENT, TYPE=S8, ELSET=E\n" + "\n".join(cards) +
-                f"\n*SHELL SECTION, ELSET=E, MATERIAL=M\n{THICKNESS}\n*MATERIAL, NAME=M\n*ELASTIC\n70e9, 0.3\n*DENSITY\n2700.\n"
-                "*STEP\n*FREQUENCY\n8\n*NODE FILE, OUTPUT=3D\nU\n*END STEP\n*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n1\n*END STEP\n")
-        self.write("strip.inp", deck)
-        subprocess.run(["ccx", "strip"], cwd=self.folder, check=True, capture_output=True, timeout=300)
-        matrices = calculix_matrices.read(self.path("strip.sti"), formats.Options())
-        x = matrices.positions[:, 0]
-        return [[int(n) for n in matrices.numbers[np.abs(x - end) < 1e-6]] for end in (0, LENGTH)]
-
-    def solid_strip(self):
-        self.write("strip.geo", f"""\
-Point(1) = {{0, {-WIDTH / 2}, {-THICKNESS / 2}}};
-a[] = Extrude {{{LENGTH}, 0, 0}} {{ Point{{1}}; Layers{{10}}; Recombine; }};
-b[] = Extrude {{0, {WIDTH}, 0}} {{ Line{{a[1]}}; Layers{{1}}; Recombine; }};
-c[] = Extrude {{0, 0, {THICKNESS}}} {{ Surface{{b[1]}}; Layers{{1}}; Recombine; }};
-Physical Volume("all") = {{c[1]}};
-""")
-        self.write("solid.yaml", f"""\
-body: strip
-geometry: strip.geo
-mesh: {{order: 2, cells: hexahedra, size: 0.1}}
-materials: {{m: {{young: 70e9, poisson: 0.3, density: 2700}}}}
-regions: {{all: m}}
-interfaces:
-  left: {{surface: {{plane: {{point: [0, 0, 0], normal: [1, 0, 0]}}}}}}
-  right: {{surface: {{plane: {{point: [{LENGTH}, 0, 0], normal: [1, 0, 0]}}}}}}
-modes: {{count: 8}}
-""")
-        done = self.run_program("solid.yaml", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-
-    def check_frequencies(self):
-        """The free frequencies of the reduced strip lie above those that CalculiX prints for its own, by less than 1 %."""
-        with open(self.path("strip.dat"), encoding="utf-8") as file:
-            rows = [line.split() for line in file if len(line.split()) == 5 and line.split()[0].isdigit()]
-        expected = np.array([float(row[3]) for row in rows[6:8]])
-        with h5py.File(self.path("shells.h5")) as file:
-            values = scipy.linalg.eigh(file["reduced/stiffness"][()], file["reduced/mass"][()], eigvals_only=True)[6:8]
-        excess = np.sqrt(values) / (2 * np.pi) / expected - 1
-        self.assertGreater(excess.min(), -1e-5)
-        self.assertLess(excess.max(), 1e-2)
-
-    def check_flight(self):
-        """Free and spinning about two axes, both strips fly alike, and their centre straight on."""
-        paths, centres = [], []
-        for name in ("shells", "solid"):
-            with self.run_mechanism(FLY.format(name=name, length=LENGTH)) as file:
-                run = file["analysis_1"]
-                paths.append(run["nodes/tip/position"][:])
-                centres.append((run["nodes/tip/position"][:] + run["nodes/pin/position"][:]) / 2)
-                time = run["time"][:]
-        np.testing.assert_allclose(paths[0], paths[1], atol=2e-5)
-        # The middle of the ends vibrates by the bending that the spin about z sets in, far less than the strip is wide.
-        np.testing.assert_allclose(centres[0][:, 0], LENGTH / 2 + 0.5 * time, atol=2e-3)
-        self.assertGreater(np.abs(paths[0][:, 1]).max(), 0.4)
-
-    def test_a_rod_of_shells_is_like_its_solid_twin(self):
-        left, right = self.shell_strip()
-        self.write("shells.yaml", f"body: strip\nmatrices: strip.sti\ninterfaces:\n  left: {{nodes: {left}, position: [0, 0, 0]}}\n"
-                   f"  right: {{nodes: {right}, position: [{LENGTH}, 0, 0]}}\nmodes: {{count: 8}}\n")
-        done = self.run_program("shells.yaml")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("the inertia of large rotations is that of the nodes", done.stderr)
-        self.solid_strip()
-        with h5py.File(self.path("shells.h5")) as shells, h5py.File(self.path("solid.h5")) as solid:
-            # CalculiX expands S8 to cells of 20 nodes, which are those of the twin.
-            np.testing.assert_allclose(shells["modes/frequencies"], solid["modes/frequencies"], rtol=1e-6)
-            np.testing.assert_allclose(shells["mass_properties/mass"], solid["mass_properties/mass"], rtol=1e-6)
-            np.testing.assert_allclose(shells["mass_properties/inertia"], solid["mass_properties/inertia"], atol=1e-5)
-            self.assertEqual(list(shells["mesh/cells"]), ["17"])  # the strip is drawn with its cells
-            self.assertEqual(shells["mesh/cells/17"].shape, (10, 20))
-        self.check_frequencies()
-        self.check_flight()
-        paths = []
-        for name in ("shells", "solid"):
-            with self.run_mechanism(SWING.format(name=name, length=LENGTH)) as file:
-                paths.append(file["analysis_1/nodes/tip/position"][:])
-        np.testing.assert_allclose(paths[0], paths[1], atol=1e-5)
-        self.assertLess(paths[0][-1, 2], -0.5)
 
 
 if __name__ == "__main__":

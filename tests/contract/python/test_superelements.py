@@ -57,7 +57,8 @@ class Superelements(unittest.TestCase):
             np.testing.assert_array_equal(file["quantities/gauges/matrix"], gauges)
             self.assertEqual(file["quantities/gauges/rows"].asstr()[()].tolist(), ["front", "rear"])
             self.assertEqual(file["quantities/ends/units"].asstr()[()].tolist(), ["N", "N m"])
-        for quantities, told in (({"gauges": (gauges[:, :6], ["a", "b"], "Pa")}, "'quantity.gauges.matrix' is float64 of shape (2, 6)"),
+        for quantities, told in (({"gauges": (gauges, ["a", "b"], "strain")}, "has the unit 'strain': that of strain is m/m; known ones: Pa, m/m"),
+                                 ({"gauges": (gauges[:, :6], ["a", "b"], "Pa")}, "'quantity.gauges.matrix' is float64 of shape (2, 6)"),
                                  ({"gauges": (gauges, ["a"], "Pa")}, "the quantity 'gauges' has 1 row"),
                                  ({"gauges": (gauges, ["a", "b"], "MPa")}, "the unit 'MPa'"), ({"a b": (gauges, ["a", "b"], "Pa")}, "there is no key")):
             with self.subTest(told), self.assertRaises(bielle.InputError) as caught:

@@ -122,6 +122,11 @@ class Nastran(Deck):
 
     def test_wrong_cards_are_told_with_their_lines(self):
         self.refuse(self.deck(self.grids("8"), self.tetrahedra()), "coordinate system 8", "does not exist")
+        axes = "0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\n"
+        chain = "".join(f"CORD2R,{k},{k - 1 if k > 1000 else 0},{axes}" for k in range(1000, 1200))
+        self.refuse(self.deck(chain, self.grids("1199"), self.tetrahedra()), "more than 100 coordinate systems refer to each other")
+        self.refuse(self.deck(f"CORD2R,5,,{axes}CORD2R,5,,1.,{axes[3:]}", self.grids("5"), self.tetrahedra()), "a second coordinate system 5 (the first: line")
+        self.refuse(self.deck(f"CORD2R,0,,{axes}", self.grids(""), self.tetrahedra()), "CORD2R: expected a number from 1 on in field 2, found '0'")
         self.refuse(self.deck("CORD2R,5,5,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\n", self.grids("5"), self.tetrahedra()), "refers to itself")
         self.refuse(self.deck("CORD2R,5,,0.,0.,0.,0.,0.,1.,\n,0.,0.,2.\n", self.grids("5"), self.tetrahedra()), "stand in one line")
         self.refuse(self.deck(self.grids(), "CTETRA,1,1,1,2,3\n"), "line", "CTETRA 1 has 3 nodes")

@@ -115,12 +115,19 @@ class Assembled(Exchange):
         found = self.read("abaqus", self.files("4,1, 4,1, 2\n4,1, 2,3, -1\n2,3, 4,1, -1.5\n2,3, 2,3, 3\n"))
         self.assertEqual(sorted((found.stiffness[0, 1], found.stiffness[1, 0])), [-1.5, -1])
 
+    def test_each_pair_once_on_either_side(self):
+        """Entries of a symmetric matrix, one of which is above the diagonal and one below."""
+        mass = "".join(f"{node},{component}, {node},{component}, 1\n" for node in (2, 4) for component in (1, 2))
+        found = self.read("abaqus", self.files(mass + "2,1, 4,1, 5\n4,2, 2,1, 6\n", mass))
+        np.testing.assert_array_equal(found.stiffness.toarray(), [[1, 0, 5, 6], [0, 1, 0, 0], [5, 0, 1, 0], [6, 0, 0, 1]])
+
     def test_refusals(self):
         for text, told in (("4,1, 4,1, 1e36\n2,3, 2,3, 3\n", "1 unknown held by boundary conditions (node 4, component 1)"),
                            ("4,1, 4,1, 2\n-1,1, 4,1, 1\n2,3, 2,3, 3\n", "node -1 is a Lagrange multiplier"),
                            ("4,1, 4,8, 2\n", "node 4 has the component 8"), ("4,1, 4.5,1, 2\n", "a node or component is 4.5"),
                            ("4,1, 4,1, 2\n4,1,4\n", "job_STIF1.mtx:2: expected 5 numbers, found 3"),
                            ("4,1, 5,1, 2\n", "node 5 has no position"), ("4,1, 4,1, nan\n2,3, 2,3, 3\n", "not finite"),
+                           (self.LABELLED + "4,1, 2,3, -1\n", "job_STIF1.mtx': the entry of node 4 component 1 and node 2 component 3 stands twice"),
                            ("1 1 2\n", "one file has rows and columns")):
             with self.subTest(told):
                 self.refuse("abaqus", self.files(text), told)

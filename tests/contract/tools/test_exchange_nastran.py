@@ -209,6 +209,19 @@ class Dmig(Decks):
             self.assertIn("DMIG MUG1 has no card for the column 4 of 4: zero, unless the file lacks lines", self.read(modes + end).notes)
         self.assertEqual(self.read(modes + "DMIG,MUG1,4,0\n").notes, [])
 
+    def test_a_last_column_that_is_short(self):
+        """Cut off between two lines, a file may still hold all of its columns."""
+        body = cloud_body(damping=False)
+        dmig.write(body, self.path("a.pch"))
+        with open(self.path("a.pch"), encoding="ascii") as file:
+            lines = file.readlines()
+        self.assertEqual([note for note in self.read("".join(lines)).notes if "last column" in note], [])
+        for left_out in (1, 5, 3 * len(body.shapes.points) - 1):
+            words = lines[-left_out - 1].split()
+            self.assertIn(f"the last column of DMIG MUG1, {body.size}, ends at the row {words[1]} {words[2]}, others at ",
+                          " ".join(self.read("".join(lines[:-left_out])).notes))
+        self.assertNotIn("last column", " ".join(self.read("".join(lines[:-1]) + "ENDDATA\n").notes))
+
     def test_damaged(self):
         random = np.random.default_rng(5)
         for _ in range(400):
@@ -392,6 +405,14 @@ class Op4Order(InFolder):
         np.testing.assert_allclose(found.shapes.displacement, np.concatenate([axes @ shapes[6:9], shapes[0:3]]))
         np.testing.assert_allclose(found.shapes.rotation, np.concatenate([axes @ shapes[9:12], shapes[3:6]]))
         self.assertIn("left out: the shapes of 1 points, whose GRID the deck does not hold", found.notes)
+        self.assertNotIn("does not name", " ".join(found.notes))
+        short = self.read({**self.matrices(5, ("KAA", "MAA")), "MUG1": shapes}, deck.replace("      1       50      6       14\n", "\n"))
+        self.assertIn("left out: 6 rows of MUG1 that DTI,TUG1 does not name", short.notes)
+        stress = deck.replace("TUG1", "TGS1").replace("        2       11      1       13      1       50      6       14\n", "")
+        whole = {**self.matrices(5, ("KAA", "MAA")), "MUG1": shapes, "MGS1": shapes[:12]}
+        self.assertEqual(len(self.read(whole, deck + stress[stress.index("DTI"):]).shapes.stress), 12)
+        self.refuse("DTI,TGS1 gives the point 3 5 rows of MGS1; expected 6: xx yy zz yz xz xy", whole,
+                    deck + stress[stress.index("DTI"):].replace("3       6       7", "3       5       7"))
         self.refuse("DTI: expected rows of MUG1, which has 18 in field", {**self.matrices(5, ("KAA", "MAA")), "MUG1": shapes[:18]}, deck)
 
 

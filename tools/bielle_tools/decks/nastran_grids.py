@@ -7,6 +7,7 @@ from ..messages import InputError
 KINDS = {"R": "rectangular", "C": "cylindrical", "S": "spherical"}
 CP, CD = 2, 6  # fields of GRID and GRDSET
 NUMBERS = 2**31
+DEEPEST = 100    # coordinate systems that refer to each other
 
 
 def card_number(card):
@@ -57,7 +58,16 @@ class Systems:
         for card in cards:
             if card.name[:5] in ("CORD1", "CORD2") and card.name[5:] in KINDS:
                 for first in (1, 5) if card.name[4] == "1" and len(card.fields) > 5 and card.fields[5] else (1,):
-                    self.cards[card.integer(first)] = (card, first)
+                    self._add(card, first)
+
+    def _add(self, card, first):
+        number = card.integer(first)
+        if not 0 < number < NUMBERS:
+            card.fail(first, "a number from 1 on")
+        other, place = self.cards.setdefault(number, (card, first))
+        end = len(card.fields) if card.name[4] == "2" else first + 4
+        if (other.name, other.fields[place:place + end - first]) != (card.name, card.fields[first:end]):
+            raise InputError(f"'{card.path}': line {card.line}: there is a second coordinate system {number} (the first: line {other.line})")
 
     def place(self, number, coordinates, card):
         if number == 0:
@@ -75,6 +85,8 @@ class Systems:
         card, first = self.cards[number]
         if number in self.asked:
             raise InputError(f"'{card.path}': line {card.line}: the coordinate system {number} refers to itself")
+        if len(self.asked) == DEEPEST:
+            raise InputError(f"'{card.path}': line {card.line}: more than {DEEPEST} coordinate systems refer to each other, the last one to {number}")
         self.asked.append(number)
         if card.name[4] == "1":
             a, b, c = (self._grid(card, first + k) for k in (1, 2, 3))

@@ -84,10 +84,11 @@ def _labelled(paths, entries, nodes, _):
     unknowns = np.unique(np.concatenate([each.ravel() for each in keys.values()]))
     if not len(unknowns):
         raise InputError(f"'{paths['stiffness']}': holds no entries")
+    named = np.column_stack([unknowns // 8, unknowns % 8])
     for name, table in entries.items():
         rows, columns = np.searchsorted(unknowns, keys[name]).T
-        found[name] = matrix_of(rows, columns, table[:, 4], len(unknowns))
-    unknowns = np.column_stack([unknowns // 8, unknowns % 8])
+        found[name] = matrix_of(paths[name], rows, columns, table[:, 4], len(unknowns), named)
+    unknowns = named
     place, components = places_of(paths["stiffness"], unknowns[:, 0], unknowns[:, 1] - 1, nodes)
     _check_free(paths["stiffness"], found["stiffness"], unknowns)
     return place, components, found
@@ -126,7 +127,7 @@ def _numbered(paths, entries, nodes, options):
         order = np.argsort(nodes.numbers)
         row, components = unknowns_in_order(nodes.path, len(order), size)
         place = order[row]
-    found = {name: matrix_of(*indices[name].T, entries[name][:, 2], len(place)) for name in entries}
+    found = {name: matrix_of(paths[name], *indices[name].T, entries[name][:, 2], len(place)) for name in entries}
     labels = np.where(place < 0, 0, nodes.numbers[place])
     _check_free(paths["stiffness"], found["stiffness"], np.column_stack([labels, components + 1]))
     return place, components, found

@@ -119,7 +119,7 @@ def _matrix(path, size):
     missing = np.setdiff1d(np.arange(size), places[places[:, 0] == places[:, 1], 0])
     if len(missing):
         raise InputError(f"'{path}': row {missing[0] + 1} has no entry on the diagonal: the file is truncated")
-    return matrix_of(places[:, 0], places[:, 1], entries[:, 2], size)
+    return matrix_of(path, places[:, 0], places[:, 1], entries[:, 2], size)
 
 
 def _expanded(path, dofs, starts, size):

@@ -13,6 +13,7 @@ from .matrix_set import sparse
 from .nastran_matrices import RECTANGULAR, add_stress, blocks_of_rows, matrix_set, shapes_of
 from .nastran_roles import left_out, matrices_by_role
 from .nastran_unknowns import SCALAR, Deck
+from .quantity_comments import told_quantities
 
 
 MOST_ROWS = 1_000_000
@@ -37,7 +38,8 @@ def read(path, options):
     unknowns = _unknowns(deck, list(squares.values()))
     places = {pair: place for place, pair in enumerate(unknowns)}
     members = {role: _square(matrix, places) for role, matrix in squares.items()}
-    asked = nastran_quantities.wanted(found, options.quantities, path)
+    told = told_quantities(path)
+    asked = nastran_quantities.wanted(found, options.quantities, path, told)
     notes += left_out(found, {**chosen, **{f"quantity {name}": matrix for name, (matrix, _) in asked.items()}})
     check_modal_mass(deck, chosen["stiffness"], chosen["mass"])
     filled = sum(np.diff(scipy.sparse.csc_matrix(members[role]).indptr) for role in ("stiffness", "mass")) > 0
@@ -54,8 +56,9 @@ def read(path, options):
         notes += add_stress(members.get("shapes"), *_rows_of_points(chosen["stress"], places), chosen["stress"].name)
     members["quantities"] = {}
     for name, (matrix, kind) in asked.items():
-        values, labels = _rows(matrix, places)
-        members["quantities"][name], more = nastran_quantities.quantity(deck, matrix.name, kind, values, labels)
+        names = told.get(matrix.name)
+        values, labels = _rows(matrix, places, len(names.rows) if names else 1)
+        members["quantities"][name], more = nastran_quantities.quantity(deck, matrix.name, kind, values, labels, names)
         notes += more
     result = matrix_set(deck, unknowns, members, options, path, "Nastran DMIG")
     result.notes += notes
@@ -144,15 +147,15 @@ def _rows_of_points(matrix, places):
     return blocks_of_rows(rows), _values(matrix, places, rows)
 
 
-def _rows(matrix, places):
+def _rows(matrix, places, least):
     """Values (k,n) and labels of the rows. Rows without components are counted; others are named by point and component, and those
-    without entries are not known."""
+    without entries are not known. @param least: number of rows at least, if they are counted"""
     pairs = sorted({row for row, _, _ in matrix.entries})
     if all(component == 0 for _, component in pairs):
         if pairs and pairs[-1][0] > MOST_ROWS:
             raise InputError(f"'{matrix.header.path}': DMIG {matrix.name} has the row {pairs[-1][0]}; rows of a quantity are counted from 1 to "
                              f"{MOST_ROWS} at most")
-        pairs = [(number, 0) for number in range(1, pairs[-1][0] + 1)] if pairs else [(1, 0)]
+        pairs = [(number, 0) for number in range(1, max(pairs[-1][0] if pairs else 1, least) + 1)]
         labels = [f"row_{number}" for number, _ in pairs]
     else:
         labels = [f"row_{number}_{component}" for number, component in pairs]

@@ -58,7 +58,7 @@ def check_columns(matrix, filled, modal, is_last):
     present = np.isin(np.arange(1, width + 1), [number for number, _ in matrix.columns])
     missing = np.flatnonzero(~present & filled)
     if not len(missing):
-        return []
+        return _short_column(matrix) if is_last else []
     told = (f"DMIG {matrix.name} has no card for {'the column' if len(missing) == 1 else f'{len(missing)} columns, the first'} "
             f"{missing[0] + 1} of {width}")
     ends_early = is_last and missing[-1] > np.flatnonzero(present).max(initial=-1)
@@ -66,3 +66,14 @@ def check_columns(matrix, filled, modal, is_last):
         raise InputError(f"'{matrix.header.path}': line {matrix.header.line}: {told}: the end of the file is cut off; if a column is zero, "
                          f"write its card without rows: DMIG,{matrix.name},{missing[-1] + 1},0")
     return [f"{told}: zero, unless the file lacks lines"]
+
+
+def _short_column(matrix):
+    """A note if the last column of a matrix has rows, but not the last ones of the others: a file that was cut off between two lines does."""
+    last = max(matrix.columns, default=None)
+    own = max((row for row, column, _ in matrix.entries if column == last), default=(0, 0))
+    others = max((row for row, column, _ in matrix.entries if column != last), default=(0, 0))
+    if own >= others or not own[0]:
+        return []
+    return [f"the last column of DMIG {matrix.name}, {last[0]}, ends at the row {own[0]} {own[1]}, others at {others[0]} {others[1]}: the rest is "
+            "zero, unless the file lacks lines"]

@@ -9,10 +9,22 @@ from .matrix_set import mirrored, sparse
 LARGEST_DENSE = 30000  # rows of a matrix whose entries are all written
 
 
-def matrix_of(rows, columns, values, size):
-    """The matrix with these entries, counted from 0 (scipy.sparse); if all are in one triangle, the symmetric matrix of it."""
+def matrix_of(path, rows, columns, values, size, names=None):
+    """The matrix with these entries, counted from 0 (scipy.sparse). If each pair of row and column is there on one side of the
+    diagonal alone, the matrix is symmetric.
+
+    @param names: (size, 2) node and component of each row, for the message @raises InputError for an entry that stands twice"""
+    keys = np.sort(np.asarray(rows, np.int64) * size + columns)
+    twice = keys[1:][np.diff(keys) == 0]
+    if len(twice):
+        row, column = (int(each) for each in divmod(twice[0], size))
+        told = f"row {row + 1}, column {column + 1}" if names is None else " and ".join(
+            f"node {names[k][0]} component {names[k][1]}" for k in (row, column))
+        raise InputError(f"'{path}': the entry of {told} stands twice")
     matrix = sparse(scipy.sparse.coo_matrix((values, (rows, columns)), shape=(size, size)))
-    return matrix if (rows > columns).any() and (rows < columns).any() else mirrored(matrix)
+    low, high = np.minimum(rows, columns).astype(np.int64), np.maximum(rows, columns)
+    pairs = (low * size + high)[low != high]
+    return mirrored(matrix) if len(np.unique(pairs)) == len(pairs) else matrix
 
 
 def packed_matrix(path, values, size, what):

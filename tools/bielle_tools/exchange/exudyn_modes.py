@@ -1,8 +1,8 @@
 """Exudyn's reduced body of a floating frame (.npz, .hdf5): the file of ObjectFFRFreducedOrderInterface.SaveToFile.
 
 modeBasis (3p,m) are the shapes at all nodes, xRef their places, and the other keys inertia integrals with the mass of
-the mesh, which is equal in all directions. postProcessingModes may hold the stress xx yy zz yz xz xy of each node and mode, (p,6m); an
-.npz file holds it as a Python object, which is not read. Written are all free modes at the nodes and recovery points. (Exudyn,
+the mesh, which is equal in all directions. postProcessingModes may hold the stress xx yy zz yz xz xy of each node and mode, (p,6m); in an
+.npz file it is a pickled dictionary. Written are all free modes at the nodes and recovery points. (Exudyn,
 FEM.py, GetDictionary; A. Zwoelfer, J. Gerstmayr, "The nodal-based floating frame of reference formulation with modal
 reduction", Acta Mech. 232 (2021) 835.)
 """
@@ -21,12 +21,15 @@ from .job_files import stem
 from .matrix_set import MassProperties
 from .modal_body import body_of_modes, rigid_mass
 from .npz_matrices import load, names_in
+from .pickled_arrays import UnknownObject, load_dictionary
 
 SHAPES = {"modeBasis": 2, "massMatrixReduced": 2, "stiffnessMatrixReduced": 2, "xRef": 1, "inertiaLocal": 2, "Mtt": 2, "chiU": 1,
           "mPhitTPsi": 2, "mXRefTildePsi": 2, "mXRefTildePsiTilde": 2, "mPsiTildePsiTilde": 2}  # key: number of its dimensions
 
 
-STRESS = ("OutputVariableType.StressLocal", 1 << 29)  # the name and the number of Exudyn's output variable
+RECOVERY = "postProcessingModes"
+ENUMERATION = "OutputVariableType"                     # of Exudyn's output variables
+STRESS = (f"{ENUMERATION}.StressLocal", 1 << 29)        # the name and the number of one of them
 
 
 def recognises(path):
@@ -43,19 +46,35 @@ def _load(path):
     if not _is_hdf5(path):
         if "massMatrix" in names_in(path):
             _refuse_interface(path)
-        return load(path, SHAPES), None
+        return load(path, SHAPES), _stress_modes(path, _pickled(path))
     with _opened(path) as file, reading(path, "/"):
         if "massMatrix" in file:
             _refuse_interface(path)
         arrays = {name: np.asarray(file[name][()]) for name in SHAPES if isinstance(file.get(name), h5py.Dataset)}
-        stress = file.get("postProcessingModes")
-        if not isinstance(stress, h5py.Group) or "matrix" not in stress:
-            return arrays, None
-        kind = stress["outputVariableType"][()] if "outputVariableType" in stress else b""
-        if (kind.decode() if isinstance(kind, bytes) else int(kind)) not in STRESS:
-            note(f"{path}: postProcessingModes are no stress: they are left out")
-            return arrays, None
-        return arrays, np.asarray(stress["matrix"][()])
+        group = file.get(RECOVERY)
+        found = {name: member[()] for name, member in group.items() if isinstance(member, h5py.Dataset)} if isinstance(group, h5py.Group) else {}
+    return arrays, _stress_modes(path, found)
+
+
+def _pickled(path):
+    """postProcessingModes of an .npz file. @raises InputError if they are damaged"""
+    try:
+        return load_dictionary(path, RECOVERY, (ENUMERATION,)) or {}
+    except UnknownObject as error:
+        note(f"{path}: {RECOVERY} hold an object {error}, which is not read: they are left out")
+        return {}
+
+
+def _stress_modes(path, found):
+    """The matrix of postProcessingModes; None if there is none, with a note if it is another quantity."""
+    if "matrix" not in found:
+        return None
+    kind = found.get("outputVariableType", "")
+    kind = kind.decode("utf-8", "replace") if isinstance(kind, bytes) else kind
+    if not isinstance(kind, (str, int, np.integer)) or kind not in STRESS:
+        note(f"{path}: {RECOVERY} are no stress: they are left out")
+        return None
+    return np.asarray(found["matrix"])
 
 
 def _opened(path):
@@ -127,7 +146,7 @@ def write(matrices, path, options):
         note("Exudyn's file has no damping: it is left out; the object has factors for it")
     places, shapes = free.positions[points], (free.motions[points, :3] @ free.modes).reshape(-1, free.modes.shape[1])
     values = _dictionary(known, free, places, shapes, _triangles(free.body))
-    values["postProcessingModes"] = _stress(free)
+    values[RECOVERY] = _stress(free)
     if _is_hdf5(path):
         with h5py.File(path, "w") as file:
             _write_dictionary(file, values)

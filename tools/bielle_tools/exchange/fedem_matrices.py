@@ -63,7 +63,7 @@ def _matrix(path, tag):
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
     found = content[:TAG].decode("ascii", "replace").rstrip()
     if found != tag:
-        raise InputError(f"'{path}': expected FEDEM's tag '{tag}', found '{found}'")
+        raise InputError(f"'{path}': expected FEDEM's tag '{tag}', found {ascii(found)}")
     order = next((each for each in "<>" if content[TAG:TAG + 2] == struct.pack(each + "H", ENDIAN)), None)
     if order is None or content[HEAD - len(VERSION):HEAD] != VERSION:
         raise InputError(f"'{path}': the head is damaged, or of another version than 1.0")

@@ -72,7 +72,7 @@ def _matrix(path, most):
     try:
         rows, columns, entries, form, kind, _ = scipy.io.mminfo(io.BytesIO(content))
     except FAULTS as error:
-        raise InputError(f"'{path}': the head of the file is damaged: {error}") from None
+        raise InputError(f"'{path}': the head of the file is damaged: {' '.join(str(error).split())[:80]}") from None
     if rows != columns or rows < 1 or kind not in ("real", "integer"):
         raise InputError(f"'{path}': expected a square matrix of real numbers, found {rows} x {columns}, {kind}")
     if rows > most:
@@ -83,7 +83,7 @@ def _matrix(path, most):
     try:
         return sparse(scipy.io.mmread(io.BytesIO(content)))
     except FAULTS as error:
-        raise InputError(f"'{path}': the entries are damaged: {error}") from None
+        raise InputError(f"'{path}': the entries are damaged: {' '.join(str(error).split())[:80]}") from None
 
 
 def write(matrices, path, options):

@@ -5,6 +5,7 @@ import numpy as np
 import scipy.sparse
 
 from .nastran_unknowns import SCALAR
+from .quantity_comments import comments_of
 
 LARGEST = 99_999_999  # a field of 8 characters
 WIDE = 16
@@ -155,12 +156,12 @@ def form_of(matrix):
 
 
 def named_quantities(matrices):
-    """Recovered quantities by the names of their matrices: comments with the names of their rows, and the quantity. Notes on them are added."""
+    """Recovered quantities by the names of their matrices: comments with the names of their rows, and the quantity. Notes on them
+    are added."""
     named = {}
     for k, (name, quantity) in enumerate(matrices.quantities.items(), 1):
         matrix = f"OTM{k}"
-        told = [f"$ {matrix}: {name}"] + [f"$ row {row + 1}: {label} [{unit}]" for row, (label, unit) in enumerate(zip(quantity.rows, quantity.units))]
-        named[matrix] = ([line.encode("ascii", "replace").decode() for line in told], quantity)
+        named[matrix] = (comments_of(matrix, name, quantity), quantity)
         matrices.notes.append(f"the quantity '{name}' is the matrix {matrix}, whose rows comments name")
     return named
 

@@ -38,17 +38,23 @@ def shapes_of(deck, blocks, values):
         notes.append(f"left out: the shapes of {len(blocks) - len(numbers)} points, whose GRID the deck does not hold")
     if not numbers:
         return None, notes
-    values = scipy.sparse.csr_matrix(values)
     size = values.shape[1]
-    parts = np.zeros((2, len(numbers), 3, size))
-    for k, number in enumerate(numbers):
-        axes = deck.grids.axes(number)
-        for component, row in blocks[number].items():
-            parts[(component - 1) // 3, k, (component - 1) % 3] = values[row].toarray().ravel()
-        parts[:, k] = axes @ parts[:, k]
-    displacement, rotation = parts.reshape(2, -1, size)
+    parts = _by_component(numbers, blocks, values).reshape(len(numbers), 2, 3, size)
+    axes = np.array([deck.grids.axes(number) for number in numbers])
+    if (axes != np.eye(3)).any():
+        parts = axes[:, None] @ parts
+    displacement, rotation = parts.transpose(1, 0, 2, 3).reshape(2, -1, size)
     return Shapes(numbers=np.array(numbers, np.int64), points=np.array([deck.grids.points[deck.grids.rows[number]] for number in numbers]),
                   displacement=displacement, rotation=rotation if rotation.any() else None), notes
+
+
+def _by_component(numbers, blocks, values):
+    """(p,6,n) values of points by component, zero for rows that do not exist. @param blocks: {number: {1 to 6: row}}"""
+    result = np.zeros((len(numbers), 6, values.shape[1]))
+    filled = [(k, component - 1, row) for k, number in enumerate(numbers) for component, row in blocks[number].items()]
+    places, components, rows = np.array(filled, np.int64).reshape(-1, 3).T
+    result[places, components] = scipy.sparse.csr_matrix(values)[rows].toarray()
+    return result
 
 
 def add_stress(shapes, blocks, values, name):
@@ -56,13 +62,9 @@ def add_stress(shapes, blocks, values, name):
     @param values: scipy.sparse (rows, n) @returns notes"""
     places = {} if shapes is None else {int(number): row for row, number in enumerate(shapes.numbers)}
     found = [number for number in sorted(blocks) if number in places]
-    values = scipy.sparse.csr_matrix(values)
-    stress = np.zeros((len(found), 6, values.shape[1]))
-    for k, number in enumerate(found):
-        for component, row in blocks[number].items():
-            stress[k, component - 1] = values[row].toarray().ravel()
     if found:
-        shapes.stress, shapes.stress_points = stress.reshape(-1, values.shape[1]), np.array([places[number] for number in found], np.int64)
+        shapes.stress = _by_component(found, blocks, values).reshape(-1, values.shape[1])
+        shapes.stress_points = np.array([places[number] for number in found], np.int64)
     missing = len(blocks) - len(found)
     return [f"left out: the stress {name} of {counted(missing, 'point')} whose displacements the file does not hold"] if missing else []
 

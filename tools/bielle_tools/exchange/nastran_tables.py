@@ -7,7 +7,7 @@ The second record of a table lists groups of four numbers: type, number, count o
 
 from dataclasses import dataclass
 
-from ..messages import InputError
+from ..messages import InputError, counted
 from .matrix_set import COMPONENTS
 from .recovery import UNKNOWN
 
@@ -58,6 +58,12 @@ def groups_of(deck, matrix, rows):
                 card.fail(row, f"rows of {matrix} that no other entry has: row {place + 1} stands twice")
         groups.append(group)
     return groups
+
+
+def unnamed_rows(matrix, groups, rows):
+    """Notes on rows of a matrix that its table does not name. @param rows: their number"""
+    missing = rows - sum(group.count for group in groups)
+    return [f"left out: {counted(missing, 'row')} of {matrix} that DTI,{table_of(matrix)} does not name"] if missing > 0 else []
 
 
 def rows_of_elements(groups, unit):

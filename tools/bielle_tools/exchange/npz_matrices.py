@@ -14,7 +14,7 @@
 | points, displacement | p, 3; 3p, n | points inside, and x y z of each as functions of the unknowns; may be absent |
 | point_numbers, point_masses | p | their numbers (default 1, 2, ..), and masses that sum up to the body's |
 | stress, stress_points | 6s, n; s | xx yy zz yz xz xy, body axes, at points, and their numbers; may be absent |
-| quantity.NAME.matrix, .rows, .units | k, n; k; k | a recovered quantity, names of its rows (default: row_1 ..) and their units (Pa, N, N m, m, rad, -) |
+| quantity.NAME.matrix, .rows, .units | k, n; k; k | a recovered quantity, names of its rows (default: row_1 ..) and their units (Pa, m/m of strain, N, N m, m, rad, -) |
 | length_unit, mass_unit | | texts; default: as the command says |
 
 Without unknown_nodes and unknown_components, the rows are x y z (rx ry rz if they are enough) of all nodes in order,

@@ -13,10 +13,12 @@ from . import nastran_quantities, op4_binary, op4_text
 from .matrix_set import mirrored, sparse
 from .nastran_matrices import RECTANGULAR, add_stress, matrix_set, shapes_of
 from .nastran_roles import left_out, matrices_by_role
-from .nastran_tables import GRID, groups_of, table_of
+from .nastran_tables import GRID, groups_of, table_of, unnamed_rows
 from .nastran_unknowns import Deck
 from .op4_writer import write  # noqa: F401  (the second half of this format)
 from .op4_writer import nodes_beside
+from .quantity_comments import told_quantities
+from .recovery import STRESS
 
 
 def read(path, options):
@@ -29,7 +31,8 @@ def read(path, options):
     # One row of zeros stands for a matrix that does not exist.
     empty = [matrix for matrix in found.values() if matrix.entries.shape[0] == 1 != len(unknowns) and not matrix.entries.nnz]
     chosen = {role: matrix for role, matrix in chosen.items() if matrix not in empty}
-    asked = {name: pair for name, pair in nastran_quantities.wanted(found, options.quantities, path).items() if pair[0] not in empty}
+    told = told_quantities(nodes)
+    asked = {name: pair for name, pair in nastran_quantities.wanted(found, options.quantities, path, told).items() if pair[0] not in empty}
     notes = [] if options.nodes else [f"the order of the unknowns is that of '{nodes}'"]
     used = {**chosen, **{f"quantity {name}": matrix for name, (matrix, _) in asked.items()}}
     notes += left_out({name: matrix for name, matrix in found.items() if matrix not in empty}, used)
@@ -42,7 +45,7 @@ def read(path, options):
     members["quantities"] = {}
     for name, (matrix, kind) in asked.items():
         _check_columns(matrix, len(unknowns), path)
-        members["quantities"][name], more = nastran_quantities.quantity(deck, matrix.name, kind, matrix.entries.toarray())
+        members["quantities"][name], more = nastran_quantities.quantity(deck, matrix.name, kind, matrix.entries.toarray(), told=told.get(matrix.name))
         notes += more
     result = matrix_set(deck, unknowns, members, options, path, "Nastran OUTPUT4")
     result.notes += notes
@@ -107,19 +110,26 @@ def _check_columns(matrix, size, path):
 
 def _shapes(deck, matrix, size, path):
     """Shapes by the rows that DTI,TUG1 names, or None, and notes."""
-    groups = groups_of(deck, matrix.name, matrix.entries.shape[0])
+    count = matrix.entries.shape[0]
+    groups = groups_of(deck, matrix.name, count)
     if groups is None:
         return None, [f"left out: the shapes {matrix.name}: the deck has no DTI,{table_of(matrix.name)}, which names their rows"]
     _check_columns(matrix, size, path)
     blocks = {group.number: {k + 1: group.first + k for k in range(min(group.count, 6))} for group in groups if group.kind == GRID}
-    return shapes_of(deck, blocks, matrix.entries)
+    shapes, notes = shapes_of(deck, blocks, matrix.entries)
+    return shapes, notes + unnamed_rows(matrix.name, groups, count)
 
 
 def _add_stress(deck, matrix, shapes, size, path):
     """Adds stress at points to their shapes. @returns notes"""
-    groups = groups_of(deck, matrix.name, matrix.entries.shape[0])
+    count = matrix.entries.shape[0]
+    groups = groups_of(deck, matrix.name, count)
     if groups is None:
         return [f"left out: the stress {matrix.name}: the deck has no DTI,{table_of(matrix.name)}, which names its rows"]
     _check_columns(matrix, size, path)
+    wrong = next((group for group in groups if group.count != len(STRESS)), None)
+    if wrong is not None:
+        raise InputError(f"'{path}': DTI,{table_of(matrix.name)} gives the point {wrong.number} {counted(wrong.count, 'row')} of {matrix.name}; "
+                         f"expected {len(STRESS)}: {' '.join(STRESS)}")
     blocks = {group.number: {k + 1: group.first + k for k in range(group.count)} for group in groups if group.kind == GRID}
-    return add_stress(shapes, blocks, matrix.entries, matrix.name)
+    return add_stress(shapes, blocks, matrix.entries, matrix.name) + unnamed_rows(matrix.name, groups, count)

@@ -10,9 +10,10 @@ import numpy as np
 
 from ..messages import InputError, counted, did_you_mean
 
-# Unit of each kind that a user may name, and exponents of length, mass and time in it.
-KINDS = {"stress": "Pa", "strain": "-", "force": "N", "moment": "N m", "displacement": "m", "rotation": "rad", "number": "-"}
-EXPONENTS = {"Pa": (-1, 1, -2), "-": (0, 0, 0), "N": (1, 1, -2), "N m": (2, 1, -2), "m": (1, 0, 0), "rad": (0, 0, 0)}
+# Unit of each kind that a user may name, and exponents of length, mass and time in it. Strain is m/m, so that verification knows it from
+# other pure numbers: it vanishes in rigid motions.
+KINDS = {"stress": "Pa", "strain": "m/m", "force": "N", "moment": "N m", "displacement": "m", "rotation": "rad", "number": "-"}
+EXPONENTS = {"Pa": (-1, 1, -2), "m/m": (0, 0, 0), "-": (0, 0, 0), "N": (1, 1, -2), "N m": (2, 1, -2), "m": (1, 0, 0), "rad": (0, 0, 0)}
 UNKNOWN = "unit of the file"
 STRESS = ("xx", "yy", "zz", "yz", "xz", "xy")
 NAME = "letters, digits and _"
@@ -72,7 +73,8 @@ def check(name, quantity, size):
         raise InputError(f"the quantity '{name}' has a row '{unnamed}', which is no name: {NAME} are expected")
     strange = next((unit for unit in quantity.units if unit not in EXPONENTS and unit != UNKNOWN), None)
     if strange is not None:
-        raise InputError(f"the quantity '{name}' has the unit '{strange}'{did_you_mean(strange, EXPONENTS)}; known ones: {', '.join(EXPONENTS)}")
+        hint = f": that of {strange} is {KINDS[strange]}" if strange in KINDS else did_you_mean(strange, EXPONENTS)
+        raise InputError(f"the quantity '{name}' has the unit '{strange}'{hint}; known ones: {', '.join(EXPONENTS)}")
     if not np.isfinite(quantity.matrix).all():
         raise InputError(f"the quantity '{name}' holds numbers that are not finite")
 
