@@ -5,6 +5,7 @@
 
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/elements/beam/beam_stress.hpp"
+#include "reduce/common/error.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/session_model.hpp"
 
@@ -82,7 +83,7 @@ TEST_CASE("a stress that a beam does not have is refused with those that it has"
   const auto message = [](const std::string& wrong, const std::string& by) {
     std::string text = cantilever;
     text.replace(text.find(wrong), wrong.size(), by);
-    return message_of([&] { session_of(text); });
+    return message_of<bielle::InputError>([&] { session_of(text); });
   };
   CHECK_THAT(message("boom.element_2.von_mises.p2", "boom.element_2.von_mises.p3"),
              Contains("'boom' has no 'element_2.von_mises.p3'; did you mean 'element_2.von_mises.p"));
