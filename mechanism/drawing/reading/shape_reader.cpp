@@ -129,8 +129,8 @@ void read_shapes(const YamlValue& value, const Entry& entry, int node, Model& mo
 }
 
 void draw_solid(const YamlValue& solid, const Entry& entry, int node, const Vector3& offset, Model& model) {
-  if (solid.at("cut").boolean()) return;
   DrawnItem item = read_form(solid, node);
+  if (solid.at("cut").boolean()) item.role = "cut";
   item.places.front().frame.x += offset;
   model.add_shape(entry, std::move(item));
 }

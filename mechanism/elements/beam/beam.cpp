@@ -113,6 +113,7 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
 
   const std::vector<int> nodes = make_nodes(name, entry, ends, sections, model);
   const Entry own{Section::elements, name};
+  std::vector<BeamElement*> elements;
   std::vector<BeamSpan> spans;
   for (int k = 0; k < count; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -126,13 +127,15 @@ void read_beam(const std::string& name, const YamlValue& entry, Model& model) {
                    line.rate(s_B, R_start, total_twist) / count, [&, back = inverse(sections[i + 1])](double z) {
                      return back * line.frame((1 - z) * s_A + z * s_B, R_start, total_twist);
                    }};
-    model.add(std::make_unique<BeamElement>(name, BeamPlace{k + 1, count}, nodes[i], nodes[i + 1], R_A, R_B, reference,
-                                            section.over(s_A, s_B), damping_time, law),
-              own, Recorded::stacked);
+    auto element = std::make_unique<BeamElement>(name, BeamPlace{k + 1, count}, nodes[i], nodes[i + 1], R_A, R_B,
+                                                 reference, section.over(s_A, s_B), damping_time, law);
+    elements.push_back(element.get());
+    model.add(std::move(element), own, Recorded::stacked);
     const BeamSpan span{nodes[i], nodes[i + 1], R_A, R_B, {line.length() / count, 0, 0}, s_A, s_B};
     spans.push_back(span);
     if (airfoil) model.add(std::make_unique<AirfoilLoad>(name, span, *airfoil), own, Recorded::no);
   }
+  if (count > 1) elements.front()->set_beam({elements.begin(), elements.end()});
   if (const auto distributed = entry.find("distributed")) add_line_loads(name, *distributed, spans, own, model);
   model.add_chain(own, nodes);
   std::vector<std::vector<double>> turns;  // from the axes of the end nodes to those of the sections

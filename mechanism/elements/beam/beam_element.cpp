@@ -9,6 +9,7 @@
 
 #include "mechanism/elements/beam/beam_deformation.hpp"
 #include "mechanism/elements/beam/beam_strain.hpp"
+#include "mechanism/elements/beam/beam_stress.hpp"
 #include "mechanism/math/gauss.hpp"
 #include "mechanism/math/inverse.hpp"
 #include "mechanism/model/description.hpp"
@@ -310,6 +311,11 @@ std::vector<OutputField> BeamElement::output_fields() const {
   return fields;
 }
 
+Vector6 BeamElement::middle_forces(const LocalState& state) const {
+  const Deformation D = deformation(state);
+  return wrench_to_middle(D) * D.of_motion(D.f, along_);
+}
+
 void BeamElement::write_output(const LocalState& state, double* values) const {
   const Deformation D = deformation(state);
   const Matrix6 middle = wrench_to_middle(D);
@@ -321,7 +327,7 @@ void BeamElement::write_output(const LocalState& state, double* values) const {
   for (std::size_t p = 0; p < section_.stress.size(); ++p) {
     Eigen::Map<Vector3> sigma(stress + 3 * p);
     sigma = section_.stress[p] * f;
-    von_mises[p] = std::sqrt(sigma[0] * sigma[0] + 3 * sigma.tail<2>().squaredNorm());
+    von_mises[p] = von_mises_stress(sigma);
   }
 }
 

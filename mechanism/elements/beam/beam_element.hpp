@@ -34,6 +34,8 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "mechanism/elements/beam/beam_bowing.hpp"
 #include "mechanism/elements/beam/beam_inertia.hpp"
@@ -75,7 +77,9 @@ class BeamElement : public Component, public SlenderComponent {
   void write_output(const LocalState& state, double* values) const override;
   /// Describes length and mass of the beam, and its sections.
   void describe(const LocalState& state, Description& description) const override;
-  /// Names of the forces and moments in the middle: "element_3.force.x"; in a beam of one element also "force.x".
+  /// Names of the forces and moments in the middle, "element_3.force.x", and of the stresses at the stress points,
+  /// "element_3.von_mises.p1"; in a beam of one element also "force.x". The first element of several also has
+  /// "von_mises.max", of all.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
   /// Resultants in the middle, in section axes, as recorded: forces [N], moments [N m]; with their derivatives by
@@ -85,6 +89,11 @@ class BeamElement : public Component, public SlenderComponent {
     Eigen::Matrix<double, 6, 12> by_position, by_rate;
   };
   MiddleForces calc_middle_forces(const LocalState& state) const;
+  Vector6 middle_forces(const LocalState& state) const;  ///< their values alone
+  /// At each stress point: sigma_xx, tau_xy, tau_xz [Pa] (rows) due to unit resultants in the middle (columns).
+  const std::vector<Eigen::Matrix<double, 3, 6>>& unit_stresses() const { return section_.stress; }
+  /// Gives the first element the others of its beam. @param all  from start to end, this one included
+  void set_beam(std::vector<const BeamElement*> all) { beam_ = std::move(all); }
   StrainEnergies strain_energies(const LocalState& state, const Eigen::Ref<const VectorX>& du) const override;
   int softer_axis() const override;
   /// Stores psi; within the next step the relative rotation must not pass 180 degrees from this value. @throws
@@ -120,6 +129,7 @@ class BeamElement : public Component, public SlenderComponent {
   void add_stiffness(const Deformation& D, Eigen::Ref<MatrixX> K) const;
 
   BeamPlace place_;
+  std::vector<const BeamElement*> beam_;  ///< set for the first element of several
   int node_a_, node_b_;
   Matrix3 R_A_, R_B_;
   Vector6 d0_;

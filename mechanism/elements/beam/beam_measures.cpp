@@ -1,9 +1,12 @@
-// Forces and moments in the middle of a beam element, as measures.
+// Forces, moments and stresses in the middle of a beam element, as measures.
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "mechanism/elements/beam/beam_deformation.hpp"
+#include "mechanism/elements/beam/beam_stress.hpp"
 #include "mechanism/measures/own_measure.hpp"
 
 namespace bielle::mechanism {
@@ -69,17 +72,22 @@ BeamElement::MiddleForces BeamElement::calc_middle_forces(const LocalState& stat
 }
 
 std::vector<std::string> BeamElement::measure_names() const {
+  std::vector<std::string> in_element(std::begin(resultant_names), std::end(resultant_names));
+  for (std::string& each : beam_stress_names(unit_stresses().size())) in_element.push_back(std::move(each));
   std::vector<std::string> names;
-  for (const char* each : resultant_names) {
-    names.push_back(fmt::format("element_{}.{}", place_.element, each));
-    if (place_.elements == 1) names.emplace_back(each);
-  }
+  for (const std::string& each : in_element) names.push_back(fmt::format("element_{}.{}", place_.element, each));
+  if (place_.elements == 1) names.insert(names.end(), in_element.begin(), in_element.end());
+  if (!beam_.empty() && !unit_stresses().empty()) names.emplace_back(largest_beam_stress);
   return names;
 }
 
 std::unique_ptr<Measure> BeamElement::make_measure(const std::string& name, const std::string& measure) const {
+  if (!beam_.empty() && measure == largest_beam_stress) return make_largest_stress(name, beam_);
+  const std::string prefix = fmt::format("element_{}.", place_.element);
+  const std::string in_element = measure.starts_with(prefix) ? measure.substr(prefix.size()) : measure;
   for (int k = 0; k < 6; ++k)
-    if (measure.ends_with(resultant_names[k])) return std::make_unique<SectionForceMeasure>(name, *this, k);
+    if (in_element == resultant_names[k]) return std::make_unique<SectionForceMeasure>(name, *this, k);
+  if (auto stress = make_beam_stress(name, *this, in_element)) return stress;
   return Component::make_measure(name, measure);
 }
 

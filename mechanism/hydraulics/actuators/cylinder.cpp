@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -316,9 +317,12 @@ std::unique_ptr<Measure> Cylinder::make_measure(const std::string& name, const s
 }
 
 void Cylinder::draw(Drawing& drawing) const {
+  double area = 0;
+  for (const Chamber& chamber : chambers_) area = std::max(area, chamber.space.largest_area());
   drawing.add_between("jack", {geometry_.node_a, {geometry_.at_a, Matrix3::Identity()}},
                       {geometry_.node_b, {geometry_.at_b, Matrix3::Identity()}},
-                      {{"stroke", std::vector<double>{geometry_.shortest, geometry_.longest}}});
+                      {{"stroke", std::vector<double>{geometry_.shortest, geometry_.longest}},
+                       {"radius", std::sqrt(area / std::numbers::pi)}});
 }
 
 }  // namespace bielle::mechanism

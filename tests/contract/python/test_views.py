@@ -1,5 +1,7 @@
 """The page of bielle-view out of Python: run.show() and bielle.view."""
 
+import html
+import importlib.util
 import os
 import unittest
 
@@ -23,6 +25,15 @@ class Views(InFolder):
         self.assertEqual(cell.count("<"), 2)  # the page is an attribute, and ends nowhere before its end
         with open(shown.save(self.path("machine.html")), encoding="utf-8") as file:
             self.assertEqual(file.read(), shown.page)
+
+    @unittest.skipUnless(importlib.util.find_spec("IPython"), "IPython is not installed (Debian package python3-ipython)")
+    def test_a_notebook_takes_the_page_of_a_cell(self):
+        from IPython.core.formatters import DisplayFormatter
+        shown = bielle.run(bielle.read(PENDULUM), self.path("run.h5")).show()
+        data, _ = DisplayFormatter().format(shown)
+        self.assertEqual(data["text/html"], shown._repr_html_())
+        self.assertEqual(data["text/plain"], repr(shown))
+        self.assertEqual(html.unescape(data["text/html"].partition('srcdoc="')[2].rpartition('" style=')[0]), shown.page)
 
     def test_files_are_shown_over_each_other(self):
         paths = [self.path(name) for name in ("a.h5", "b.h5")]

@@ -112,6 +112,24 @@ class OfSynthetic(InFolder):
                 self.read(text)
             self.assertIn("has no component", str(caught.exception))
 
+    def test_beams_have_the_names_of_formulas_too(self):
+        stress, resultants = np.arange(len(self.time) * 4 * 2 * 3).reshape(len(self.time), 4, 2, 3), self.data["elements/shaft/resultants"]
+        with h5py.File(self.path("run.h5"), "r+") as file:
+            synthetic.put(file, "elements/shaft/stress", stress, "Pa")
+            synthetic.put(file, "elements/pin.a/resultants", resultants[:, :1], "N, N m")
+        von_mises = self.data["elements/shaft/von_mises"]
+        for text, values, unit in (("shaft.element_3.von_mises.p2", von_mises[:, 2, 1], "Pa"), ("'shaft'.element_3.von_mises.max", von_mises[:, 2].max(axis=1), "Pa"),
+                                   ("shaft.element_4.stress.p1.xz", stress[:, 3, 0, 2], "Pa"), ("shaft.element_2.force.y", resultants[:, 1, 1], "N"),
+                                   ("shaft.element_2.moment.y", resultants[:, 1, 4], "N m"), ("shaft.element_1.moment", np.linalg.norm(resultants[:, 0, 3:], axis=1), "N m"),
+                                   ("elements/shaft/element_1/force", np.linalg.norm(resultants[:, 0, :3], axis=1), "N"),
+                                   ("pin.a.force.x", resultants[:, 0, 0], "N"), ("'pin.a'.element_1.moment.z", resultants[:, 0, 5], "N m")):
+            with self.subTest(text=text):
+                self.expect(text, values, unit)
+        self.assertEqual(self.read("shaft.element_3.von_mises.p2").labels, ["shaft.element_3.von_mises.p2"])
+        for text in ("shaft.element_5.force.x", "shaft.element_0.force.x", "shaft.element_1.force.q", "shaft.force.x", "main.element_1.force.x", "pin.a.von_mises.max"):
+            with self.subTest(text=text), self.assertRaises(InputError):
+                self.read(text)
+
     def test_rotations_count_turns_and_stress_follows_from_the_body(self):
         np.testing.assert_allclose(self.read("hub.bryant.c").one, synthetic.OMEGA * self.time, atol=1e-12)
         np.testing.assert_allclose(self.read("hub.rotation_vector.norm").one, synthetic.OMEGA * self.time, atol=1e-7)

@@ -222,6 +222,11 @@ class Command(InFolder):
         write_signals(self.path("static.h5"), self.time, "static", s=(self.signal, "N"))
         self.refuse(("static.h5", "--quantity", "s", "--spectrum"), "is over the load factor")
 
+    def test_a_figure_without_a_curve_says_so(self):
+        write_signals(self.path("nan.h5"), self.time, s=(np.full(len(self.time), np.nan), "N"))
+        self.assertIn("note: s: there is nothing to draw: it has no value that is a number\n", self.succeed("nan.h5", "--quantity", "s").stderr)
+        self.assertEqual(self.succeed("a.h5", "--quantity", "s").stderr, "")
+
     def test_a_constant_has_no_spectrum_but_a_figure(self):
         self.assertIn("flat does not change: its spectrum is zero", self.succeed("a.h5", "--quantity", "flat", "--spectrum").stderr)
 

@@ -135,6 +135,31 @@ class Released(Entries):
             self.assertTrue(self.shown(scene, "joints/rope").all(), crossing)
 
 
+class Racks(Entries):
+    def test_a_rack_lies_on_the_pitch_circle_of_its_pinion_and_slides(self):
+        """The pinion of 50 mm turns about z at (0.6, 0, 0), the rack slides along x on the side of y."""
+        self.write("model.yaml", MODEL)
+        done = subprocess.run([PROGRAM, "model.yaml", "--quiet"], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        scene = self.scene(self.path("model.h5"), 1)
+        *_, bar = [part for part in scene.parts if part.entry == "joints/rack"]
+        self.assertEqual(len([part for part in scene.parts if part.entry == "joints/rack"]), 3)  # the wheel, its mark, and the bar
+        points = placed(scene.poses(bar, scene.rows)[:, bar.mesh.bones], bar.mesh.points)
+        low, high = points.min(axis=1), points.max(axis=1)
+        np.testing.assert_allclose([low[0], high[0]], [[0.5, 0.05 * 0.9375, -0.0075], [0.7, 0.05 * 1.3, 0.0075]], atol=1e-12)
+        x = scene.results.rows("nodes/s/position")[:, 0]
+        self.assertGreater(np.ptp(x), 0.005)
+        np.testing.assert_allclose(low[:, 0] - low[0, 0], x - x[0], atol=1e-12)
+
+    def test_a_rack_along_its_pinion_is_left_out(self):
+        def extra(file):
+            file["input"] = "joints: {rack: {type: rack_and_pinion, joints: [j, s], radius: 1}}"
+        items = [{"entry": "joints/rack", "type": "rack_and_pinion", "shape": "gear", "node": "n", "radius": 1}]
+        items += [{"entry": f"joints/{name}", "type": kind, "shape": "joint", "frames": [{"node": "ground"}, {"node": "n"}]} for name, kind in (("j", "hinge"), ("s", "prismatic"))]
+        scene = self.scene(self.written({"n": resting(3)}, items, extra=extra))
+        self.assertEqual(scene.notes, [("joints/rack", "the rack would slide along the axis of its pinion")])
+
+
 class Marks(Entries):
     """A hinge, whose frames meet while it acts alone, has no gap after its release."""
     DROPPED = """mechanism: dropped

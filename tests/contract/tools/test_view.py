@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 import unittest
+import urllib.request
 import zlib
 from types import SimpleNamespace
 
@@ -576,6 +577,30 @@ class Live(Pages, InFolder):
         connection.request("GET", "/state", headers={"Host": "elsewhere.example"})
         self.assertEqual(connection.getresponse().status, 403)
         connection.close()
+
+    def test_a_replaced_file_keeps_the_page_and_is_named_once(self):
+        path = self.path("run.h5")
+        write_results(path, {"n": resting(5)}, [{"entry": "nodes/n", "type": "node", "shape": "node", "node": "n"}])
+        server = subprocess.Popen([sys.executable, TOOL, path, "--live"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(server.stdout.close)
+        self.addCleanup(server.stderr.close)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        address = server.stdout.readline().split()[0].rstrip("/")
+
+        def asked(place):
+            with urllib.request.urlopen(address + place, timeout=60) as answer:
+                return answer.read()
+        page, token = asked("/"), asked("/state")
+        for text in ("no results", "no results either"):
+            self.write("other", text)
+            os.replace(self.path("other"), path)
+            self.assertEqual((asked("/state"), asked("/")), (token, page))
+        os.remove(path)
+        self.assertEqual((asked("/state"), asked("/")), (token, page))
+        server.terminate()
+        said = server.stderr.read().splitlines()
+        self.assertEqual(said, [f"note: '{path}' does not hold results of bielle-mechanism: it is no HDF5 file but text", f"note: '{path}' does not exist"])
 
 
 if __name__ == "__main__":

@@ -93,8 +93,8 @@ def stacked(pictures):
 
 
 def side_by_side(pictures, columns):
-    """Pictures of one size in lines of `columns`, or of fewer if there are no more."""
-    columns = min(columns, len(pictures))
+    """Pictures of one size in lines of `columns`, or of fewer if there are no more; four in a square."""
+    columns = 2 if len(pictures) == 4 else min(columns, len(pictures))
     width, height = pictures[0].size
     whole = Image.new("RGB", (width * columns, height * -(-len(pictures) // columns)), "white")
     for k, each in enumerate(pictures):

@@ -40,6 +40,8 @@ def curves(runs, names, select, against=None):
             for label, unit, values in zip(quantity.labels, quantity.units, quantity.values.T):
                 text = (run.label or label) if alone else f"{label}, {run.label}" if run.label else label
                 found.append(Curve(text, label, unit, axis, x, values))
+                if not np.isfinite(values).any():
+                    note(f"{text}: there is nothing to draw: it has no value that is a number")
     return found
 
 

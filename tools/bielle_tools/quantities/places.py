@@ -19,6 +19,7 @@ from .bodies import MADE, has_body
 
 NO_QUANTITIES = (*WITHOUT_ROWS, "events", "peaks", "validity", "checkpoints", "input", "parameters", "equations",
                  "crossings", "study_said")
+OF_BEAM = re.compile(r"(.+?)(?:[./]element_([1-9]\d*))?[./](stress|von_mises|force|moment)((?:[.\[].*)?)")  # as in formulas
 FIRST = ("joints", "elements", "measures")  # sections that precede others in short names
 
 
@@ -65,8 +66,28 @@ class Places:
                 found = self._names().get(name)
                 if found:
                     return (*self._one(name, found), raw[end:])
+        as_recorded = self._of_beam(raw)
+        if as_recorded:
+            return self.find(as_recorded)
         written = raw.replace("'", "").strip().strip("/")
         raise InputError(f"'{self.results.path}' has no quantity '{text}'{self._nearest(written)}")
+
+    def _of_beam(self, text):
+        """@returns `boom.resultants[2].rx` for `boom.element_2.moment.x` of formulas; None if it is no quantity of a beam.
+        A beam of one element needs no number."""
+        found = OF_BEAM.fullmatch(text)
+        if not found:
+            return None
+        beam, element, field, rest = found.groups()
+        recorded = field if field in ("stress", "von_mises") else "resultants"
+        named = self._names().get(f"{beam}.{recorded}".replace("/", ".").replace("'", ""), [])
+        place = next((place for place, _ in named if place.startswith("elements/")), "")
+        shape = self.results.shape(place) if place in self.recorded else ()
+        if len(shape) < 2 or element is None and shape[1] != 1:
+            return None
+        if recorded == "resultants":
+            rest = re.sub(r"^\.(?=[xyz])", ".r" if field == "moment" else ".", rest) or f".{field}"
+        return f"{place}[{element or 1}]{rest}"
 
     def _one(self, name, found):
         """Picks one of several quantities that share a short name. @raises InputError if none precedes the others"""

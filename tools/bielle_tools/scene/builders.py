@@ -6,8 +6,9 @@ from ..results.quaternions import conjugate, from_z, rotated
 from . import symbols
 from . import templates as t
 from .beams import beam_mesh, beam_motion, beam_rest, beam_stress, turns_of
-from .couplings import coupling
+from .couplings import coupling, rack
 from .course import Course
+from .cuts import solid_mesh
 from .drawing import place_of, positive
 from .links import Ends, bar_mesh, rope_mesh
 from .parts import Part, on_bones
@@ -212,18 +213,20 @@ def _mesh(b, item):
     return [b.rigid(item, t.creased(points, triangles))]
 
 
+def _solid(b, item):
+    return [b.rigid(item, solid_mesh(item, b.drawing.cuts.get(item["entry"], [])))]
+
+
 def _ellipsoid(b, item):
     return [b.rigid(item, t.mesh(item["points"], item["triangles"]))]
 
 
 BUILDERS = {
-    "box": lambda b, item: [b.rigid(item, t.box(positive(*item["size"])))],
-    "cylinder": lambda b, item: [b.rigid(item, t.cylinder(*positive(item["radius"], item["length"]), 36))],
-    "tube": lambda b, item: [b.rigid(item, t.tube(*positive(item["radius"], item["inner_radius"], item["length"]), 36))],
+    "box": _solid, "cylinder": _solid, "tube": _solid,
     "cone": lambda b, item: [b.rigid(item, t.cone([float(r) for r in item["radii"]], *positive(item["length"]), 36))],
     "sphere": lambda b, item: [b.rigid(item, t.sphere(*positive(item["radius"]), 16, 32))],
     "mesh": _mesh, "ellipsoid": _ellipsoid, "gear": _gear, "pulley": _pulley, "tyre": _tyre, "cam": _cam, "plane": _plane, "curve": _curve,
-    "body": _body, "support": _support, "joint": _joint, "stiffness": _stiffness, "coupling": coupling, "beam": _beam, "superelement": _superelement, "course": _course,
+    "body": _body, "support": _support, "joint": _joint, "stiffness": _stiffness, "coupling": coupling, "rack": rack, "beam": _beam, "superelement": _superelement, "course": _course,
     "node": lambda b, item: [b.rigid(item, t.sphere(0.28 * b.symbol, b.around // 4, b.around // 2), "node", COLOURS["node"])],
     "bar": lambda b, item: [b.link(item, bar_mesh(float(item.get("radius", 0.3 * b.symbol))), COLOURS["bar"], "body")],
     "rope": lambda b, item: [b.link(item, rope_mesh(0.16 * b.symbol), COLOURS["rope"], "rope")],

@@ -1,4 +1,4 @@
-"""Couplings of joints without a shape of their own: gears by a ratio, differentials, racks, cams by a lift.
+"""Couplings of joints without a shape of their own: gears by a ratio, differentials, cams by a lift; and the racks of pinions.
 
 Each coupled coordinate has a small toothed wheel on the axis of its joint, or a toothed bar if it is a displacement; lines between them
 show which belong together.
@@ -8,8 +8,9 @@ import numpy as np
 
 from ..messages import InputError
 from ..results.model_text import entries_of
+from ..results.quaternions import conjugate, rotated
 from . import templates as t
-from .drawing import place_of
+from .drawing import place_of, positive
 from .links import rope_mesh
 from .parts import Part, on_bones
 from .style import COLOURS
@@ -39,6 +40,19 @@ def coupling_items(results, items):
             item["level"].append(levels.get(name, 0))
             levels[name] = levels.get(name, 0) + 1
         found += [item] if item["frames"] else []
+    return found + _rack_items(results, items, joints)
+
+
+def _rack_items(results, items, joints):
+    """Items of the shape `rack` for pinions that are drawn by their radius: `slide`, the frame of the joint that slides, and the gear."""
+    found = []
+    for gear in items:
+        if gear["shape"] == "gear" and gear["type"] == "rack_and_pinion" and hasattr(results, "root"):
+            given = entries_of(results).get(gear["entry"], {}).get("joints")
+            named = [_named(each, joints) for each in (given if isinstance(given, list) else [])]
+            slides = [name for name, coordinate in named if name and (coordinate == "displacement" or not coordinate and joints[name]["type"] in SLIDING)]
+            if slides and len(joints[slides[0]].get("frames", ())) == 2:
+                found.append({**gear, "shape": "rack", "slide": joints[slides[0]]["frames"][1]})
     return found
 
 
@@ -67,6 +81,24 @@ def coupling(b, item):
     if not parts:
         raise InputError("none of its joints is drawn")
     return parts
+
+
+def rack(b, item):
+    """The toothed bar of a pinion, for the table BUILDERS: along the axis of the joint that slides, on the side of the pinion where that is."""
+    pinion, slide = place_of(item), place_of(item["slide"])
+    radius, = positive(item["radius"])
+    (centre, q), (start, r) = ((pose[:3], pose[3:7]) for pose in (b.motion.poses(place, np.array([0]))[0] for place in (pinion, slide)))
+    axis, along = (rotated(turn, np.array([0.0, 0, 1])) for turn in (q, r))
+    outward = np.cross(along, axis)
+    if not np.linalg.norm(outward) > 0.1:
+        raise InputError("the rack would slide along the axis of its pinion")
+    outward *= np.copysign(1 / np.linalg.norm(outward), (start - centre) @ outward if abs((start - centre) @ outward) > 1e-9 * radius else 1)
+    height, width, pitch = 0.25 * radius, 0.3 * radius, 0.18 * radius
+    bar = t.moved(t.box([height, width, 4 * radius]), (0.7 * height, 0, 0))
+    teeth = [t.moved(t.box([0.5 * height, width, 0.5 * pitch]), (0, 0, k * pitch)) for k in range(-10, 11)]
+    mesh = t.moved(t.merged([bar, *teeth]), centre + radius * outward - start, np.column_stack([outward, np.cross(along, outward), along]))
+    back = conjugate(r)
+    return [b.rigid(item, t.mesh(rotated(back, mesh.points), mesh.triangles), "joint", COLOURS["coupling"], slide)]
 
 
 def _wheel():

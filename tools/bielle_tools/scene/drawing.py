@@ -17,7 +17,8 @@ LARGEST_NUMBER = 1e30
 
 
 class Drawing:
-    """items: dicts as in the file, each with `entry`, `type` and `shape`; gravity (3) or None; meshes {name: (points, triangles)}."""
+    """items: dicts as in the file, each with `entry`, `type` and `shape`; cuts {entry: items that are removed from its others}; gravity (3) or
+    None; meshes {name: (points, triangles)}."""
 
     def __init__(self, results):
         self.file = _file_of(results)
@@ -27,7 +28,11 @@ class Drawing:
             self._parse(text)
         if not self.from_file:
             self.items = _items_of(results)
-        self.items = [item for item in self.items if self._usable(item)]
+        usable, self.cuts = [item for item in self.items if self._usable(item)], {}
+        for item in usable:
+            if item.get("role") == "cut":
+                self.cuts.setdefault(item["entry"], []).append(item)
+        self.items = [item for item in usable if item.get("role") != "cut"]
 
     def _parse(self, text):
         try:

@@ -21,7 +21,13 @@ def serve(paths, port, page):
     built within some tries: a file is unreadable at moments while a run writes it"""
     def build(token):
         with copies(paths) as copied:
-            return page(copied, token)
+            try:
+                return page(copied, token)
+            except InputError as error:
+                said = str(error)
+                for copy, path in zip(copied, paths):
+                    said = said.replace(copy, path)  # users know the file, not its copy
+                raise InputError(said) from None
     handler = _handler(paths, build)
     try:
         server = _Server(("127.0.0.1", port), handler)

@@ -34,14 +34,18 @@ TEST_CASE("a solid is drawn where it is") {
   CHECK_FALSE(drawn.has("elements/it", "body"));
 }
 
-TEST_CASE("all forms of solids are drawn, and those that are cut out are not") {
+TEST_CASE("all forms of solids are drawn, and those that are cut out have this role") {
   const DrawnModel drawn(
       node_a +
       "elements: {it: {type: rigid_body, node: a, solid: [{box: [1, 2, 3], density: 1}, "
       "{cylinder: [0.1, 3], density: 1, cut: true}, {tube: [0.4, 0.3, 2], density: 1}, "
       "{cone: [0.2, 0, 1], density: 1}, {sphere: 0.5, density: 1}, {ring: [1, 0.25], density: 1}]}}\n");
   CHECK(list_of(drawn.one("elements/it", "box"), "size") == std::vector<double>{1, 2, 3});
-  CHECK_FALSE(drawn.has("elements/it", "cylinder"));
+  CHECK(drawn.one("elements/it", "box").role.empty());
+  const DrawnItem& cut = drawn.one("elements/it", "cylinder");
+  CHECK(cut.role == "cut");
+  CHECK(number_of(cut, "radius") == 0.1);
+  CHECK(number_of(cut, "length") == 3);
   const DrawnItem& tube = drawn.one("elements/it", "tube");
   CHECK(number_of(tube, "radius") == 0.4);
   CHECK(number_of(tube, "inner_radius") == 0.3);
