@@ -164,14 +164,21 @@ template PairMeasure measure_alignment(const NodeState&, const NodeState&, const
 template PairSlope measure_angle(const NodeState&, const NodeState&, const Matrix3&, const Matrix3&);
 template PairMeasure measure_angle(const NodeState&, const NodeState&, const Matrix3&, const Matrix3&);
 
-PairMeasure exchanged(const PairMeasure& measure) {
-  PairMeasure result;
-  result.value = measure.value;
-  result.gradient << measure.gradient.tail<6>(), measure.gradient.head<6>();
-  result.second << measure.second.bottomRightCorner<6, 6>(), measure.second.bottomLeftCorner<6, 6>(),
-      measure.second.topRightCorner<6, 6>(), measure.second.topLeftCorner<6, 6>();
+template <int order>
+PairMeasureOf<order> exchanged(const PairMeasureOf<order>& measure) {
+  PairMeasureOf<order> result(measure.value);
+  const auto& g = measure.gradient;
+  result.gradient << g.template tail<6>(), g.template head<6>();
+  if constexpr (order == 2) {
+    const auto& S = measure.second;
+    result.second << S.template bottomRightCorner<6, 6>(), S.template bottomLeftCorner<6, 6>(),
+        S.template topRightCorner<6, 6>(), S.template topLeftCorner<6, 6>();
+  }
   return result;
 }
+
+template PairSlope exchanged<1>(const PairSlope&);
+template PairMeasure exchanged<2>(const PairMeasure&);
 
 PairMeasureRate measure_position_rate(const NodeState& first, const NodeState& second, const Vector3& e_hat,
                                       const Vector3& c_1, const Vector3& c_2) {

@@ -118,7 +118,8 @@ template <int order = 2>
 PairMeasureOf<order> measure_angle(const NodeState& first, const NodeState& second, const Matrix3& A, const Matrix3& B);
 
 /// Converts a measure of nodes (second, first) to one of (first, second).
-PairMeasure exchanged(const PairMeasure& measure);
+template <int order>
+PairMeasureOf<order> exchanged(const PairMeasureOf<order>& measure);
 
 /// A measure with its rate only: for quantities that are recorded and stored at every step.
 struct PairMeasureRate {

@@ -37,9 +37,9 @@ void RopeFriction::declare(Declaration& declaration) const {
   declaration.event_functions = {slips, sticks};
 }
 
-const RopeFriction::Sides& RopeFriction::calc_sides(const LocalState& state) const {
+const RopeFriction::Sides& RopeFriction::calc_sides(const LocalState& state, int order) const {
   thread_local Sides sides;
-  for (const int side : {0, 1}) section(side).calc_stretch(state.of(side), sides.stretch[side]);
+  for (const int side : {0, 1}) section(side).calc_stretch(state.of(side), sides.stretch[side], order);
   sides.wrap = std::max(0.0, wrap_.value(sides.stretch[0], sides.stretch[1]));
   sides.reduction = std::exp(-coefficient_ * sides.wrap);
   return sides;
@@ -154,7 +154,7 @@ void RopeFriction::add_other_tangent(const LocalState& state, LocalTangent& tang
 
 void RopeFriction::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !(tangent.wants_C && damped())) return;
-  const Sides& sides = calc_sides(state);
+  const Sides& sides = calc_sides(state, 2);
   if (tangent.wants_K && damped()) add_other_tangent(state, tangent);
   const int row = change_row(state), towards = slips_towards(state, sides);
   if (towards < 0) {
@@ -219,7 +219,7 @@ double RopeFriction::calc_slip_rate(const LocalState& state, MeasureGradient& gr
 }
 
 double RopeFriction::calc_friction(const LocalState& state, MeasureGradient& gradient) const {
-  const Sides& sides = calc_sides(state);
+  const Sides& sides = calc_sides(state, 2);
   for (const int side : {0, 1})
     if (sides.stretch[side].taut) add_pull(state, sides, side, side == 1 ? 1 : -1, gradient);
   return sides.stretch[1].tension - sides.stretch[0].tension;

@@ -94,7 +94,8 @@ class RopeFriction final : public Component, public StickingPart {
   double rate_factor() const { return after_.material().damping * stiffness_; }
   bool damped() const { return after_.material().damping > 0; }
   const RopeSection& section(int side) const { return side == 0 ? before_ : after_; }
-  const Sides& calc_sides(const LocalState& state) const;
+  /// @param order  2 with second derivatives, which `add_pull` needs
+  const Sides& calc_sides(const LocalState& state, int order = 1) const;
   /// The tension that draws the rope towards a side, less that which friction can hold there [N].
   static double excess(const Sides& sides, int towards);
   /// The side to which the rope slips in this step, by the median: 0 or 1; -1: it sticks.

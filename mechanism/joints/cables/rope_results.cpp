@@ -67,7 +67,7 @@ class TensionMeasure final : public Measure {
     gradient.prepare(state.slots().size());
     thread_local RopeSection::Stretch s;
     const LocalState of_rope = state.of(0);
-    rope_.calc_stretch(of_rope, s);
+    rope_.calc_stretch(of_rope, s, 2);
     if (!s.taut) return s.tension;
     thread_local MeasureGradient pull;
     rope_.calc_pull_gradient(of_rope, s, pull);

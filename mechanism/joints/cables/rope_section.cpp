@@ -33,7 +33,7 @@ RopeSection::RopeSection(std::string type, std::string name, RopePath path, cons
   courses_.get_course(drawn_places_, course);
   for (std::size_t s = 0; s + 1 < course.places.size(); ++s) {
     const auto i = static_cast<std::size_t>(course.places[s]), j = static_cast<std::size_t>(course.places[s + 1]);
-    const SpanMeasures span = measure_span(nodes[i], nodes[j], course.pulleys[s], course.pulleys[s + 1]);
+    const SpanMeasures<1> span = measure_span<1>(nodes[i], nodes[j], course.pulleys[s], course.pulleys[s + 1]);
     drawn_length_ += span.length.value;
     if (s == 0) drawn_ends_[first_end] = span.first_turn.value;
     if (s > 0) drawn_length_ += std::abs(course.pulleys[s].radius) * drawn_places_[i].wrap;
@@ -97,9 +97,9 @@ void RopeSection::remember_places(const std::vector<RopePlace>& places, Eigen::R
 
 // -- the section as a whole
 
-void RopeSection::calc_stretch(const LocalState& state, Stretch& stretch) const {
+void RopeSection::calc_stretch(const LocalState& state, Stretch& stretch, int order) const {
   get_places(state, stretch.places);
-  calc_along(state, stretch);
+  calc_along(state, stretch, order);
 }
 
 /// @param act  takes the end, the state of its slip, and the elongation per slip: -1 or 1
@@ -117,19 +117,21 @@ bool RopeSection::is_stretched(const LocalState& state, double E) const {
 }
 
 /// @param stretch  contains the states of the places
-void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
+void RopeSection::calc_along(const LocalState& state, Stretch& stretch, int order) const {
   thread_local RopeCourse course;
   courses_.get_course(stretch.places, course);
   const auto n = static_cast<Eigen::Index>(6 * path_.nodes.size());
   stretch.E_gradient.setZero(n);
   stretch.L_gradient.setZero(n);
-  stretch.E_second.setZero(n, n);
+  if (order == 2) stretch.E_second.setZero(n, n);
   for (VectorX& gradient : stretch.end_gradients) gradient.setZero(n);
   stretch.wrap_rates.assign(stretch.places.size(), 0.0);
   stretch.E = E_drawn_ - drawn_length_;
   stretch.L = stretch.E_rate = 0;
   CoordinateRate arriving;
-  for (std::size_t s = 0; s + 1 < course.places.size(); ++s) arriving = add_span(state, course, s, arriving, stretch);
+  for (std::size_t s = 0; s + 1 < course.places.size(); ++s)
+    arriving = order == 2 ? add_span<2>(state, course, s, arriving, stretch)
+                          : add_span<1>(state, course, s, arriving, stretch);
   stretch.E += stretch.L;
   for_each_slip(state, [&](End, const LocalState& slip, double sign) {
     stretch.E += sign * RopeSlip::slip(slip);
@@ -152,6 +154,7 @@ void RopeSection::calc_along(const LocalState& state, Stretch& stretch) const {
 /// Adds a span and the wrap on the place at which it begins.
 /// @param arriving  direction of the previous span at that place, with its rate
 /// @returns the direction at the place at which the span ends
+template <int order>
 CoordinateRate RopeSection::add_span(const LocalState& state, const RopeCourse& course, std::size_t s,
                                      const CoordinateRate& arriving, Stretch& stretch) const {
   const int i = course.places[s], j = course.places[s + 1];
@@ -159,18 +162,19 @@ CoordinateRate RopeSection::add_span(const LocalState& state, const RopeCourse& 
   const Pulley &from = course.pulleys[s], &to = course.pulleys[s + 1];
   const bool begins = s == 0, ends = s + 2 == course.places.size();
   check_way(state, i, j, std::abs(from.radius - to.radius));
-  const SpanMeasures span = measure_span(first, second, from, to);
+  const SpanMeasures<order> span = measure_span<order>(first, second, from, to);
   const Vector12 v = pair_rate(first, second);
-  const PairMeasure e = span.length + from.radius * span.first_turn - to.radius * span.second_turn;
+  const PairMeasureOf<order> e = span.length + from.radius * span.first_turn - to.radius * span.second_turn;
   stretch.E_rate += e.rate(v);
   Vector12 L_gradient = span.length.gradient;
   if (!begins) L_gradient += from.radius * span.first_turn.gradient;
   if (!ends) L_gradient -= to.radius * span.second_turn.gradient;
   for (const auto& [place, at] : {std::pair(i, 0), std::pair(j, 6)}) {
-    stretch.E_gradient.segment<6>(6 * place) += e.gradient.segment<6>(at);
+    stretch.E_gradient.segment<6>(6 * place) += e.gradient.template segment<6>(at);
     stretch.L_gradient.segment<6>(6 * place) += L_gradient.segment<6>(at);
-    for (const auto& [other, by] : {std::pair(i, 0), std::pair(j, 6)})
-      stretch.E_second.block<6, 6>(6 * place, 6 * other) += e.second.block<6, 6>(at, by);
+    if constexpr (order == 2)
+      for (const auto& [other, by] : {std::pair(i, 0), std::pair(j, 6)})
+        stretch.E_second.block<6, 6>(6 * place, 6 * other) += e.second.template block<6, 6>(at, by);
   }
   stretch.L += span.length.value;
   const CoordinateRate leaving{span.first_turn.value, span.first_turn.rate(v)};
@@ -258,7 +262,7 @@ void RopeSection::add_natural_gradient(const LocalState& state, const Stretch& s
 void RopeSection::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
   thread_local Stretch s;
-  calc_stretch(state, s);
+  calc_stretch(state, s, 2);
   if (!s.taut) return;
   thread_local MeasureGradient pull;
   calc_pull_gradient(state, s, pull);

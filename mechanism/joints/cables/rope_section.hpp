@@ -78,7 +78,7 @@ class RopeSection final : public Component {
     double strain_energy = 0;  ///< w = EA (E/(L - E))^2/2 while E > 0 [J/m]
     double pull = 0;           ///< EA (E + tau Edot)/(L - E): the tension of a section that could push as well [N]
     VectorX E_gradient, L_gradient;
-    MatrixX E_second;
+    MatrixX E_second;                    ///< of order 2 alone
     bool stretched = false;              ///< whether E > 0 on the present branch
     bool taut = false;                   ///< and under tension
     std::array<CoordinateRate, 2> ends;  ///< alpha + gamma there, relative to the initial value [rad]
@@ -86,8 +86,10 @@ class RopeSection final : public Component {
     std::vector<RopePlace> places;
     std::vector<double> wrap_rates;  ///< for each place [rad/s]
   };
-  void calc_stretch(const LocalState& state, Stretch& stretch) const;
-  /// Computes the derivatives of `pull` over the whole local layout. @param gradient  resized by this function
+  /// @param order  2 with second derivatives, which `calc_pull_gradient` needs
+  void calc_stretch(const LocalState& state, Stretch& stretch, int order = 1) const;
+  /// Computes the derivatives of `pull` over the whole local layout. @param stretch  of order 2  @param gradient
+  /// resized by this function
   void calc_pull_gradient(const LocalState& state, const Stretch& stretch, MeasureGradient& gradient) const;
   /// Adds the derivatives of `natural` over the whole local layout.
   void add_natural_gradient(const LocalState& state, const Stretch& stretch, double factor,
@@ -113,10 +115,11 @@ class RopeSection final : public Component {
   void get_poses(const LocalState& state, std::vector<Frame>& at) const;
   void get_places(const LocalState& state, std::vector<RopePlace>& places) const;
   void remember_places(const std::vector<RopePlace>& places, Eigen::Ref<VectorX> memory) const;
-  void calc_along(const LocalState& state, Stretch& stretch) const;
+  void calc_along(const LocalState& state, Stretch& stretch, int order = 1) const;
   bool is_stretched(const LocalState& state, double E) const;
   template <class Act>
   void for_each_slip(const LocalState& state, const Act& act) const;
+  template <int order>
   CoordinateRate add_span(const LocalState& state, const RopeCourse& course, std::size_t s,
                           const CoordinateRate& arriving, Stretch& stretch) const;
   double count_wrap(const LocalState& state, int place, double radius, const CoordinateRate& leaving,

@@ -23,11 +23,14 @@ struct Pulley {
 };
 
 /// A span at a state, along the increments of its two nodes.
+template <int order>
 struct SpanMeasures {
-  PairMeasure length;                   ///< l [m]
-  PairMeasure first_turn, second_turn;  ///< alpha_i + gamma, alpha_j + gamma; alpha in (-pi, pi] [rad]
+  PairMeasureOf<order> length;                   ///< l [m]
+  PairMeasureOf<order> first_turn, second_turn;  ///< alpha_i + gamma, alpha_j + gamma; alpha in (-pi, pi] [rad]
 };
 
-SpanMeasures measure_span(const NodeState& first, const NodeState& second, const Pulley& from, const Pulley& to);
+/// Exists for orders 1 and 2.
+template <int order>
+SpanMeasures<order> measure_span(const NodeState& first, const NodeState& second, const Pulley& from, const Pulley& to);
 
 }  // namespace bielle::mechanism

@@ -26,9 +26,10 @@ void TyreForce::declare(Declaration& declaration) const {
   declaration.reads_reactions = declaration.kinks = law_.friction.has_value();
 }
 
-TyreForce::Force TyreForce::calc(const LocalState& of_wheel) const {
-  Force force;
-  force.slip = wheel_.calc_slip(of_wheel);
+template <int order>
+TyreForce::Force<order> TyreForce::calc(const LocalState& of_wheel) const {
+  Force<order> force;
+  force.slip = wheel_.calc_slip<order>(of_wheel);
   const Vector2 v(force.slip.longitudinal.value, force.slip.lateral.value), C(law_.longitudinal, law_.lateral);
   const double forward = force.slip.forward.value, V = std::hypot(forward, law_.speed);
   force.sigma = v / V;
@@ -61,7 +62,7 @@ TyreForce::Force TyreForce::calc(const LocalState& of_wheel) const {
 }
 
 void TyreForce::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
-  const Force force = calc(state.of(0));
+  const Force<1> force = calc<1>(state.of(0));
   r.segment<12>(state.slots().reference_row(0)) -=
       force.F[0] * force.slip.longitudinal.gradient + force.F[1] * force.slip.lateral.gradient;
 }
@@ -69,9 +70,9 @@ void TyreForce::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) con
 void TyreForce::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
   const LocalState of_wheel = state.of(0);
-  const Force force = calc(of_wheel);
+  const Force<2> force = calc<2>(of_wheel);
   const Vector12 v = pair_rate(of_wheel.node(0), of_wheel.node(1));
-  const WheelJoint::Slip& slip = force.slip;
+  const WheelJoint::Slip<2>& slip = force.slip;
   Eigen::Matrix<double, 2, 12> w, by_position;
   w << slip.longitudinal.gradient.transpose(), slip.lateral.gradient.transpose();
   by_position << (slip.longitudinal.second.transpose() * v).transpose(),
@@ -94,7 +95,7 @@ void TyreForce::add_tangent(const LocalState& state, LocalTangent& tangent) cons
 }
 
 void TyreForce::add_energy(const LocalState& state, Energy& energy) const {
-  const Force force = calc(state.of(0));
+  const Force<1> force = calc<1>(state.of(0));
   energy.dissipation -= force.F[0] * force.slip.longitudinal.value + force.F[1] * force.slip.lateral.value;
 }
 
@@ -104,7 +105,7 @@ std::vector<OutputField> TyreForce::output_fields() const {
 }
 
 void TyreForce::write_output(const LocalState& state, double* values) const {
-  const Force force = calc(state.of(0));
+  const Force<1> force = calc<1>(state.of(0));
   Eigen::Map<Eigen::Vector4d>(values) << force.sigma, force.F;
 }
 

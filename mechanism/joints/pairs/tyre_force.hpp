@@ -37,13 +37,15 @@ class TyreForce final : public Component {
  private:
   using Vector2 = Eigen::Vector2d;
   /// The force with its derivatives by v_x, v_y, V_x and N.
+  template <int order>
   struct Force {
-    WheelJoint::Slip slip;
+    WheelJoint::Slip<order> slip;
     Vector2 sigma, F;
     Eigen::Matrix2d by_v;
     Vector2 by_forward, by_N;
   };
-  Force calc(const LocalState& of_wheel) const;
+  template <int order>
+  Force<order> calc(const LocalState& of_wheel) const;
   const WheelJoint& wheel_;
   TyreLaw law_;
 };

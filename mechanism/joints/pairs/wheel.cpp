@@ -28,7 +28,7 @@ std::vector<MeasuredPair::Row> wheel_rows(bool rolls) {
 }  // namespace
 
 WheelJoint::WheelJoint(std::string name, JointFrames frames, double radius, bool rolls, const Model& model)
-    : MeasuredPair("wheel", std::move(name), std::move(frames),
+    : MeasuredRows("wheel", std::move(name), std::move(frames),
                    {{"x", JointCoordinate::Kind::displacement, 0}, {"y", JointCoordinate::Kind::displacement, 1}},
                    wheel_rows(rolls), model),
       radius_(radius) {}
@@ -42,32 +42,37 @@ void WheelJoint::calc_event_functions(const LocalState& state, Eigen::Ref<Vector
   values[0] = state.reaction()[0];
 }
 
-WheelJoint::Slip WheelJoint::calc_slip(const LocalState& state) const {
+template <int order>
+WheelJoint::Slip<order> WheelJoint::calc_slip(const LocalState& state) const {
   const NodeState &first = state.node(0), &second = state.node(1);
   const Frame &A = frames().on_first, &B = frames().on_second;
   // Components of z_B along J_A, and of z_A along J_B.
-  const PairMeasure b_x = alignment(0, 2, state), b_y = alignment(1, 2, state);
-  const PairMeasure n_x = alignment(2, 0, state), n_y = alignment(2, 1, state);
-  const PairMeasure s = sqrt(square(b_x) + square(b_y));
-  const PairMeasure zero;
-  const VectorJet t = turned(A.R, {b_y / s, -(b_x / s), zero}), l = turned(A.R, {b_x / s, b_y / s, zero});
-  VectorJet arm = turned(B.R, {-radius_ * (n_x / s), -radius_ * (n_y / s), zero});
+  const auto b_x = alignment<order>(0, 2, state), b_y = alignment<order>(1, 2, state);
+  const auto n_x = alignment<order>(2, 0, state), n_y = alignment<order>(2, 1, state);
+  const auto s = sqrt(square(b_x) + square(b_y));
+  const PairMeasureOf<order> zero;
+  const auto t = turned<order>(A.R, {b_y / s, -(b_x / s), zero}), l = turned<order>(A.R, {b_x / s, b_y / s, zero});
+  auto arm = turned<order>(B.R, {-radius_ * (n_x / s), -radius_ * (n_y / s), zero});
   for (std::size_t k = 0; k < 3; ++k) arm[k] += B.x[static_cast<Eigen::Index>(k)];
-  VectorJet middle;
+  PairVector<order> middle;
   for (std::size_t k = 0; k < 3; ++k) middle[k].value = B.x[static_cast<Eigen::Index>(k)];
-  return {material_velocity(first, second, t, arm), material_velocity(first, second, l, arm),
-          material_velocity(first, second, t, middle)};
+  return {material_velocity<order>(first, second, t, arm), material_velocity<order>(first, second, l, arm),
+          material_velocity<order>(first, second, t, middle)};
 }
 
-void WheelJoint::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  const PairMeasure squared = square(alignment(0, 2, state)) + square(alignment(1, 2, state));
+template WheelJoint::Slip<1> WheelJoint::calc_slip(const LocalState&) const;
+template WheelJoint::Slip<2> WheelJoint::calc_slip(const LocalState&) const;
+
+template <int order>
+void WheelJoint::rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const {
+  const auto squared = square(alignment<order>(0, 2, state)) + square(alignment<order>(1, 2, state));
   if (!(squared.value > flat_wheel * flat_wheel))
     throw ComputationError(fmt::format(
         "t = {:.6g} s: the wheel of joint '{}' lies flat on its plane, where it has no lowest point to roll on",
         state.time(), name()));
-  rows[0] = radius_ * sqrt(squared) - position(2, state);
+  rows[0] = radius_ * sqrt(squared) - position<order>(2, state);
   if (rows.size() == 1) return;
-  const Slip slip = calc_slip(state);
+  const Slip<order> slip = calc_slip<order>(state);
   rows[1] = slip.longitudinal;
   rows[2] = slip.lateral;
 }

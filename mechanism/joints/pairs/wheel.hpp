@@ -18,7 +18,7 @@
 
 namespace bielle::mechanism {
 
-class WheelJoint final : public MeasuredPair {
+class WheelJoint final : public MeasuredRows<WheelJoint> {
  public:
   /// @param rolls  with the two rows that prevent slip
   WheelJoint(std::string name, JointFrames frames, double radius, bool rolls, const Model& model);
@@ -28,14 +28,19 @@ class WheelJoint final : public MeasuredPair {
   void draw(Drawing& drawing) const override;
 
   /// Slip velocities as gradients w with their derivatives; the value is the velocity itself [m/s].
+  template <int order>
   struct Slip {
-    PairMeasure longitudinal, lateral;
-    PairMeasure forward;  ///< velocity of the hub along t
+    PairMeasureOf<order> longitudinal, lateral;
+    PairMeasureOf<order> forward;  ///< velocity of the hub along t
   };
-  Slip calc_slip(const LocalState& state) const;
+  /// Exists for orders 1 and 2.
+  template <int order>
+  Slip<order> calc_slip(const LocalState& state) const;
 
  private:
-  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  friend MeasuredRows;
+  template <int order>
+  void rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const;
   double radius_;
 };
 

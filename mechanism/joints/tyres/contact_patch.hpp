@@ -21,18 +21,21 @@
 namespace bielle::mechanism {
 
 /// Velocities are gradients w with their derivatives dw; their values are not used (PairMeasure::rate gives them).
+template <int order>
 struct ContactPatch {
-  PairMeasure deflection, camber;
-  PairMeasure longitudinal, lateral, roll, spin;
+  PairMeasureOf<order> deflection, camber;
+  PairMeasureOf<order> longitudinal, lateral, roll, spin;
   double forward = 0;  ///< forward velocity of the middle [m/s]
 };
 
 /// Deflection of the tyre [m], negative above the road. @param road  nullptr: a plane
-PairMeasure calc_deflection(const NodeState& first, const NodeState& second, const JointFrames& frames, double radius,
-                            const RoadProfile* road);
+PairSlope calc_deflection(const NodeState& first, const NodeState& second, const JointFrames& frames, double radius,
+                          const RoadProfile* road);
 
+/// Exists for orders 1 and 2.
 /// @throws ComputationError if the wheel lies flat on the road: a clause
-ContactPatch calc_patch(const NodeState& first, const NodeState& second, const JointFrames& frames, double radius,
-                        const RoadProfile* road);
+template <int order>
+ContactPatch<order> calc_patch(const NodeState& first, const NodeState& second, const JointFrames& frames,
+                               double radius, const RoadProfile* road);
 
 }  // namespace bielle::mechanism

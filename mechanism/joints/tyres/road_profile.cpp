@@ -62,20 +62,25 @@ double RoadProfile::nearest(double x, double z, double reach) const {
 // With G(s, x, z) = (x - s) + (z - f(s)) f'(s) = 0 and D = -dG/ds, the derivatives of s(x, z) are
 //     s_x = 1/D,   s_z = f'/D,   s_xx = G_ss s_x^2/D,   s_xz = (G_ss s_x s_z + f'' s_x)/D,
 //     s_zz = (G_ss s_z^2 + 2 f'' s_z)/D,   G_ss = -3 f' f'' + (z - f) f'''.
-RoadProfile::Foot RoadProfile::foot(const PairMeasure& x, const PairMeasure& z, double reach) const {
+template <int order>
+RoadProfile::Foot<order> RoadProfile::foot(const PairMeasureOf<order>& x, const PairMeasureOf<order>& z,
+                                           double reach) const {
   const double at = nearest(x.value, z.value, reach);
   const auto [f, f1, f2, f3] = (*this)(at);
   const double D = 1 + f1 * f1 - (z.value - f) * f2, G_ss = -3 * f1 * f2 + (z.value - f) * f3;
   const double s_x = 1 / D, s_z = f1 / D;
-  const PairMeasure s = compose(x, z, at, s_x, s_z, G_ss * s_x * s_x / D, (G_ss * s_x * s_z + f2 * s_x) / D,
-                                (G_ss * s_z * s_z + 2 * f2 * s_z) / D);
-  const PairMeasure slope = compose(s, f1, f2, f3), root = sqrt(square(slope) + 1.0);
-  Foot foot;
+  const auto s = compose(x, z, at, s_x, s_z, G_ss * s_x * s_x / D, (G_ss * s_x * s_z + f2 * s_x) / D,
+                         (G_ss * s_z * s_z + 2 * f2 * s_z) / D);
+  const auto slope = compose(s, f1, f2, f3), root = sqrt(square(slope) + 1.0);
+  Foot<order> foot;
   foot.normal_x = -(slope / root);
-  foot.normal_z = PairMeasure(1.0) / root;
+  foot.normal_z = PairMeasureOf<order>(1.0) / root;
   foot.distance = foot.normal_x * (x - s) + foot.normal_z * (z - compose(s, f, f1, f2));
   return foot;
 }
+
+template RoadProfile::Foot<1> RoadProfile::foot<1>(const PairSlope&, const PairSlope&, double) const;
+template RoadProfile::Foot<2> RoadProfile::foot<2>(const PairMeasure&, const PairMeasure&, double) const;
 
 RoadProfile::Valley RoadProfile::tightest_valley() const {
   constexpr int parts = 8;

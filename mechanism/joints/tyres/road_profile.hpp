@@ -30,11 +30,13 @@ class RoadProfile {
 
   /// Nearest point of the road to a place: distance d, negative below the road, and the unit normal there,
   /// (normal_x, 0, normal_z).
+  template <int order>
   struct Foot {
-    PairMeasure distance, normal_x, normal_z;
+    PairMeasureOf<order> distance, normal_x, normal_z;
   };
-  /// @param x,z  the place as measures [m] @param reach  as `nearest`
-  Foot foot(const PairMeasure& x, const PairMeasure& z, double reach) const;
+  /// Exists for orders 1 and 2. @param x,z  the place as measures [m] @param reach  as `nearest`
+  template <int order>
+  Foot<order> foot(const PairMeasureOf<order>& x, const PairMeasureOf<order>& z, double reach) const;
 
   /// A valley: its place and radius of curvature [m].
   struct Valley {

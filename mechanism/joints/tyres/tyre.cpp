@@ -15,25 +15,28 @@ namespace bielle::mechanism {
 namespace {
 
 /// A force with the velocity along which it acts, as a term of the residual: -force * w.
+template <int order>
 struct PatchTerm {
   TyreNumber TyreForces::*force;
-  PairMeasure ContactPatch::*along;
+  PairMeasureOf<order> ContactPatch<order>::*along;
   double sign;
 };
 
-constexpr PatchTerm patch_terms[] = {{&TyreForces::N, &ContactPatch::deflection, 1},
-                                     {&TyreForces::F_x, &ContactPatch::longitudinal, -1},
-                                     {&TyreForces::F_y, &ContactPatch::lateral, -1},
-                                     {&TyreForces::along_roll, &ContactPatch::roll, -1},
-                                     {&TyreForces::moment, &ContactPatch::spin, -1}};
+template <int order>
+constexpr PatchTerm<order> patch_terms[] = {{&TyreForces::N, &ContactPatch<order>::deflection, 1},
+                                            {&TyreForces::F_x, &ContactPatch<order>::longitudinal, -1},
+                                            {&TyreForces::F_y, &ContactPatch<order>::lateral, -1},
+                                            {&TyreForces::along_roll, &ContactPatch<order>::roll, -1},
+                                            {&TyreForces::moment, &ContactPatch<order>::spin, -1}};
 
 /// The variables that are velocities of the patch.
-constexpr std::pair<TyreVariable, PairMeasure ContactPatch::*> patch_rates[] = {
-    {tyre_e_rate, &ContactPatch::deflection},
-    {tyre_v_x, &ContactPatch::longitudinal},
-    {tyre_v_y, &ContactPatch::lateral},
-    {tyre_V_r, &ContactPatch::roll},
-    {tyre_spin, &ContactPatch::spin}};
+template <int order>
+constexpr std::pair<TyreVariable, PairMeasureOf<order> ContactPatch<order>::*> patch_rates[] = {
+    {tyre_e_rate, &ContactPatch<order>::deflection},
+    {tyre_v_x, &ContactPatch<order>::longitudinal},
+    {tyre_v_y, &ContactPatch<order>::lateral},
+    {tyre_V_r, &ContactPatch<order>::roll},
+    {tyre_spin, &ContactPatch<order>::spin}};
 
 }  // namespace
 
@@ -65,7 +68,7 @@ void Tyre::declare(Declaration& declaration) const {
   }
 }
 
-PairMeasure Tyre::deflection(const LocalState& state) const {
+PairSlope Tyre::deflection(const LocalState& state) const {
   return calc_deflection(state.node(0), state.node(1), frames(), radius_, road_.get());
 }
 
@@ -83,10 +86,11 @@ TyreValues Tyre::unknowns_alone(const LocalState& state) const {
   return z;
 }
 
-Tyre::Contact Tyre::calc_contact(const LocalState& state) const {
-  Contact contact;
+template <int order>
+Tyre::Contact<order> Tyre::calc_contact(const LocalState& state) const {
+  Contact<order> contact;
   try {
-    contact.patch = calc_patch(state.node(0), state.node(1), frames(), radius_, road_.get());
+    contact.patch = calc_patch<order>(state.node(0), state.node(1), frames(), radius_, road_.get());
   } catch (const ComputationError& error) {
     throw ComputationError(fmt::format("t = {:.6g} s: tyre '{}': {}", state.time(), name(), error.what()));
   }
@@ -94,32 +98,36 @@ Tyre::Contact Tyre::calc_contact(const LocalState& state) const {
   TyreValues z = unknowns_alone(state);
   z[tyre_e] = contact.patch.deflection.value;
   z[tyre_c] = contact.patch.camber.value;
-  contact.by_position.setZero();
-  contact.by_rate.setZero();
-  contact.by_position.row(tyre_e).head<12>() = contact.patch.deflection.gradient.transpose();
-  contact.by_position.row(tyre_c).head<12>() = contact.patch.camber.gradient.transpose();
-  for (const auto& [variable, measure] : patch_rates) {
-    const PairMeasure& w = contact.patch.*measure;
-    z[variable] = w.rate(v);
-    contact.by_position.row(variable).head<12>() = v.transpose() * w.second;
-    contact.by_rate.row(variable).head<12>() = w.gradient.transpose();
+  for (const auto& [variable, measure] : patch_rates<order>) z[variable] = (contact.patch.*measure).rate(v);
+  if constexpr (order == 2) {
+    contact.by_position.setZero();
+    contact.by_rate.setZero();
+    contact.by_position.row(tyre_e).template head<12>() = contact.patch.deflection.gradient.transpose();
+    contact.by_position.row(tyre_c).template head<12>() = contact.patch.camber.gradient.transpose();
+    for (const auto& [variable, measure] : patch_rates<order>) {
+      const PairMeasure& w = contact.patch.*measure;
+      contact.by_position.row(variable).template head<12>() = v.transpose() * w.second;
+      contact.by_rate.row(variable).template head<12>() = w.gradient.transpose();
+    }
+    contact.by_position(tyre_u_x, unknowns_row) = contact.by_position(tyre_u_y, unknowns_row + 1) = 1;
   }
-  contact.by_position(tyre_u_x, unknowns_row) = contact.by_position(tyre_u_y, unknowns_row + 1) = 1;
   contact.forces = law_.calc(z, true);
   return contact;
 }
 
+template Tyre::Contact<2> Tyre::calc_contact(const LocalState&) const;
+
 TyreForces Tyre::forces(const LocalState& state) const {
-  return touches(state) ? calc_contact(state).forces : law_.calc(unknowns_alone(state), false);
+  return touches(state) ? calc_contact<1>(state).forces : law_.calc(unknowns_alone(state), false);
 }
 
 // In a static analysis time does not advance: the tread keeps its deflections.
 void Tyre::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   TyreForces acting;
   if (touches(state)) {
-    const Contact contact = calc_contact(state);
+    const Contact<1> contact = calc_contact<1>(state);
     acting = contact.forces;
-    for (const auto& [force, along, sign] : patch_terms)
+    for (const auto& [force, along, sign] : patch_terms<1>)
       r.head<12>() += sign * (acting.*force).value * (contact.patch.*along).gradient;
   } else {
     acting = law_.calc(unknowns_alone(state), false);
@@ -134,9 +142,9 @@ void Tyre::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
   const int size = law_.slip ? 14 : 12;
   const bool at_rest = state.environment().statics, touching = touches(state);
-  Contact contact;
+  Contact<2> contact;
   if (touching) {
-    contact = calc_contact(state);
+    contact = calc_contact<2>(state);
   } else {
     contact.forces = law_.calc(unknowns_alone(state), false);
     contact.by_position.setZero();
@@ -146,7 +154,7 @@ void Tyre::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   const TyreForces& forces = contact.forces;
   Eigen::Matrix<double, 14, 14> K = Eigen::Matrix<double, 14, 14>::Zero(), C = K;
   if (touching)
-    for (const auto& [force, along, sign] : patch_terms) {
+    for (const auto& [force, along, sign] : patch_terms<2>) {
       const PairMeasure& w = contact.patch.*along;
       const TyreNumber& value = forces.*force;
       K.topLeftCorner<12, 12>() += sign * value.value * w.second;
@@ -183,7 +191,7 @@ void Tyre::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> val
 bool Tyre::leaves_branch(const LocalState& state) const { return touches(state) && deflection(state).value < 0; }
 
 void Tyre::begin_branch(const LocalState& state, std::span<const int> /*crossed*/, Eigen::Ref<VectorX> memory) const {
-  const PairMeasure e = deflection(state);
+  const PairSlope e = deflection(state);
   memory[memory.size() - 2] =
       e.value > 0 || (e.value == 0 && e.rate(pair_rate(state.node(0), state.node(1))) >= 0) ? 1 : 0;
 }
@@ -215,7 +223,7 @@ void Tyre::write_output(const LocalState& state, double* values) const {
   written.setZero();
   written[0] = deflection(state).value;
   if (!touches(state)) return;
-  const Contact contact = calc_contact(state);
+  const Contact<1> contact = calc_contact<1>(state);
   const TyreForces& acting = contact.forces;
   written.tail<7>() << acting.N.value, acting.F_x.value, acting.F_y.value, acting.slip, acting.moment.value,
       std::asin(std::clamp(contact.patch.camber.value, -1.0, 1.0));

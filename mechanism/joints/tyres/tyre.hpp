@@ -47,16 +47,18 @@ class Tyre final : public Joint {
 
  private:
   /// Everything about a state in which the tyre touches.
+  template <int order>
   struct Contact {
-    ContactPatch patch;
+    ContactPatch<order> patch;
     TyreForces forces;
-    Eigen::Matrix<double, tyre_variables, 14> by_position, by_rate;  ///< derivatives of the variables
+    Eigen::Matrix<double, tyre_variables, 14> by_position, by_rate;  ///< derivatives of the variables; of order 2 alone
   };
   static constexpr int unknowns_row = 12;
   bool touches(const LocalState& state) const;
-  PairMeasure deflection(const LocalState& state) const;
+  PairSlope deflection(const LocalState& state) const;
   TyreValues unknowns_alone(const LocalState& state) const;
-  Contact calc_contact(const LocalState& state) const;
+  template <int order>
+  Contact<order> calc_contact(const LocalState& state) const;
   TyreForces forces(const LocalState& state) const;
   double radius_;
   SpringTyreLaw law_;

@@ -51,12 +51,12 @@ TyreNumber TyreForces::*force_of(Tyre::Quantity quantity) {
 
 double Tyre::calc_quantity(Quantity quantity, const LocalState& state, MeasureGradient& gradient) const {
   if (quantity == Quantity::deflection) {
-    const PairMeasure e = deflection(state);
+    const PairSlope e = deflection(state);
     gradient.position().head<12>() = e.gradient;
     return e.value;
   }
   if (!touches(state)) return 0;
-  const Contact contact = calc_contact(state);
+  const Contact<2> contact = calc_contact<2>(state);
   const TyreNumber& force = contact.forces.*force_of(quantity);
   const auto size = gradient.position().size();
   gradient.position() = (force.gradient.transpose() * contact.by_position).transpose().head(size);
