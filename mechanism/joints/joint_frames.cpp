@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mechanism/joints/joint_place.hpp"
 #include "mechanism/math/axes_along.hpp"
 #include "mechanism/reading/names.hpp"
 
@@ -114,7 +115,7 @@ std::array<Vector3, 2> read_points_at(const YamlValue& at) {
   return {at.at(std::size_t{0}).vector3(), at.at(std::size_t{1}).vector3()};
 }
 
-JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need, const std::string& axis_key) {
+JointFrames read_joint_place(const YamlValue& entry, const Model& model) {
   constexpr int ground = 0;  // index of the built-in node
   JointFrames frames;
   const std::vector<int> nodes = nodes_named_by(entry.at("nodes"), 2, model);
@@ -127,9 +128,8 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
     at->fail(
         "a joint is attached at a `position` as drawn, or `at` a point in the axes of each node: give one of them");
   const Vector3 place = position ? position->vector3() : second.x;
-  const std::array<Matrix3, 2> axes = read_axes(entry, first, second, need, axis_key);
-  frames.on_first = inverse(first) * Frame{place, axes[0]};
-  frames.on_second = inverse(second) * Frame{place, axes[1]};
+  frames.on_first = inverse(first) * Frame{place, Matrix3::Identity()};
+  frames.on_second = inverse(second) * Frame{place, Matrix3::Identity()};
   if (at) {
     const auto points = read_points_at(*at);
     frames.on_first.x = points[0];
@@ -140,6 +140,15 @@ JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNe
     const double distance = (second.x - first.x).norm();
     if (distance > rounding) frames.arm = distance;
   }
+  return frames;
+}
+
+JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need, const std::string& axis_key) {
+  JointFrames frames = read_joint_place(entry, model);
+  const Frame &first = model.node(frames.first).frame, &second = model.node(frames.second).frame;
+  const std::array<Matrix3, 2> axes = read_axes(entry, first, second, need, axis_key);
+  frames.on_first.R = first.R.transpose() * axes[0];
+  frames.on_second.R = second.R.transpose() * axes[1];
   return frames;
 }
 

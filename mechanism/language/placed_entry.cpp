@@ -121,6 +121,18 @@ Tree with_joint_axes(const Tree& placed, const std::string& axis_key, const KeyF
   return with_second(placed, most_normal_axis((of_axis.transpose() * *z).normalized()));
 }
 
+/// Adds x of a joint whose two shafts have axes of their own.
+Tree with_second_of_first(const Tree& placed, const YamlNode& axes, const KeyTable& table, const Scope& scope,
+                          const std::string& path) {
+  if (find_pair(*placed, "second_axis") || axes.items.empty()) return placed;
+  const std::optional<Vector3> z = read_vector(*axes.items.front(), scope, path + ".axes");
+  if (!z) return placed;  // the reader of the joint refuses it
+  const Matrix3 of_axis = scope.placement.matrix(table.find("axis")->forms.front().geometry, true);
+  const Vector3 x =
+      scope.placement.matrix(Geometry::vector, true) * most_normal_axis((of_axis.transpose() * *z).normalized());
+  return with(*placed, "second_axis", make_vector(x, *placed));
+}
+
 Tree with_beam_orientation(const Tree& placed, const Scope& scope, const NodeFrame& node_frame,
                            const std::string& path) {
   const Tree nodes = find_value(*placed, "nodes");
@@ -166,7 +178,8 @@ Tree with_explicit_axes(const Tree& placed, const KeyTable& table, const Scope& 
   if (!turns(scope.placement)) return entry;
   const Tree type = find_value(*entry, "type");
   if (type && type->scalar == "beam") return with_beam_orientation(entry, scope, node_frame, path);
-  if (!table.find("second_axis") || find_pair(*entry, "axes")) return entry;
+  if (!table.find("second_axis")) return entry;
+  if (const Tree axes = find_value(*entry, "axes")) return with_second_of_first(entry, *axes, table, scope, path);
   for (const char* key : {"axis", "line", "normal"})
     if (const Key* axis = table.find(key))
       return with_joint_axes(entry, key, axis->forms.front(), scope, node_frame, path);

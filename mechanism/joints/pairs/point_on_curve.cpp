@@ -165,7 +165,7 @@ void PointOnCurve::describe(const LocalState& state, Description& description) c
 namespace {
 
 /// Reads points that are given along the axes of the joint's frame.
-/// @param origin  of the points, in that frame
+/// @param origin  origin of the points, in that frame
 Curve read_curve(const YamlValue& value, bool closed, const Vector3& origin) {
   return read_named_file(value, [&](const std::string& path) -> Curve {
     MatrixX points = read_table(path, 3);

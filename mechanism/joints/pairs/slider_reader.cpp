@@ -111,8 +111,9 @@ void read_slider(const std::string& name, const YamlValue& entry, Model& model) 
   if (const auto share = entry.find("start")) start = share->number() * line.place.back();
   Frame joint;
   joint.x = model.node(chain.nodes.front()).frame.x;
-  const Matrix3 axes = axes_along(foot.tangent);
-  joint.R << axes.col(2), axes.col(0), axes.col(1);  // x along the line
+  const Matrix3& R = model.node(chain.nodes.front()).frame.R;
+  const Matrix3 axes = R * axes_along(R.transpose() * foot.tangent);  // they turn with a part
+  joint.R << axes.col(2), axes.col(0), axes.col(1);                   // x along the line
   JointFrames frames;
   frames.first = chain.nodes.front();
   frames.second = node;

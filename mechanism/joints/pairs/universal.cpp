@@ -1,10 +1,12 @@
 #include "mechanism/joints/pairs/universal.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "mechanism/joints/joint_place.hpp"
 #include "mechanism/joints/pairs/read_pair.hpp"
 #include "mechanism/math/axes_along.hpp"
 
@@ -116,7 +118,9 @@ void read_universal(const std::string& name, const YamlValue& entry, Model& mode
 namespace {
 
 /// Rotates the frames so that their z axes are the two initial shafts: the second by the bend between them.
-void bend_frames(JointFrames& frames, const YamlValue& axes, const Model& model) {
+/// @param second_axis  x of the first one, if it is given
+void bend_frames(JointFrames& frames, const YamlValue& axes, const std::optional<YamlValue>& second_axis,
+                 const Model& model) {
   if (!axes.is_sequence() || axes.size() != 2)
     axes.fail("expected two directions: of the first shaft and of the second");
   const Vector3 first = axes.at(0).direction(), second = axes.at(1).direction();
@@ -124,7 +128,13 @@ void bend_frames(JointFrames& frames, const YamlValue& axes, const Model& model)
     axes.fail(
         "fold back onto each other: the joint bends by less than 180 degrees; give both from the first shaft to the "
         "second");
-  const Matrix3 straight = axes_along(first);
+  Matrix3 straight = axes_along(first);
+  if (second_axis) {
+    const Vector3 given = second_axis->direction(), across = given - first * first.dot(given);
+    if (across.norm() < 1e-6) second_axis->fail("is parallel to the first shaft");
+    straight.col(0) = across.normalized();
+    straight.col(1) = first.cross(straight.col(0));
+  }
   const Matrix3 bend = Eigen::Quaterniond::FromTwoVectors(first, second).toRotationMatrix();
   frames.on_first.R = model.node(frames.first).frame.R.transpose() * straight;
   frames.on_second.R = model.node(frames.second).frame.R.transpose() * bend * straight;
@@ -139,7 +149,7 @@ const KeyTable& constant_velocity_keys() {
       joined({joint_frame_keys(AxisNeed::optional),
               {{"axes", list_of(2, direction().as_axial().in_inertial_axes()), optional,
                 "Directions of the first and of the second shaft as drawn, in place of `axis`, of a joint that is "
-                "drawn bent."}},
+                "drawn bent; `second_axis` is then one direction, across the first."}},
               joint_action_keys(Moves::turns)})};
   return table;
 }
@@ -147,11 +157,10 @@ const KeyTable& constant_velocity_keys() {
 void read_constant_velocity(const std::string& name, const YamlValue& entry, Model& model) {
   const auto axes = entry.find("axes");
   if (axes)
-    for (const char* key : {"axis", "second_axis"})
-      if (const auto too_much = entry.find(key))
-        too_much->fail("a constant-velocity joint has either `axis` or `axes`");
-  JointFrames frames = read_joint_frames(entry, model, axes ? AxisNeed::optional : AxisNeed::required);
-  if (axes) bend_frames(frames, *axes, model);
+    if (const auto too_much = entry.find("axis"))
+      too_much->fail("a constant-velocity joint has either `axis` or `axes`");
+  JointFrames frames = axes ? read_joint_place(entry, model) : read_joint_frames(entry, model, AxisNeed::required);
+  if (axes) bend_frames(frames, *axes, entry.find("second_axis"), model);
   add_pair(std::make_unique<ConstantVelocityJoint>(name, std::move(frames), model), entry, model);
 }
 

@@ -765,7 +765,7 @@ class Entries:
         node, which the start makes fit if the joint constrains them. (list of 3: number; or list of 2: list of 3:
         number; default: the inertial axis most normal to z, as drawn)
         axes: Directions of the first and of the second shaft as drawn, in place of `axis`, of a joint that is drawn
-        bent. (list of 2: list of 3: number)
+        bent; `second_axis` is then one direction, across the first. (list of 2: list of 3: number)
         stiffness: Stiffness of a spring on the coordinate; or its whole resisting force, as a table over the
         coordinate or as a formula of q, counted from `rest`, its rate v, the time t and measures. (formula of q, v,
         t and measures [N m/rad] of at least 0; or keys of a law of force; or map by coordinate: formula of q, v, t

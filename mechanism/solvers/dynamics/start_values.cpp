@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/consistent_accelerations.hpp"
 #include "reduce/common/error.hpp"
 
@@ -45,6 +46,13 @@ bool resolved(const SchemeStep& step, const VectorX& j, double h) {
     acceleration[kind] = std::max(acceleration[kind], std::abs(step.rates().a[i]));
     rate[kind] = std::max(rate[kind], std::abs(j[i]));
   }
+  // Parts that turn in place have rounding errors alone as rates of translations, and the reverse.
+  constexpr double rounding = 1e-9;
+  const double length = model_length(step.state());
+  double &along = rate[static_cast<std::size_t>(Kind::translation)],
+         &about = rate[static_cast<std::size_t>(Kind::rotation)];
+  if (along <= rounding * length * about) along = 0;
+  if (length * about <= rounding * along) about = 0;
   for (std::size_t kind = 0; kind < kind_count; ++kind)
     if (h * rate[kind] > acceleration[kind] && h * h * rate[kind] > little * velocity[kind]) return false;
   return true;

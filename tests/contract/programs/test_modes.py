@@ -51,6 +51,24 @@ class Modes(CommandTest):
             self.assertNotIn("displacement", file["/eigen"])
             self.assertNotIn("time", file["/analysis_2"])
 
+    def test_an_equilibrium_at_the_origin_turns_although_it_is_found_but_for_rounding(self):
+        # w^2 = k/m - W^2 with k = 500 N/m at rest, m = 1 kg, W = 6 rad/s, in axes that turn.
+        for start in ("1e-5", "1e-3", "0.01"):
+            for rotation in ("{joint: axle, rate: 6}", "{joint: axle, rate: 6, state: mean}"):
+                with self.subTest(start=start, rotation=rotation):
+                    text = self.summary(f"""\
+nodes: {{hub: {{}}, mass: {{}}}}
+elements:
+  hub: {{type: rigid_body, node: hub, mass: 1, inertia: [0.01, 0.01, 0.02]}}
+  mass: {{type: rigid_body, node: mass, mass: 1, inertia: [0.01, 0.01, 0.01]}}
+joints:
+  axle: {{type: hinge, nodes: [ground, hub], axis: [0, 0, 1]}}
+  rail: {{type: prismatic, nodes: [hub, mass], axis: [1, 0, 0], start: {start}, stiffness: "10*(exp(50*q) - 1)"}}
+drives: {{motor: {{joint: axle, rate: 6}}}}
+analysis: [{{type: static}}, {{type: eigen, rotation: {rotation}}}]
+""")
+                    self.assertIn("3.4283 Hz", text)                  # (500 - 36)**0.5/(2 pi)
+
     def test_elements_too_long_for_the_tension_of_a_rotation_are_told(self):
         blade = """\
 nodes: {{hub: {{position: [0.1, 0, 0], fixed: true}}, tip: {{position: [1.1, 0, 0]}}}}

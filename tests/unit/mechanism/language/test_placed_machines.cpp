@@ -153,3 +153,22 @@ definitions:
   CHECK((at_end(turned, R * gravity) - R * drawn).norm() < 1e-9);
   CHECK((at_end(moved + turned, R * gravity) - x - R * drawn).norm() < 1e-9);
 }
+
+TEST_CASE("the bend of a joint that is drawn bent has the axes of its part") {
+  const std::string part = R"yaml(
+definitions:
+  shafts:
+    nodes: {in: {}, out: {}}
+    elements:
+      in: {type: rigid_body, node: in, mass: 1, inertia: [1, 1, 1]}
+      out: {type: rigid_body, node: out, mass: 1, inertia: [1, 1, 1]}
+    joints: {bend: {type: constant_velocity, nodes: [in, out], axes: [[0, 0, 1], [0.6, 0, 0.8]]}}
+parts: {it: {part: shafts)yaml";
+  for (const char* turn : {"[0, 0, 0]", "[0.5, -0.9, 0.7]", "[0, 1.5707963267948966, 0]"}) {
+    CAPTURE(turn);
+    Session session(read_mechanism_text(fmt::format("{}, rotation_vector: {}}}}}\n", part, turn), "model.yaml").model);
+    const std::vector<double> bend = session.read("joints/it.bend/coordinate");
+    CHECK(bend[0] == Approx(0).margin(1e-12));  // about y of the part
+    CHECK(bend[1] == Approx(std::acos(0.8)).epsilon(1e-12));
+  }
+}

@@ -1,8 +1,11 @@
 // Steps: their ends, the causes of reduction, and their local error.
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
+#include "mechanism/math/so3.hpp"
 #include "mechanism/solvers/dynamics/error_norm.hpp"
 #include "tests/support/march_model.hpp"
+#include "tests/support/session_model.hpp"
 
 using namespace bielle::mechanism;
 using namespace bielle::test;
@@ -248,4 +251,33 @@ elements: {b: {type: rigid_body, node: b, mass: 1, inertia: [0.1, 0.1, 0.1]}}
   CHECK((node.x - Vector3(0.3 + 0.13, 0.26, 0.39)).norm() < 1e-13);
   CHECK((node.R - exp_so3(Vector3(0, 0, 2.6))).norm() < 1e-13);
   CHECK((node.Omega - Vector3(0, 0, 20)).norm() < 1e-12);
+}
+
+TEST_CASE("the first steps do not depend on the axes along which a mechanism is drawn") {
+  // Two wheels turn in place: the accelerations of their centres are rounding, unless the axes are inertial ones.
+  const auto approach_after_three_steps = [](const Vector3& turn) {
+    const Matrix3 R = exp_so3(turn);
+    const auto list = [](const Vector3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); };
+    const double h = 1e-3;
+    Session session = session_of(fmt::format(R"yaml(
+nodes:
+  w1: {{rotation_vector: {0}}}
+  w2: {{rotation_vector: {0}, position: {2}}}
+elements:
+  b1: {{type: rigid_body, node: w1, mass: 1, inertia: [1e-3, 1e-3, 1e-3]}}
+  b2: {{type: rigid_body, node: w2, mass: 1, inertia: [1e-3, 1e-3, 2e-3]}}
+joints:
+  h1: {{type: hinge, nodes: [ground, w1], axis: {1}, start_rate: 20}}
+  h2: {{type: hinge, nodes: [ground, w2], axis: {1}, start_rate: -7}}
+  teeth: {{type: gear_mesh, nodes: [w1, w2], axes: {1}, radii: [0.02, 0.05], stiffness: "1e5*(1 + 0.5*sin(20*phi))",
+          errors: "1e-5*cos(20*phi)"}}
+)yaml",
+                                             list(turn), list(R.col(2)), list(0.07 * R.col(0))));
+    session.dynamics(steps_of(3 * h, h)).finish();
+    return session.read("joints/teeth/approach")[0];
+  };
+  const double drawn = approach_after_three_steps(Vector3::Zero());
+  CHECK(drawn > 5e-5);
+  for (const Vector3& turn : {Vector3(0.5, -0.9, 0.7), Vector3(0.4, 1.1, -0.7), Vector3(1, 0.2, -0.3)})
+    CHECK(approach_after_three_steps(turn) == Approx(drawn).epsilon(1e-8));
 }
