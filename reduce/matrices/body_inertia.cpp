@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/common/error.hpp"
 #include "reduce/common/percent.hpp"
 #include "reduce/dense/dense_products.hpp"
 #include "reduce/fe/elasticity.hpp"
@@ -65,6 +66,23 @@ void take_shown(const ShownMoments& shown, const Eigen::Matrix3d& axes, RestMome
     principal[k][l] = principal[l][k] = shown.moments[s];
   }
   moments = turned_moments(principal, axes.transpose());
+}
+
+/// Translations move the mass in their own direction alone. Components that differ by more belong to another body or
+/// order of unknowns; smaller differences, as of lumped masses, are completed.
+/// @param translations (n,3) coordinates @throws InputError
+void check_translation(const MatrixSet& set, const std::array<Eigen::MatrixXd, 6>& components, double mass,
+                       const Eigen::MatrixXd& translations) {
+  constexpr double most = 0.1;
+  double largest = 0;
+  for (std::size_t s = 0; s < 6; ++s) {
+    Eigen::Matrix3d found = congruent(components[s], translations);
+    found(voigt_pairs[s][0], voigt_pairs[s][1]) -= mass;
+    largest = std::max(largest, found.cwiseAbs().maxCoeff() / mass);
+  }
+  if (largest > most)
+    throw InputError(fmt::format("{}: translated, the body has inertia components that differ from its mass by {}",
+                                 set.source, percent(largest)));
 }
 
 }  // namespace
@@ -147,6 +165,7 @@ BodyInertia body_inertia(const MatrixSet& set, const Eigen::MatrixXd& shapes, co
   BodyInertia result;
   if (set.inertia_components[0].size() > 0) {
     for (std::size_t s = 0; s < 6; ++s) result.components[s] = congruent(set.inertia_components[s], shapes);
+    check_translation(set, result.components, body.mass, rigid.leftCols(3));
   } else if (set.shapes && set.shapes->masses.size() > 0) {
     const NodalShapes& points = *set.shapes;
     result.source = InertiaSource::shapes;

@@ -25,6 +25,7 @@
 #include "reduce/reduction/basis.hpp"
 #include "reduce/reduction/reduced_matrices.hpp"
 #include "reduce/reduction/rigid_motions.hpp"
+#include "reduce/superelement/physical_check.hpp"
 
 namespace bielle::reduce {
 
@@ -81,12 +82,14 @@ void prepare(MatrixSet& set, Progress& progress) {
   check_mass_entries(set);
 }
 
+constexpr double least_mass = 1e-100;  ///< [kg]; squares and products of smaller ones vanish
+
 /// Mass properties of M~ under rigid motions. Masses along x, y and z that differ in their last digits need iterations.
 MassProperties mass_of(const MatrixSet& set, Superelement body) {
   body.centre.setZero();
   for (int iteration = 0; iteration < 4; ++iteration) {
     const ReducedMassProperties found = reduced_mass_properties(body);
-    if (!(found.mass > 0)) throw InputError(told_mass(set, found.mass));
+    if (!(found.mass > least_mass)) throw InputError(told_mass(set, found.mass));
     body.total_mass = found.mass;
     body.centre = found.centre;
     body.inertia = (found.inertia + found.inertia.transpose()) / 2;
@@ -254,6 +257,9 @@ Superelement reduce_matrices(MatrixSet& set, const MatrixOptions& options, Progr
         "no stress is recovered at nodes: the file has no matrix for it, and stiffness and mass do not tell it");
   for (const SetPoint& point : points)
     body.points[point.request.name] = {point.position, product(point.rows, T), point.request.residual};
+
+  if (const std::string fault = physical_fault_of(body); !fault.empty())
+    throw InputError(fmt::format("{}: the matrices make no superelement: {}", set.source, fault));
 
   progress.start("checks");
   const std::vector<Check> checks = checks_of(body);

@@ -116,7 +116,8 @@ bool is_grounded(const MatrixStudy& study) {
 VerifiedSubject verify_rigid_motions(const MatrixStudy& study) {
   VerifiedSubject subject{"rigid motions", {}, {}};
   if (!study.geometric)
-    subject.lines.push_back("no rigid motions by the positions: " + study.no_geometric);
+    add_finding(subject, {"rigid_motions", 1, 0, "the body can move as a whole"},
+                "the body cannot move as a whole by its positions: " + study.no_geometric);
   else if (!study.statical)
     add_finding(subject, {"mechanism", 1, 0, "the body has no motion without force besides the rigid ones"},
                 study.no_statical);

@@ -141,7 +141,11 @@ damping: {ratio: 0.01}
         turned[1, 5] *= 1.1
         mirrored[0, 6] = 0
         for matrices, says in (({"K": grounded}, "held to the ground"), ({"K": turned}, "node 1 rz"), ({"M": mirrored}, "mass is not symmetric"),
-                               ({"M": 0 * M}, "a mass matrix is needed"), ({"K": 0 * K, "M": 0 * M}, "are zero"), ({"M": -M}, "mass")):
+                               ({"M": 0 * M}, "a mass matrix is needed"), ({"M": 1e-300 * M}, "a mass matrix is needed"),
+                               ({"K": 1e150 * K}, "the stiffness holds the number 1e+156"),
+                               ({"C": -1e-3 * K}, "the matrices make no superelement: /reduced/damping: is not positive"),
+                               ({"inertia_components": np.zeros((6, 12, 12))}, "translated, the body has inertia components that differ from its mass by 100 %"),
+                               ({"interface_names": ["", "b"], "interface_nodes": [1, 2]}, "the interface at node 1 has no name"), ({"K": 0 * K, "M": 0 * M}, "are zero"), ({"M": -M}, "mass")):
             with self.subTest(says):
                 self.write_beam(**matrices)
                 self.expect_refusal(1, "--from", "beam.npz", "-o", "x.h5", says=[says])

@@ -97,6 +97,12 @@ class Verify(CommandTest):
                 self.expect_refusal(1, "body.yaml", says=[says])
                 self.assertFalse(os.path.exists(self.path("body.h5")))
 
+    def test_a_body_that_cannot_move_as_a_whole(self):
+        """A spring to the ground has no rigid motions that could be proved."""
+        numpy.savez(self.path("spring.npz"), K=[[1.0]], M=[[1.0]], positions=[[0.0, 0, 0]], unknown_nodes=[1], unknown_components=[0])
+        self.assertIn("the body cannot move as a whole by its positions: the unknowns of its nodes cannot follow all six rigid motions",
+                      self.verified(1, "spring.npz"))
+
     def test_a_wrong_unit_of_positions(self):
         self.write_matrices("beam.h5", scale=1000)
         self.assertIn("positions look like millimetres where the matrices are in metres", self.verified(1, "beam.h5"))

@@ -1,5 +1,6 @@
 """Matrices of Abaqus: substructures, *MATRIX GENERATE in both forms, and the refusals of files that are no free body."""
 
+import os
 import unittest
 
 import numpy as np
@@ -110,6 +111,17 @@ class Assembled(Exchange):
         np.testing.assert_array_equal(found.unknown_nodes, [0, 1, 1, 0, 0, -1])
         np.testing.assert_array_equal(found.unknown_components, [2, 0, 1, 3, 0, 0])
         self.refuse("abaqus", self.files(stiffness.replace("6", "7"), mass), "2 nodes with 3 or 6 unknowns each do not make the 7 rows")
+
+    def test_no_damping(self):
+        """A body without damping has no file of it, and an empty one is none."""
+        body = cloud_body(damping=False)
+        body.damping = 0 * body.stiffness
+        body.damping.eliminate_zeros()
+        paths = formats.module_of("matrix_input").write(body, self.path("d.mtx"), self.options())
+        self.assertEqual([os.path.basename(path) for path in paths], ["d_STIF1.mtx", "d_MASS1.mtx", "d_nodes.inp"])
+        self.write("d_DMPV1.mtx", "")
+        self.same(self.read("matrix_input", paths[0]), body, damping=False)
+        self.refuse("abaqus", self.files(mass=""), "job_MASS1.mtx': holds no entries")
 
     def test_both_triangles_stay_as_they_are(self):
         found = self.read("abaqus", self.files("4,1, 4,1, 2\n4,1, 2,3, -1\n2,3, 4,1, -1.5\n2,3, 2,3, 3\n"))

@@ -34,6 +34,11 @@ def read(path, options):
     paths = _files(path, options)
     nodes = read_nodes(options.nodes or beside(re.sub(r"_STIF\d*(\.\w+)$", r"\1", path), (".inp", "_nodes.inp", ".csv")))
     entries = {name: _entries(each) for name, each in paths.items()}
+    if "damping" in entries and not len(entries["damping"]):
+        del entries["damping"]
+    empty = next((name for name, found in entries.items() if not len(found)), None)
+    if empty:
+        raise InputError(f"'{paths[empty]}': holds no entries")
     widths = {found.shape[1] for found in entries.values()}
     if len(widths) > 1:
         raise InputError(f"'{path}': one file has rows and columns, the other nodes and components: generate both in "
@@ -142,7 +147,7 @@ def write(matrices, path, options):
     base, ending = os.path.splitext(path)
     paths = []
     for name, kind in KINDS.items():
-        if getattr(matrices, name) is None:
+        if getattr(matrices, name) is None or name == "damping" and not getattr(matrices, name).nnz:
             continue
         paths.append(f"{base}_{kind}1{ending}")
         entries = getattr(matrices, name).tocoo()

@@ -28,8 +28,8 @@ SHAPES = {"modeBasis": 2, "massMatrixReduced": 2, "stiffnessMatrixReduced": 2, "
 
 
 RECOVERY = "postProcessingModes"
-ENUMERATION = "OutputVariableType"                     # of Exudyn's output variables
-STRESS = (f"{ENUMERATION}.StressLocal", 1 << 29)        # the name and the number of one of them
+ENUMERATION = "OutputVariableType"                # the output variables of Exudyn
+STRESS = (f"{ENUMERATION}.StressLocal", 1 << 29)  # the name and the number of one of them
 
 
 def recognises(path):

@@ -10,6 +10,7 @@ from ..messages import InputError, counted
 from . import recovery
 
 COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
+LARGEST = 1e100  # products of three larger numbers are none
 
 
 @dataclass
@@ -90,6 +91,11 @@ class MatrixSet:
                 raise InputError(f"the {name} has {matrix.shape[0]} x {matrix.shape[1]} entries for {counted(n, 'unknown')}")
             if not np.isfinite(matrix.data).all():
                 raise InputError(f"the {name} holds numbers that are not finite")
+            if abs(matrix.data).max(initial=0) > LARGEST:
+                raise InputError(f"the {name} holds the number {abs(matrix.data).max():.3g}; expected numbers within {LARGEST:.0e}")
+        for interface in self.interfaces:
+            if not interface.strip():
+                raise InputError(f"the interface at node {self.numbers[self.interfaces[interface]]} has no name")
         for name, quantity in self.quantities.items():
             recovery.check(name, quantity, n)
         if self.shapes is not None and self.shapes.stress is not None:
@@ -136,10 +142,10 @@ class MatrixSet:
 
 def check_positions(numbers, positions, before=""):
     """@param before: text before the sentence @raises InputError naming the first node whose position is not finite"""
-    wrong = np.flatnonzero(~np.isfinite(positions).all(axis=1))
+    wrong = np.flatnonzero(~(np.abs(positions) <= LARGEST).all(axis=1))
     if len(wrong):
         told = ", ".join(f"{each:g}" for each in positions[wrong[0]])
-        raise InputError(f"{before}node {numbers[wrong[0]]} has the position ({told}); expected finite numbers")
+        raise InputError(f"{before}node {numbers[wrong[0]]} has the position ({told}); expected finite numbers within {LARGEST:.0e}")
 
 
 def sparse(matrix):

@@ -47,6 +47,8 @@ FAULTS = (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error, KeyErro
 def load(path, wanted=None):
     """The arrays of an .npz file by name, without those of Python objects, whose reading could run any code. @raises InputError"""
     try:
+        if os.path.isfile(path) and not os.path.getsize(path):
+            raise InputError(f"'{path}': is empty")
         with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
             return {name: file[name] for name in file.files if wanted is None or name in wanted}
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:

@@ -5,6 +5,7 @@ made afterwards; any other name is refused, so that a file can call nothing.
 """
 
 import pickle
+import re
 import zipfile
 
 import numpy as np
@@ -15,7 +16,7 @@ from .npz_matrices import FAULTS
 ARRAY = {("numpy", "ndarray"), ("numpy.core.multiarray", "_reconstruct"), ("numpy._core.multiarray", "_reconstruct")}
 DTYPE = ("numpy", "dtype")
 OBJECT = "O"
-NUMBERS = "iuf"
+NUMBER = re.compile("f[248]|[iu][1248]").fullmatch
 
 
 class UnknownObject(Exception):
@@ -106,7 +107,7 @@ def _plain(value):
     kind = str(dtype.text).lstrip("<>=|")
     if kind.startswith(OBJECT):
         return _plain(content[0]) if len(content) == 1 else [_plain(each) for each in content]
-    if not kind or kind[0] not in NUMBERS:
+    if not NUMBER(kind):
         raise ValueError(f"it holds an array of {kind}")
     numbers = np.frombuffer(content, np.dtype(dtype.order.replace("|", "=") + kind))
     return numbers.reshape(shape, order="F" if fortran else "C")
