@@ -2,7 +2,7 @@
 //
 // The stress at a point is linear in the resultants f of the middle of the element (BeamSection::stress):
 //     sigma = [sigma_xx, tau_xy, tau_xz] = S f,   von Mises stress = sqrt(sigma_xx^2 + 3 tau_xy^2 + 3 tau_xz^2).
-// Where all three are zero the von Mises stress has a kink; its derivatives there are taken as zero.
+// The von Mises stress has a kink at zero; its derivatives there are taken as zero.
 #pragma once
 
 #include <cmath>

@@ -39,7 +39,7 @@ TEST_CASE("loads, forces and stiffness fields are drawn at their nodes") {
   CHECK(drawn.at(drawn.one("elements/pair", "force")).x.isApprox(Vector3(3, 1, 0), 1e-14));
   const DrawnItem& jack = drawn.one("elements/cylinder", "jack");
   CHECK(list_of(jack, "stroke") == std::vector<double>{2, 4});
-  CHECK(number_of(jack, "radius") == Approx(std::sqrt(5e-3 / 3.14159265358979)).epsilon(1e-12));  // of the piston
+  CHECK(number_of(jack, "radius") == Approx(std::sqrt(5e-3 / 3.14159265358979)).epsilon(1e-12));  // the piston
   CHECK(drawn.at(jack, 1).x.isApprox(Vector3(3.5, 0, 0), 1e-14));
 }
 
