@@ -91,6 +91,36 @@ class Nastran(Deck):
         self.write("self.inc", "INCLUDE 'self.inc'\n")
         self.refuse(self.deck(self.grids(), "INCLUDE 'self.inc'\n"), "included by itself")
 
+    def test_included_files_are_sought_next_to_their_file_and_next_to_the_deck(self):
+        os.makedirs(self.path("parts"))
+        self.write("rest.inc", self.tetrahedra(5))
+        self.write("parts/some.inc", self.tetrahedra(0, 5) + "INCLUDE 'rest.inc'\n")
+        self.convert(self.deck(self.grids(), "INCLUDE 'parts\\some.inc'\n"))
+        self.write("rest.inc", "the file next to the one that includes it comes first")
+        self.write("parts/rest.inc", self.tetrahedra(5))
+        self.convert(self.deck(self.grids(), "INCLUDE 'parts/some.inc'\n"))
+        self.write("parts/some.inc", "INCLUDE 'none.inc'\n")
+        self.refuse(self.deck(self.grids(), "INCLUDE 'parts/some.inc'\n"), "some.inc': line 1", "no such file", "parts' or '")
+
+    def test_continuations_by_their_marks(self):
+        # Lines in large fields, [card][line]; a line ends with its own mark, with which the next one of its card begins.
+        cards = []
+        for i, row in enumerate(self.cells):
+            fields = [i + 1, 1, *(n + 1 for n in row)]
+            parts = [fields[k:k + 4] for k in range(0, len(fields), 4)]
+            cards.append([("CTETRA* " if k == 0 else f"*{i}{'abc'[k - 1]:<6}"[:8].ljust(8)) + "".join(f"{n:16d}" for n in part).ljust(64)
+                          + (f"*{i}{'abc'[k]}" if k + 1 < len(parts) else "") + "\n" for k, part in enumerate(parts)])
+        columns = list(zip(*cards))
+        for lines in ([line for card in cards for line in card], [line for column in columns for line in column],
+                      [*columns[0], *(line for column in columns[1:] for line in column[::-1])]):
+            self.convert(self.deck(self.grids(), *lines))
+        self.refuse(self.deck(self.grids(), cards[0][0], "*E7     " + cards[0][1][8:]), "line", "continuation '+E7'", "ends with '+0A'")
+
+    def test_supports_and_control_are_told(self):
+        self.convert(self.deck(self.grids(), self.tetrahedra(), "SPC1,7,123,1,2,3\nSPC1,7,456,4\nSPC,8,5,12,0.,6,3,0.\n"))
+        self.assertIn("supports, SPC 7: 2 cards, components 123, 456; 8: 1 card, components 12, 3: the body is free", self.notes)
+        self.assertIn("left out: 2 lines before BEGIN BULK, which control an analysis (SOL 103)", self.notes)
+
     def test_large_fields_and_free_ones_tabs_and_lower_case(self):
         wide = "".join(f"CTETRA* {i + 1:16d}{1:16d}{a + 1:16d}{b + 1:16d}\n*       {c + 1:16d}{d + 1:16d}\n"
                        for i, (a, b, c, d) in enumerate(self.cells[:9]))

@@ -75,11 +75,12 @@ def with_path(path, work):
 
 def _nastran_mesh(path):
     """The mesh with the sets, and the notes on other contents."""
-    cards = read_cards(path)
+    before = []
+    cards = read_cards(path, before)
     raw, grids = read_mesh(cards)
     if not len(raw.points):
         raise InputError(f"'{path}' holds no GRID: it is no Nastran bulk data")
-    extras = read_extras(cards, grids)
+    extras = read_extras(cards, grids, before)
     raw.point_sets.update(extras.point_sets)
     raw.notes += extras.notes
     return raw

@@ -73,30 +73,49 @@ class Card:
         raise InputError(f"'{self.path}': line {self.line}: {self.name}: expected {expected} in field {k + 1}, found {found}")
 
 
-def read_cards(path):
-    """@returns list of Card, those of included files in their place. @raises InputError with file and line."""
-    cards, open_card = [], None
-    for place, number, line in _bulk_lines(path):
-        more, name = _split(line)
+def read_cards(path, before=None):
+    """@param before: a list that receives the lines before BEGIN BULK, in upper case. @returns list of Card, those of included files in
+    their place. @raises InputError with file and line."""
+    cards, last, end, waiting = [], None, "", {}
+    for place, number, line in _bulk_lines(path, before):
+        more, name, mark = _split(line)
         if name and not name.startswith(("+", "*")):
-            open_card = Card(place, number, [name] + more)
-            cards.append(open_card)
-        elif open_card:
-            open_card.fields += more
+            last = Card(place, number, [name] + more)
+            cards.append(last)
+        else:
+            last = _continued(name.lstrip("+*"), end, waiting, last, f"'{place}': line {number}")
+            if last:
+                last.fields += more
+        end = mark
+        if end:
+            waiting[end] = last
     return cards
 
 
-def _bulk_lines(path):
-    lines = list(_lines(path, 0))
+def _continued(mark, end, waiting, last, place):
+    """The card that a line continues: the one before it, unless its mark is that of another line's end.
+
+    @param mark: field 1 of the line @param end: field 10 of the line before @param waiting: cards by the ends of their lines that no line has continued yet"""
+    if mark in waiting:
+        return waiting.pop(mark)
+    if mark and end:
+        raise InputError(f"{place}: the continuation '+{mark}' follows a line that ends with '+{end}', and no line before it ends with '+{mark}'")
+    return last
+
+
+def _bulk_lines(path, before):
+    lines = list(_lines(path, os.path.dirname(path), 0))
     begin = next((k for k, (_, _, text) in enumerate(lines) if re.match(r"BEGIN\s+BULK", text)), -1)
+    if before is not None:
+        before += [text for _, _, text in lines[:max(begin, 0)]]
     for place, number, text in lines[begin + 1:]:
         if text.startswith("ENDDATA"):
             return
         yield place, number, text
 
 
-def _lines(path, depth):
-    """Lines in upper case, without comments and empty lines, with file and line number of each."""
+def _lines(path, main, depth):
+    """Lines in upper case, without comments and empty lines, with file and line number of each. @param main: the folder of the deck"""
     if depth > DEEPEST:
         raise InputError(f"'{path}' is included by itself")
     lines = lines_of(path)
@@ -109,27 +128,35 @@ def _lines(path, depth):
                 line += lines[k].strip()
                 k += 1
             name = line.split(None, 1)[1].strip().strip("'\"") if len(line.split(None, 1)) > 1 else ""
-            included = os.path.join(os.path.dirname(path), name)
-            if not name or not os.path.isfile(included):
-                raise InputError(f"'{path}': line {number}: INCLUDE '{name}': there is no such file"
-                                 f" in '{os.path.dirname(os.path.abspath(path))}'")
-            yield from _lines(included, depth + 1)
+            yield from _lines(_included(name, path, main, number), main, depth + 1)
         elif line:
             yield path, number, line.upper()
 
 
+def _included(name, path, main, number):
+    """The file that an INCLUDE names: next to the file with the INCLUDE, otherwise next to the deck."""
+    folders = list(dict.fromkeys(os.path.abspath(folder) for folder in (os.path.dirname(path), main)))
+    for folder in folders:
+        for written in (name, name.replace("\\", "/")):
+            if name and os.path.isfile(os.path.join(folder, written)):
+                return os.path.join(os.path.dirname(path) if folder == folders[0] else main, written)
+    raise InputError(f"'{path}': line {number}: INCLUDE '{name}': there is no such file in " + " or ".join(f"'{folder}'" for folder in folders))
+
+
 def _split(line):
-    """The fields of one line after the first, always as many as its format has, and the first."""
+    """The fields of one line after the first, always as many as its format has, the first, and field 10 without its mark of continuation."""
     if "," in line:
         parts = [part.strip() for part in line.split(",")]
         name = parts[0]
         wide = name.endswith("*") or name.startswith("*")
         count = 4 if wide else 8
         fields = (parts[1:] + [""] * count)[:count]
+        end = parts[count + 1] if len(parts) > count + 1 else ""
     else:
         line = line.expandtabs(8)
         name = line[:8].strip()
         wide = "*" in name
         width, count = (16, 4) if wide else (8, 8)
         fields = [line[8 + k * width:8 + (k + 1) * width].strip() for k in range(count)]
-    return fields, (name.rstrip("*_") if name != "*" else name)  # meshio writes CTETRA_
+        end = line[72:80].strip()
+    return fields, (name.rstrip("*_") if name != "*" else name), end.lstrip("+*").strip()  # meshio writes CTETRA_

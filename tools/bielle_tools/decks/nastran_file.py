@@ -36,15 +36,17 @@ class Extras:
     notes: list = field(default_factory=list)
 
 
-def read_extras(all_cards, grids):
-    """@param grids: the grid points. @returns Extras. @raises InputError if a field of a card that is read should be a number
+def read_extras(all_cards, grids, before=()):
+    """@param grids: the grid points @param before: the lines before BEGIN BULK. @returns Extras. @raises InputError if a field of a card that is read should be a number
     and is not."""
     cards = {name: [] for name in READ}
     for card in all_cards:
         if card.name in cards:
             cards[card.name].append(card)
     extras = Extras()
+    _tell_control(extras, before)
     _tell_parts(extras, all_cards)
+    _tell_supports(extras, all_cards)
     carriers = _tell_ties(extras, cards["RBE2"] + cards["RBE3"], grids)
     _tell_materials(extras, cards)
     _tell_masses(extras, cards["CONM2"], grids, carriers)
@@ -52,6 +54,34 @@ def read_extras(all_cards, grids):
         if cards[name]:
             extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), which no solid cell stands for")
     return extras
+
+
+def _tell_control(extras, before):
+    """Tells of the executive and the case control section."""
+    solution = next((" ".join(line.replace("=", " ").split()) for line in before if line.lstrip().startswith("SOL ")), None)
+    if before:
+        extras.notes.append(f"left out: {counted(len(before), 'line')} before BEGIN BULK, which control an analysis" + (f" ({solution})" if solution else ""))
+
+
+def _tell_supports(extras, all_cards):
+    """Tells of the sets of single-point constraints, which the mechanism or the interfaces take the place of."""
+    cards = {}
+    for card in all_cards:
+        if card.name in ("SPC", "SPC1"):
+            cards.setdefault(card.fields[1], []).append(card)
+    if cards:
+        sets = [f"{number or 'without a number'}: {counted(len(each), 'card')}, components {', '.join(sorted(set(_held(each))))}"
+                for number, each in cards.items()]
+        extras.notes.append("left out: supports, SPC " + "; ".join(sets[:MOST_NAMED]) + ("; ..." if len(sets) > MOST_NAMED else "")
+                            + ": the body is free, and interfaces hold it")
+
+
+def _held(cards):
+    """The components that SPC and SPC1 hold."""
+    for card in cards:
+        for k in ([2] if card.name == "SPC1" else [3, 6]):
+            if k < len(card.fields) and card.fields[k] and (card.name == "SPC1" or card.fields[k - 1]):
+                yield card.fields[k]
 
 
 def _tell_parts(extras, all_cards):
