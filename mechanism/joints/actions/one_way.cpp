@@ -24,7 +24,7 @@ void OneWay::declare_one_way(Declaration& declaration, EventFunction opening) co
 
 std::vector<OutputField> OneWay::output_fields() const {
   OutputField flag = force_field("one_way_holds", "1 along the coordinates that a one-way clutch holds, else 0");
-  flag.units = "-";
+  flag.units = std::string{"-"};
   return {force_field("one_way_force", "force or torque of one-way clutches along the joint's coordinates"), flag};
 }
 
