@@ -4,13 +4,17 @@
 #include <catch2/catch.hpp>
 
 #include "mechanism/analyses/statics.hpp"
-#include "mechanism/elements/beam/beam_stress.hpp"
 #include "reduce/common/error.hpp"
+#include "tests/support/dense_model.hpp"
+#include "tests/support/finite_difference.hpp"
 #include "tests/support/messages.hpp"
+#include "tests/support/model_text.hpp"
 #include "tests/support/session_model.hpp"
 
 using namespace bielle::mechanism;
+using bielle::test::DenseModel;
 using bielle::test::message_of;
+using bielle::test::model_from_text;
 using bielle::test::session_of;
 using Catch::Contains;
 
@@ -81,6 +85,34 @@ TEST_CASE("the force of a spring may depend on a stress that begins at zero") {
     CAPTURE(name);
     CHECK(session.measure(name) == 0);
   }
+}
+
+TEST_CASE("the largest stress of a beam has the derivatives of the element that has it") {
+  const auto model = model_from_text(
+      "nodes: {root: {}, tip: {position: [1, 0, 0]}}\n"
+      "elements:\n"
+      "  boom: {type: beam, nodes: [root, tip], elements: 2, damping: 0.02, section: {rectangle: [0.3, 0.2], young: "
+      "900, "
+      "poisson: 0.2, density: 1.5, stress_points: [[0.15, 0.1], [-0.1, 0.05]]}}\n"
+      "  spring: {type: spring_damper, nodes: [root, tip], at: [[0.2, 0.1, -0.3], [0, 0, 0]], force: "
+      "\"0.1*boom.von_mises.max\"}\n");
+  const DenseModel dense(*model);
+  const int middle = *model->find_node("boom.1"), tip = *model->find_node("tip");
+  const auto [stretched, strain] = GENERATE(table<double, double>({{0.02, 0.1}, {0.08, 0.1}}));  // x of both nodes
+  CAPTURE(stretched);
+  VectorX step = VectorX::Zero(dense.size());
+  step.segment<6>(6 * middle) << stretched, 0.01, -0.02, 0.03, 0.01, 0.02;
+  step.segment<6>(6 * tip) << strain, 0.03, 0.02, 0.01, -0.02, 0.04;
+  State state = dense.start();
+  dense.move(state, step);
+  const Eigen::MatrixXd K = bielle::test::jacobian(
+      [&](const VectorX& h) {
+        State moved = state;
+        dense.move(moved, h);
+        return dense.residual(moved);
+      },
+      dense.size(), 1e-3);
+  CHECK((dense.tangent(state, DenseModel::Part::K) - K).cwiseAbs().maxCoeff() < 1e-9 * K.cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("a stress that a beam does not have is refused with those that it has") {
