@@ -78,7 +78,7 @@ class RopeSection final : public Component {
     double strain_energy = 0;  ///< w = EA (E/(L - E))^2/2 while E > 0 [J/m]
     double pull = 0;           ///< EA (E + tau Edot)/(L - E): the tension of a section that could push as well [N]
     VectorX E_gradient, L_gradient;
-    MatrixX E_second;                    ///< of order 2 alone
+    MatrixX E_second;                    ///< set by order 2 alone
     bool stretched = false;              ///< whether E > 0 on the present branch
     bool taut = false;                   ///< and under tension
     std::array<CoordinateRate, 2> ends;  ///< alpha + gamma there, relative to the initial value [rad]
