@@ -51,7 +51,8 @@ class Tyre final : public Joint {
   struct Contact {
     ContactPatch<order> patch;
     TyreForces forces;
-    Eigen::Matrix<double, tyre_variables, 14> by_position, by_rate;  ///< derivatives of the variables, set by order 2 alone
+    Eigen::Matrix<double, tyre_variables, 14> by_position,
+        by_rate;  ///< derivatives of the variables, set by order 2 alone
   };
   static constexpr int unknowns_row = 12;
   bool touches(const LocalState& state) const;
