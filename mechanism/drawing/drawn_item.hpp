@@ -58,7 +58,7 @@ struct DrawnItem {
   std::vector<DrawnSection> sections = {};  ///< sections of a beam, from its start to its end
   std::string colour = {};                  ///< "#rrggbb"; empty: the viewer chooses
   double opacity = 1;                       ///< 0: invisible, 1: opaque
-  std::string role = {};                    ///< "contact", "support", or empty
+  std::string role = {};                    ///< "contact", "support", "cut" (removed from the other solids), or empty
   std::string entry = {};                   ///< section and name in the file, "joints/main"
   std::string type = {};                    ///< type as in the file, "hinge"
 };
