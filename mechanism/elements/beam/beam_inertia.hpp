@@ -62,7 +62,7 @@ class BeamInertia {
  private:
   template <class Value>
   using Pairs = std::array<std::array<Value, 2>, 2>;  ///< values for nodes (i,j)
-  /// What depends on the rotations.
+  /// The part that depends on the rotations.
   struct Turning;
   Turning turning(const LocalState& state) const;
 
