@@ -30,7 +30,7 @@ std::vector<MatrixSet> sets_of_superelement(const std::string& path) {
   return sets;
 }
 
-/// The sets of a file: one, or one for each piece of a body.
+/// Returns the sets of a file: one, or one for each piece of a body.
 std::vector<MatrixSet> sets_of(const std::string& path, const std::string& units, Progress& progress) {
   check_input_file(path);
   if (Hdf5File::begins_like_one(path) && !holds_matrices(path)) return sets_of_superelement(path);

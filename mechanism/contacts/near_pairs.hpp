@@ -32,7 +32,7 @@ class NearPairs {
   /// @param distance  `act` may reduce it meanwhile [m]
   template <class Act>
   void for_each_within(const std::vector<Bound>& bounds, const double& distance, const Act& act) const;
-  /// A lower bound of the gap of two shapes [m].
+  /// Returns a lower bound of the gap of two shapes [m].
   static double apart(const Bound& a, const Bound& b);
 
  private:

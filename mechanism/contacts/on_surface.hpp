@@ -212,7 +212,7 @@ class OnSurface {
     return {t, feature, place, at};
   }
 
-  /// Whether the nearest point is also that of the triangles that share the edge or corner.
+  /// Returns whether the nearest point is also that of the triangles that share the edge or corner.
   bool is_local(const Found& each, const std::vector<Found>& all, double same) const {
     const std::vector<int> around = triangles().sharing(each.triangle, each.feature);
     return std::all_of(around.begin(), around.end(), [&](int t) {

@@ -145,7 +145,7 @@ class StepOfPair {
   Triple<T> turn_;  ///< q/w
 };
 
-/// The magnitude |v|. It has no derivative at rest; there nothing that depends on it changes.
+/// Returns the magnitude |v|. It has no derivative at rest; there nothing that depends on it changes.
 template <class T>
 T size_of(const Triple<T>& v) {
   const T squared = dot(v, v);

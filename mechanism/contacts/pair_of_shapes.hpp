@@ -23,7 +23,8 @@ Touch<T> touch_of(const PointDistance<T>& found, double point_skin, double core_
   return touch;
 }
 
-/// Whether the nearest points of the lines along u and v are inside of both; the second begins at d from the first.
+/// Returns whether the nearest points of the lines along u and v are inside of both; the second begins at d from the
+/// first.
 /// @param between  the square of their distance there
 inline bool crosses_inside(const Vector3& u, const Vector3& v, const Vector3& d, double& between) {
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), D = uu * vv - uv * uv;
@@ -33,7 +34,7 @@ inline bool crosses_inside(const Vector3& u, const Vector3& v, const Vector3& d,
   return s > 0 && s < 1 && t > 0 && t < 1;
 }
 
-/// Whether two edges cross at a distance smaller than `skins`.
+/// Returns whether two edges cross at a distance smaller than `skins`.
 template <class T>
 bool crosses_within(const Ends<T>& a, const Ends<T>& b, double skins) {
   const Vector3 from = value_of(a[0]), u = value_of(a[1]) - from, start = value_of(b[0]), v = value_of(b[1]) - start;
@@ -94,7 +95,7 @@ class PairOfShapes {
     return corner_on(side, corner, SegmentTarget<T>{ends[0], ends[1]}, shapes_[1 - side]->skin());
   }
 
-  /// Whether an end of a cylinder may touch the other shape, which is no surface.
+  /// Returns whether an end of a cylinder may touch the other shape, which is no surface.
   bool may_touch(std::size_t side, std::size_t k) const {
     const ContactShape &of = *shapes_[side], &other = *shapes_[1 - side];
     if (of.kind != ContactShape::Kind::cylinder) return true;

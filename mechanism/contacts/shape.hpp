@@ -52,7 +52,7 @@ struct ContactShape {
   std::vector<std::array<int, 2>> edges_;
 };
 
-/// Whether two kinds of shapes can be in contact.
+/// Returns whether two kinds of shapes can be in contact.
 bool can_touch(ContactShape::Kind a, ContactShape::Kind b);
 /// Lists the kinds that a kind can touch: "sphere, plane".
 std::string touchable_kinds(ContactShape::Kind kind);

@@ -156,7 +156,7 @@ Vector3 TriangleSurface::outward(int triangle, int feature) const {
   return sum;
 }
 
-/// Whether the nearest place is also that of the neighbours that share the edge or corner.
+/// Returns whether the nearest place is also that of the neighbours that share the edge or corner.
 bool TriangleSurface::is_local(int triangle, const Nearest& found, const Vector3& point) const {
   if (found.feature < 0) return true;
   const Triangle& corners = triangles_[static_cast<std::size_t>(triangle)];

@@ -18,7 +18,7 @@ class Drawing {
   /// @param entry  section and name, "joints/main" @param type  as in the file, "hinge"
   /// @param shaped  whether the user has given it shapes
   void begin(const std::string& entry, const std::string& type, bool shaped = false);
-  /// Whether the user has given shapes to the entry: its component then adds only what these do not show.
+  /// Returns whether the user has given shapes to the entry: its component then adds only what these do not show.
   bool shaped() const { return shaped_; }
 
   /// Adds an item. Its entry and type are those of begin, unless it has its own.

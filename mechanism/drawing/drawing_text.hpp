@@ -23,7 +23,7 @@ struct NamedMesh {
 class DrawnMeshes {
  public:
   explicit DrawnMeshes(const Drawing& drawing);
-  /// The meshes with their names; equal names of different meshes are numbered: "arm", "arm_2".
+  /// Returns the meshes with their names; equal names of different meshes are numbered: "arm", "arm_2".
   const std::vector<NamedMesh>& all() const { return all_; }
   /// Returns the name of an item's mesh.
   const std::string& name_of(const DrawnMesh& mesh) const { return all_[index_.at(&mesh)].name; }

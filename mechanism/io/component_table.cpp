@@ -40,7 +40,7 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// The table of a type whose entries can be inactive.
+/// Returns the table of a type whose entries can be inactive.
 template <const KeyTable& (*keys)()>
 const KeyTable& with_activity() {
   static const KeyTable table = [] {

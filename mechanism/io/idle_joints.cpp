@@ -9,7 +9,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Whether a node is fixed in all directions, without a motion.
+/// Returns whether a node is fixed in all directions, without a motion.
 bool stands_still(const Node& node) {
   return std::all_of(node.freedom.begin(), node.freedom.end(), [](Freedom f) { return f == Freedom::fixed; });
 }

@@ -13,7 +13,7 @@ namespace bielle::mechanism {
 /// @param scope  the one of the section, or one that knows the numbers of this repetition
 using UseEntry = std::function<void(const std::string& name, const Tree& value, const Scope& scope)>;
 
-/// Whether a condition, `true`, `false` or a number, is true or not zero. @param path  of the condition
+/// Returns whether a condition, `true`, `false` or a number, is true or not zero. @param path  of the condition
 bool holds(const YamlNode& condition, const Scope& scope, const std::string& path);
 
 /// Calls `use` for each entry that is there, once for each repetition. @param path  of the section, for messages

@@ -30,7 +30,7 @@ const KeyTable* table_of(const KeyForms& forms, const YamlNode& map) {
   return first;
 }
 
-/// Whether the keys of a map of entries are names of things in the model.
+/// Returns whether the keys of a map of entries are names of things in the model.
 bool names_things(const KeyForm& entries) {
   static const std::vector<std::string> things = {"node",  "joint", "element", "measure", "event",
                                                   "state", "input", "drive",   "load",    "hydraulics"};
@@ -42,16 +42,16 @@ bool is_orientation(const std::string& key) {
   return std::any_of(keys.begin(), keys.end(), [&](const Key& each) { return each.name == key; });
 }
 
-/// Whether an orientation in a map of a table is relative to the inertial axes.
+/// Returns whether an orientation in a map of a table is relative to the inertial axes.
 bool has_inertial_orientation(const KeyTable& table) {
   const Key* matrix = table.find("matrix");
   return matrix && matrix->forms.front().inertial;
 }
 
-/// Whether a value names the ground, whose axes are the inertial ones: those in which the part is written.
+/// Returns whether a value names the ground, whose axes are the inertial ones: those in which the part is written.
 bool is_ground(const Tree& node) { return node && node->scalar == "ground"; }
 
-/// Whether the position and orientation in a map are relative to a node, which is placed itself.
+/// Returns whether the position and orientation in a map are relative to a node, which is placed itself.
 bool is_relative_frame(const KeyTable& table, const YamlNode& map) {
   const Tree at = find_value(map, "at");
   return has_inertial_orientation(table) && at && !is_ground(at);
@@ -72,7 +72,7 @@ Tree node_of_vectors(const YamlNode& map) {
   return type && type->scalar == "node_force" && nodes->items.size() == 2 ? nodes->items[1] : nullptr;
 }
 
-/// Whether the components of a vector in a map are along axes of a node after all.
+/// Returns whether the components of a vector in a map are along axes of a node after all.
 bool is_along_own_axes(const std::string& key, const YamlNode& map) {
   const Tree seen_from = find_value(map, "relative_to");
   if (key == "direction") return seen_from && !is_ground(seen_from);

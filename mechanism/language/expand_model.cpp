@@ -279,7 +279,7 @@ class Expander {
 
 bool is_body_point(const YamlNode& node) { return node.kind == YamlNode::Kind::map && find_pair(node, "body"); }
 
-/// Whether an entry has something that has to be expanded.
+/// Returns whether an entry has something that has to be expanded.
 bool entry_uses_language(const YamlNode& entry) {
   for (const char* key : {"repeat", "if", "carried_by"})
     if (find_pair(entry, key)) return true;

@@ -14,9 +14,9 @@ const std::vector<std::string>& sections_of_entries();
 /// Keys that every entry of a section may have: `if`, `repeat`.
 std::vector<Key> entry_keys();
 const KeyTable& repeat_keys();
-/// A placed part: an entry of the section `parts`.
+/// Returns the table of a placed part: an entry of the section `parts`.
 const KeyTable& part_keys();
-/// A point of a body, in place of the name of a node.
+/// Returns the table of a point of a body, in place of the name of a node.
 const KeyTable& body_point_keys();
 
 }  // namespace bielle::mechanism

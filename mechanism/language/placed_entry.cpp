@@ -66,7 +66,7 @@ std::string fault_of_mirror(const YamlNode& entry, const std::string& section) {
   return {};
 }
 
-/// Whether held directions are the same ones in axes that are turned. Those of a mirror image always are.
+/// Returns whether held directions are the same ones in axes that are turned. Those of a mirror image always are.
 bool are_same_when_placed(const YamlNode& fixed, const Placement& placement) {
   if (placement.frame.R.isIdentity(0) || fixed.kind != YamlNode::Kind::sequence) return true;
   int translations = 0, rotations = 0;
@@ -74,7 +74,7 @@ bool are_same_when_placed(const YamlNode& fixed, const Placement& placement) {
   return (translations == 0 || translations == 3) && (rotations == 0 || rotations == 3);
 }
 
-/// Whether a prescribed motion is the same one in a mirror: along the mirror, or turning about its normal.
+/// Returns whether a prescribed motion is the same one in a mirror: along the mirror, or turning about its normal.
 bool is_same_when_placed(const YamlNode& motion, const Placement& placement) {
   if (!placement.frame.R.isIdentity(0)) return false;
   const char normal = static_cast<char>('x' + placement.mirrored);

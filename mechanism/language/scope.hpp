@@ -30,7 +30,7 @@ struct Scope {
 
   /// Returns a scope for something within this one. @pre this one lives longer
   Scope inner() const;
-  /// Whether names or numbers have to be replaced.
+  /// Returns whether names or numbers have to be replaced.
   bool replaces() const;
   /// Returns the name in the model of a thing that the part names; nothing if the part has no such thing.
   std::optional<std::string> name_of(const std::string& name) const;

@@ -111,7 +111,7 @@ Matrix6 read_damping(const YamlValue& value, const Matrix6& K) {
   return D;
 }
 
-/// Whether a text is a file name, with the ending of a table; other text is a formula.
+/// Returns whether a text is a file name, with the ending of a table; other text is a formula.
 bool names_table(const YamlValue& value) {
   if (!value.is_scalar() || value.is_null()) return false;
   const std::string text = value.text();

@@ -10,7 +10,7 @@
 
 namespace bielle::mechanism {
 
-/// The key `file` of a matrix.
+/// Returns the key `file` of a matrix.
 const KeyTable& matrix_keys();
 /// Returns the forms of a matrix: by rows, or `{file: k.csv}`.
 KeyForms forms_of_matrix(std::size_t rows, const std::string& unit);

@@ -192,7 +192,7 @@ void CondensedLU::Block::set_row_floor(const std::vector<double>& rest_values, c
   }
 }
 
-/// Whether entries have grown so little that rounding errors of the pivots are negligible.
+/// Returns whether entries have grown so little that rounding errors of the pivots are negligible.
 bool CondensedLU::Block::harmless(const VectorX& rest_scale) const {
   constexpr double most_growth = 1e4;
   for (Eigen::Index j = 0; j < change.cols(); ++j) {

@@ -28,7 +28,7 @@ class Curve {
   double end() const { return knots_.back(); }  ///< largest u, which begins with 0; the period of a closed curve
   /// Arc length from u = 0, negative before it: Gauss quadrature on sixteen parts of each piece.
   double arc_length(double u) const;
-  /// The parameter of the point of the curve that is closest to a given point.
+  /// Returns the parameter of the point of the curve that is closest to a given point.
   double nearest(const Vector3& point) const;
 
  private:

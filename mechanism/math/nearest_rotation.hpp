@@ -14,7 +14,7 @@ inline constexpr double rotation_margin = 1e-3;
 /// Why a matrix is no rotation, as a part of a sentence about its columns; nothing where it is one within the margin.
 std::optional<std::string> rotation_fault(const Matrix3& A);
 
-/// The rotation with the smallest sum of squared differences to A. @param A  with a positive determinant
+/// Returns the rotation with the smallest sum of squared differences to A. @param A  with a positive determinant
 Matrix3 nearest_rotation(const Matrix3& A);
 
 }  // namespace bielle::mechanism

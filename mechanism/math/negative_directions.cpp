@@ -100,7 +100,7 @@ class Saddle {
     return static_cast<int>((values.array() < -rounding * values.cwiseAbs().maxCoeff()).count());
   }
 
-  /// The lower triangle of the matrix, in the order of elimination.
+  /// Returns the lower triangle of the matrix, in the order of elimination.
   Sparse lower() const {
     std::vector<Eigen::Triplet<double>> entries;
     const auto add = [&](int i, int j, double value) { entries.emplace_back(std::max(i, j), std::min(i, j), value); };

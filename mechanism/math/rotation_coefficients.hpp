@@ -82,7 +82,7 @@ constexpr std::array<double, N - 1> derivative_series(const std::array<double, N
 
 inline constexpr std::size_t inverse_terms = 18;
 
-/// The coefficients beta_j; the tail of the sum over k is computed by the Euler-Maclaurin formula.
+/// Returns the coefficients beta_j; the tail of the sum over k is computed by the Euler-Maclaurin formula.
 constexpr std::array<double, inverse_terms> beta_series() {
   std::array<double, inverse_terms> beta{};
   const double first = 3, last = 200;

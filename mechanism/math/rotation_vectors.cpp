@@ -39,7 +39,7 @@ Quaternion quaternion_of_rodrigues(const Vector3& g) {
   return with_parts(1 / scale, g / scale);
 }
 
-/// A multiple of the quaternion (2 - |c|^2/8, c), scaled so that no square overflows.
+/// Returns a multiple of the quaternion (2 - |c|^2/8, c), scaled so that no square overflows.
 Quaternion quaternion_of_conformal(const Vector3& c) {
   const double scale = std::max(1.0, c.stableNorm());
   if (!std::isfinite(scale)) throw ComputationError("a conformal rotation vector must be finite");

@@ -25,7 +25,7 @@ inline Matrix3 skew(const Vector3& a) {
 /// Converts radians to degrees.
 inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
-/// The vector a of the skew part of A: (A - A^T)/2 = a~.
+/// Returns the vector a of the skew part of A: (A - A^T)/2 = a~.
 inline Vector3 skew_vector(const Matrix3& A) {
   return 0.5 * Vector3(A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1));
 }

@@ -51,8 +51,8 @@ class Activities {
   explicit Activities(const Model& model);
   bool any() const { return !begin_.empty(); }
   bool is_governed(std::size_t member) const { return any() && begin_[member] < begin_[member + 1]; }
-  /// Whether a member is in the equations at a state. A member that several activities govern (a drive: its own and
-  /// that of its joint) is active if all of them are.
+  /// Returns whether a member is in the equations at a state. A member that several activities govern (a drive: its own
+  /// and that of its joint) is active if all of them are.
   bool is_active(const VectorX& memory, const std::vector<Slots>& slots, std::size_t member) const {
     if (!any()) return true;
     for (std::size_t k = begin_[member]; k < begin_[member + 1]; ++k)
@@ -68,8 +68,8 @@ class Activities {
   std::vector<std::size_t> governor_;  ///< members that are activities
 };
 
-/// Whether values in these units are those of forces, or follow from them (stresses, powers, energies), or of flows: a
-/// released entry has none.
+/// Returns whether values in these units are those of forces, or follow from them (stresses, powers, energies), or of
+/// flows: a released entry has none.
 bool are_units_of_forces(const std::string& units);
 
 }  // namespace bielle::mechanism

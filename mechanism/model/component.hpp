@@ -193,14 +193,14 @@ class Component {
   /// Describes in a clause what is wrong with an assembled position although its constraint rows vanish (axes that
   /// point in opposite directions); empty if nothing is wrong.
   virtual std::string wrong_branch(const LocalState& /*state*/) const { return {}; }
-  /// The rotation of the second node relative to the first that would align the directions compared by the constraints:
-  /// the smallest rotation vector (inertial components), up to half a turn [rad]. Zero if the constraints compare no
-  /// directions.
+  /// Returns the rotation of the second node relative to the first that would align the directions compared by the
+  /// constraints: the smallest rotation vector (inertial components), up to half a turn [rad]. Zero if the constraints
+  /// compare no directions.
   virtual Vector3 misalignment(const LocalState& /*state*/) const { return Vector3::Zero(); }
 
   virtual void add_energy(const LocalState& /*state*/, Energy& /*energy*/) const {}
 
-  /// The quantities that the component can record, and their values one after the other in the same order.
+  /// Returns the quantities that the component can record, and their values one after the other in the same order.
   virtual std::vector<OutputField> output_fields() const { return {}; }
   virtual void write_output(const LocalState& /*state*/, double* /*values*/) const {}
   /// Quantities of the component's mesh. @returns nullptr if it has none
@@ -226,7 +226,7 @@ class Component {
   /// old one).
   virtual void accept(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
 
-  /// Values of the declared event functions at a state (crossings). Each should be smooth on either side of its zero.
+  /// Values of the declared event functions at a state. Each should be smooth on either side of its zero.
   virtual void calc_event_functions(const LocalState& /*state*/, Eigen::Ref<VectorX> /*values*/) const {}
 
   /// Computes new values of the component's memory at the start of a motion and after every discontinuity (an event
@@ -236,8 +236,8 @@ class Component {
   virtual void begin_branch(const LocalState& /*state*/, std::span<const int> /*crossed*/,
                             Eigen::Ref<VectorX> /*memory*/) const {}
 
-  /// Whether the memory of a state from outside (a file, a user) is valid for this component: every number or index
-  /// that it refers to exists. Its numbers are known to be finite, except those that have no initial value.
+  /// Returns whether the memory of a state from outside (a file, a user) is valid for this component: every number or
+  /// index that it refers to exists. Its numbers are known to be finite, except those that have no initial value.
   virtual bool knows_memory(const LocalState& /*state*/) const { return true; }
 
   /// Computes new values of the component's memory at the beginning of a motion or a static analysis, as far as they
@@ -249,8 +249,8 @@ class Component {
   /// is that of the release. After the state has been made consistent, `accept` follows.
   virtual void activate(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
 
-  /// Whether the motion continues after an accepted step on another branch than that of the step, although no event was
-  /// detected: the motion is then restarted there.
+  /// Returns whether the motion continues after an accepted step on another branch than that of the step, although no
+  /// event was detected: the motion is then restarted there.
   virtual bool leaves_branch(const LocalState& /*state*/) const { return false; }
 
   /// Adds the component's part of the norm of reactions, a quadratic form of its own multipliers: the square of the
@@ -272,10 +272,10 @@ class Component {
   virtual StartCoordinateValue calc_start_coordinate(std::size_t index, const LocalState& state,
                                                      MeasureGradient& gradient) const;
 
-  /// A warning about an unusual but valid input: a clause for summaries, or empty.
+  /// Returns a warning about an unusual but valid input: a clause for summaries, or empty.
   virtual std::string remark() const { return {}; }
 
-  /// Whether a switched constraint row is in the equations, according to the component's memory.
+  /// Returns whether a switched constraint row is in the equations, according to the component's memory.
   virtual bool is_on(const LocalState& /*state*/, int /*row*/) const { return true; }
 
   /// Adds the times at which the component's forces or prescribed motions have kinks: steps end there.

@@ -33,9 +33,9 @@ class EventActions {
   /// @param state    state just before; its memory already has the changes of earlier actions of the same instant
   /// @param crossed  numbers of the component's own event functions that crossed zero, at least one
   virtual void act(const LocalState& state, std::span<const int> crossed, const ReferencedMemory& memory) const = 0;
-  /// Whether there is anything to do, be it to count.
+  /// Returns whether there is anything to do, be it to count.
   virtual bool has_actions() const = 0;
-  /// Whether actions may switch constraints or forces on or off: only a motion with inertia follows them.
+  /// Returns whether actions may switch constraints or forces on or off: only a motion with inertia follows them.
   virtual bool switches_parts() const = 0;
 };
 

@@ -38,7 +38,7 @@ class Measure : public Component {
   virtual double value(const LocalState& state) const = 0;
   /// @param gradient  resized to the measure's size and zeroed by this function
   virtual double calc(const LocalState& state, MeasureGradient& gradient) const = 0;
-  /// Whether the measure depends on multipliers.
+  /// Returns whether the measure depends on multipliers.
   virtual bool reads_reactions() const { return false; }
 
   void declare(Declaration& declaration) const final {

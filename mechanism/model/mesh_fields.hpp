@@ -36,7 +36,7 @@ class MeshFields {
   /// Asks for these; called once.
   virtual void record_peaks(const std::vector<std::string>& quantities) = 0;
 
-  /// Whether the outputs are so large that they are cheaper to compute for several states at once.
+  /// Returns whether the outputs are so large that they are cheaper to compute for several states at once.
   virtual bool outputs_together() const = 0;
   /// The same as Component::write_output for each of the states. @param values  of each state
   virtual void write_outputs(std::span<const LocalState> states, std::span<double* const> values) const = 0;

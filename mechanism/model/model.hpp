@@ -85,7 +85,8 @@ class Model {
   /// Returns the components of these members.
   std::vector<Component*> components_of(const Entry& entry) const;
 
-  /// The components of the element, the joint and the hydraulic part with this name, and those that act in them.
+  /// Returns the components of the element, the joint and the hydraulic part with this name, and those that act in
+  /// them.
   std::vector<Component*> components_named(const std::string& name) const;
 
   /// Registers an action that needs other entries of the input file. Actions run after all entries have been read:
@@ -105,7 +106,7 @@ class Model {
   /// Returns a measure by its name, created now if it is announced, or nullptr. @throws InputError if it is already
   /// being created
   const Measure* find_measure(const std::string& name);
-  /// Whether entries that are still being read may use a measure of this name.
+  /// Returns whether entries that are still being read may use a measure of this name.
   bool announces_measure(const std::string& name) const { return announced_index_.contains(name); }
   /// Names of the announced measures, sorted.
   std::vector<std::string> announced_measures() const;

@@ -94,7 +94,7 @@ class PrescribedMotion::Integral {
     end_ = next != breaks_.end() && begin + width >= *next ? *next : begin + width;
   }
 
-  /// Whether the sum of both halves agrees with the whole piece.
+  /// Returns whether the sum of both halves agrees with the whole piece.
   bool settled(double begin, double width) const {
     const double middle = begin + 0.5 * width, end = begin + width;
     const Travel whole = gained(acceleration_, begin, end), first = gained(acceleration_, begin, middle),

@@ -111,17 +111,17 @@ class LocalState {
     return {state_.first_order_rate.data() + slots_.first_order_begin, slots_.first_orders};
   }
   Segment multiplier() const { return {state_.multiplier.data() + slots_.multiplier_begin, slots_.multipliers}; }
-  /// The multipliers as reported and as read by forces: those of the reactions of smallest norm if redundancy leaves
-  /// them undetermined.
+  /// Returns the multipliers as reported and as read by forces: those of the reactions of smallest norm if redundancy
+  /// leaves them undetermined.
   Segment reaction() const {
     const VectorX& reported = state_.reaction.size() > 0 ? state_.reaction : state_.multiplier;
     return {reported.data() + slots_.multiplier_begin, slots_.multipliers};
   }
-  /// Whether the k-th own constraint is out of the equations.
+  /// Returns whether the k-th own constraint is out of the equations.
   bool idle(int k) const {
     return !state_.idle.empty() && state_.idle[static_cast<std::size_t>(slots_.multiplier_begin + k)] != 0;
   }
-  /// Whether the k-th own first-order unknown keeps its value, in a static analysis that does not determine it.
+  /// Returns whether the k-th own first-order unknown keeps its value, in a static analysis that does not determine it.
   bool held(int k) const {
     return environment_.statics && !state_.held.empty() &&
            state_.held[static_cast<std::size_t>(slots_.first_order_begin + k)] != 0;

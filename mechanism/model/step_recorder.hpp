@@ -38,8 +38,8 @@ class StepRecorder {
   /// recorder with an empty voice always writes its own.
   virtual std::string voice() const { return {}; }
   virtual double loudness() const { return 0; }
-  /// The gathered quantity and its component: "peaks of 'rod': von_mises". A run can only be continued if it is the
-  /// same.
+  /// Returns the gathered quantity and its component: "peaks of 'rod': von_mises". A run can only be continued if it is
+  /// the same.
   virtual std::string what() const = 0;
 };
 

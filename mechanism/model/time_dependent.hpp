@@ -24,7 +24,7 @@ class TimeDependent {
     Part part = Part::force;
     bool turns = false;  ///< whether it is a position in rad, or the rate of one
   };
-  /// The formulas that contain t, directly or through measures, in the order of `calc_time_formulas`.
+  /// Returns the formulas that contain t, directly or through measures, in the order of `calc_time_formulas`.
   virtual std::vector<Formula> time_formulas() const = 0;
   /// Values of these formulas at the state's time; zero if they have no effect any more.
   /// @param state   state of the component

@@ -50,7 +50,7 @@ std::string place_of_item(std::size_t item, const Shape& leading) {
   return fmt::format("item ({}): ", text);
 }
 
-/// The dimensions before those of an item of the first array. All arrays must have as many items.
+/// Returns the dimensions before those of an item of the first array. All arrays must have as many items.
 template <class First, class... Rest>
 Shape leading_shape(const std::vector<Items>& arrays) {
   if (arrays.size() != 1 + sizeof...(Rest)) throw py::value_error("another number of arrays is expected");

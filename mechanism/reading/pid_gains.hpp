@@ -15,7 +15,7 @@ struct PidGains {
   double filter = 0;        ///< time constant of the filter of the derivative [s] >= 0; 0: none
 };
 
-/// The keys `kp`, `ki`, `kd` and `filter`.
+/// Returns the keys `kp`, `ki`, `kd` and `filter`.
 /// @param output  the controller's output in words, "torque or force" @param input  its input in words, "error"
 std::vector<Key> pid_gain_keys(const std::string& output, const std::string& input);
 /// Reads these keys. @throws InputError if all gains are zero, or if the filter is that of no derivative

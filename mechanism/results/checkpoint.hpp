@@ -32,7 +32,7 @@ struct Checkpoint {
 /// continued with the same fingerprint.
 std::string fingerprint(const Model& model);
 
-/// The last checkpoint of a results file.
+/// Returns the last checkpoint of a results file.
 /// @throws InputError if the file contains none, or belongs to another model or another version of the program
 Checkpoint read_checkpoint(const std::string& results_path, const Model& model);
 

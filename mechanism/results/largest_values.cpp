@@ -26,7 +26,7 @@ constexpr std::array<Wording, 10> wordings{{{"reaction force", "N"},
                                             {"von Mises stress of a body", "Pa"},
                                             {"pressure", "Pa"}}};
 
-/// The unit of one component of a field whose components have units of their own, "N m, N".
+/// Returns the unit of one component of a field whose components have units of their own, "N m, N".
 std::string_view unit_of(const std::string& units, std::size_t component) {
   std::string_view rest = units;
   for (std::size_t comma = rest.find(", "); comma != std::string_view::npos && component > 0;

@@ -21,7 +21,7 @@ class LargestValues {
   void begin(std::string rows, std::string time, std::string unit);
   /// Takes a row of results into account. @param values  all values of the row
   void add(double time, const double* values);
-  /// A line for each quantity that some entry records and that was not zero in all rows.
+  /// Returns a line for each quantity that some entry records and that was not zero in all rows.
   std::string summary() const;
 
  private:

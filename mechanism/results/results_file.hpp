@@ -80,8 +80,8 @@ class ResultsFile : public ResultSink {
   std::string largest_values();
   void complete() override;  ///< marks the file `complete = true` and closes it
 
-  /// The file, which may be written between begin_analysis and end_analysis while no row is waiting, and the path of
-  /// the open analysis's group.
+  /// Returns the file, which may be written between begin_analysis and end_analysis while no row is waiting, and the
+  /// path of the open analysis's group.
   Hdf5File& file();
   std::string analysis_group() const;
 

@@ -64,9 +64,9 @@ class EnergyBalance {
   double balance() const { return stored(totals_) - start_ - totals_.input + totals_.dissipation; }
   double energy_at_start() const { return start_; }
   double largest() const { return largest_; }  ///< largest stored energy, gravity relative to its start [J]
-  /// The energy that has flowed through: the larger of input and dissipation, as sums of absolute values [J].
+  /// Returns the energy that has flowed through: the larger of input and dissipation, as sums of absolute values [J].
   double through() const { return flow_.larger(); }
-  /// The largest error of a turnover [J], and the energy that flowed through in the largest one [J].
+  /// Returns the largest error of a turnover [J], and the energy that flowed through in the largest one [J].
   double largest_error() const { return std::max(largest_error_, std::abs(error() - error_before_)); }
   double largest_turnover() const { return std::max(largest_turnover_, turnover_.larger()); }
   void exchange(Archive& archive) {

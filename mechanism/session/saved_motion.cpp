@@ -12,7 +12,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Whether two states agree bit by bit.
+/// Returns whether two states agree bit by bit.
 bool same_motion(const State& a, const State& b) {
   const auto same = [](const NodeState& one, const NodeState& other) {
     return one.x == other.x && one.R == other.R && one.v == other.v && one.Omega == other.Omega;

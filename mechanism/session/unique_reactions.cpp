@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 
 namespace {
 
-/// Whether none of a member's multipliers is in the ascending list of those that are not unique.
+/// Returns whether none of a member's multipliers is in the ascending list of those that are not unique.
 bool all_unique(const Slots& slots, const std::vector<int>& free) {
   const auto first = std::lower_bound(free.begin(), free.end(), slots.multiplier_begin);
   return first == free.end() || *first >= slots.multiplier_begin + slots.multipliers;

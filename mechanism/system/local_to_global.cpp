@@ -5,7 +5,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Whether every node of a component and of its references is free in all directions or held in all.
+/// Returns whether every node of a component and of its references is free in all directions or held in all.
 bool is_plain(const NodeKinematics& kinematics, const Slots& slots) {
   const auto plain_node = [&](int node) {
     return !kinematics.carry(node) && (kinematics.freedom(node).all_free || kinematics.freedom(node).count == 0);

@@ -41,7 +41,7 @@ class NodeKinematics {
 
   int unknowns() const { return unknowns_; }
   const NodeFreedom& freedom(int node) const { return freedom_[static_cast<std::size_t>(node)]; }
-  /// The node that an independent unknown moves.
+  /// Returns the node that an independent unknown moves.
   int node_of(int unknown) const { return node_of_unknown_[static_cast<std::size_t>(unknown)]; }
   /// A node that is free in all directions, and its first unknown: most nodes are, so that they have loops of their
   /// own.

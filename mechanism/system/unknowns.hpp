@@ -40,7 +40,7 @@ class Unknowns {
   /// Index of the member whose component is given; the component must belong to the model.
   std::size_t member_of(const Component& component) const { return member_index_.at(&component); }
 
-  /// Whether a member is in the equations at a state; otherwise it has been released, and nobody evaluates it.
+  /// Returns whether a member is in the equations at a state; otherwise it has been released, and nobody evaluates it.
   bool is_active(const State& state, std::size_t member) const { return activities_.is_active(state, slots_, member); }
   const Activities& activities() const { return activities_; }
 

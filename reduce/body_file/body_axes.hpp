@@ -22,7 +22,7 @@ Eigen::Matrix3d read_axes(const YamlValue& value);
 /// Rotation by a vector along its axis, whose length is the angle [rad].
 Eigen::Matrix3d read_rotation_vector(const YamlValue& value);
 
-/// The triad of two directions. @param place  stands in the message @throws InputError when they are parallel
+/// Returns the triad of two directions. @param place  stands in the message @throws InputError when they are parallel
 Eigen::Matrix3d triad(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const YamlValue& place);
 
 }  // namespace bielle::reduce

@@ -42,7 +42,7 @@ const KeyTable& body_file_keys();
 /// @throws InputError `file:line: key: what was expected; did you mean ...`
 BodyFile read_body_file(const std::string& path);
 
-/// The same from text; `name` stands for the file, and its folder for the place of the geometry.
+/// Reads the same from text; `name` stands for the file, and its folder for the place of the geometry.
 BodyFile parse_body_file(const std::string& text, const std::string& name);
 
 /// The geometry that a body file names, which may be unfinished otherwise.

@@ -29,10 +29,10 @@ KeyForm directions_form();
 /// `rigid`, `average` or `free`. @throws InputError for other words
 Tie read_tie(const YamlValue& value);
 
-/// A list of x, y, z, rx, ry, rz. @param tie  nodes of free ones have no rotations
+/// Returns a list of x, y, z, rx, ry, rz. @param tie  nodes of free ones have no rotations
 std::array<bool, 6> read_directions(const YamlValue& value, Tie tie = Tie::rigid);
 
-/// The words of directions: x, y, z, rx, ry, rz.
+/// Returns the words of directions: x, y, z, rx, ry, rz.
 std::vector<std::string> direction_names(const std::array<bool, 6>& directions);
 
 /// Returns the keys of an interface.

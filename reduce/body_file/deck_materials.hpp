@@ -9,7 +9,7 @@
 
 namespace bielle::reduce {
 
-/// The units of mass that a body file may name, for the values of a deck.
+/// Returns the units of mass that a body file may name, for the values of a deck.
 std::vector<std::string> mass_units();
 /// Kilograms per unit of these.
 double kilograms_per(const std::string& unit);

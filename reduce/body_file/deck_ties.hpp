@@ -56,7 +56,7 @@ struct Deck {
 /// @param notes  gets the reader's notes @throws InputError with the reader's sentence
 Deck read_deck(const std::string& path, const std::optional<std::string>& length_unit, std::vector<std::string>& notes);
 
-/// The ties and masses as lines for the terminal, which `--list` prints; empty if there are none.
+/// Returns the ties and masses as lines for the terminal, which `--list` prints; empty if there are none.
 std::string describe(const Deck& deck);
 
 /// The deck of a body's geometry. It is read when the first interface or mass asks for it.

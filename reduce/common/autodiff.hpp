@@ -113,7 +113,7 @@ struct AutoDiff : SecondDerivatives<N, order, most> {
     else
       return Gradient::Zero();
   }
-  /// Whether a number of a dynamic number of increments has none.
+  /// Returns whether a number of a dynamic number of increments has none.
   static bool is_constant(const AutoDiff& a) { return is_dynamic && a.gradient.size() == 0; }
 };
 
@@ -128,7 +128,7 @@ double value_of(const AutoDiff<N, order, most>& a) {
   return a.value;
 }
 
-/// A function p(f). @param p,p1,p2  the function and its first two derivatives at f
+/// Returns a function p(f). @param p,p1,p2  the function and its first two derivatives at f
 inline double compose(double /*f*/, double p, double /*p1*/, double /*p2*/ = 0) { return p; }
 template <int N, int order, int most>
 AutoDiff<N, order, most> compose(const AutoDiff<N, order, most>& f, double p, double p1, double p2 = 0) {
@@ -156,7 +156,7 @@ AutoDiff<N, order, most> compose_first(const AutoDiff<N, order, most>& f, const 
   return result;
 }
 
-/// A function p(f, h). @param p_f,..  partial derivatives at (f, h)
+/// Returns a function p(f, h). @param p_f,..  partial derivatives at (f, h)
 template <int N, int order, int most>
 AutoDiff<N, order, most> compose(const AutoDiff<N, order, most>& f, const AutoDiff<N, order, most>& h, double p,
                                  double p_f, double p_h, double p_ff = 0, double p_fh = 0, double p_hh = 0) {

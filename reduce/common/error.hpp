@@ -22,8 +22,8 @@ class Failure : public std::runtime_error {
   /// @param subject  the key of the input that the message is about, as the user knows it: "interfaces.big_end.surface"
   Failure(const std::string& subject, const std::string& message, Subject is = Subject::shown)
       : std::runtime_error(with_subject(subject, message, is)), subject_(subject) {}
-  /// The key whose place in the input file the program puts before the message. It is empty if the message contains
-  /// the place already, or if it is about no key.
+  /// Returns the key whose place in the input file the program puts before the message. It is empty if the message
+  /// contains the place already, or if it is about no key.
   const std::string& subject() const { return subject_; }
 
  private:
@@ -54,8 +54,8 @@ auto about(const std::string& subject, const Work& work, Subject is = Subject::s
   }
 }
 
-/// The candidate closest to `name` by edit distance (insertions, deletions, exchanges, swaps; case ignored); empty when
-/// none is close enough to be a likely slip (more than a third of the letters differ).
+/// Returns the candidate closest to `name` by edit distance (insertions, deletions, exchanges, swaps; case ignored);
+/// empty when none is close enough to be a likely slip (more than a third of the letters differ).
 std::string nearest_name(const std::string& name, std::span<const std::string> candidates);
 
 /// "; did you mean 'damping'?" or, when nothing is near, "; expected one of 'a', 'b', 'c'" (at most 12 shown).

@@ -27,7 +27,7 @@ std::string single_blanks(const std::string& text) {
   return joined;
 }
 
-/// The fixed texts of a message between its values.
+/// Returns the fixed texts of a message between its values.
 std::vector<std::string> fixed_texts(const std::string& message) {
   std::vector<std::string> texts;
   for (std::size_t begin = 0; begin <= message.size();) {
@@ -50,7 +50,7 @@ std::size_t matched_letters(const std::string& message, const std::string& text)
   return letters;
 }
 
-/// The words of a text in lower case, without numbers and words of one or two letters.
+/// Returns the words of a text in lower case, without numbers and words of one or two letters.
 std::set<std::string> words_of(const std::string& text) {
   std::set<std::string> words;
   std::string word;
@@ -72,7 +72,7 @@ double likeness(const std::string& message, const std::set<std::string>& given) 
   return words.empty() ? 0 : static_cast<double>(found) / static_cast<double>(words.size());
 }
 
-/// The text without marks of bold letters, and with links as their words: "[page](page.md)" is "page".
+/// Returns the text without marks of bold letters, and with links as their words: "[page](page.md)" is "page".
 std::string without_marks(const std::string& text) {
   std::string plain;
   for (std::size_t k = 0; k < text.size(); ++k) {

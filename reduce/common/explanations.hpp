@@ -24,7 +24,7 @@ struct Explanation {
   std::string text;                   ///< cause and cure, Markdown
 };
 
-/// The pages of this program. Programs that link Bielle's libraries only have none.
+/// Returns the pages of this program. Programs that link Bielle's libraries only have none.
 std::vector<std::string_view> explanation_pages();
 
 std::vector<Explanation> read_explanations(const std::vector<std::string_view>& pages);

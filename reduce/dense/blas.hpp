@@ -42,8 +42,8 @@ Eigen::MatrixXd dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const 
 /// Version and kernels, e.g. "OpenBLAS 0.3.21, kernels for SkylakeX".
 std::string blas_description();
 
-/// A sentence if OpenBLAS runs slower kernels than this processor offers (because of OPENBLAS_CORETYPE, or because this
-/// OpenBLAS does not know the processor); otherwise empty.
+/// Returns a sentence if OpenBLAS runs slower kernels than this processor offers (because of OPENBLAS_CORETYPE, or
+/// because this OpenBLAS does not know the processor); otherwise empty.
 std::string blas_warning();
 
 /// Speed of a product of two square matrices [GFLOP/s], the best of `repeats`.

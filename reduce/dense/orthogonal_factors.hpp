@@ -21,7 +21,7 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
 /// A^+ (n,m) of A (m,n): A^+ b is the solution of `least_squares`.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 
-/// An orthonormal basis (n,k) of the null space of A (m,n), by QR with column pivoting of A^T.
+/// Returns an orthonormal basis (n,k) of the null space of A (m,n), by QR with column pivoting of A^T.
 /// @param dependent  a row counts as dependent if its part normal to the preceding rows is at most this share of the
 /// largest
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& A, double dependent);

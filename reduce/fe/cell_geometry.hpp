@@ -97,8 +97,9 @@ double map_point(const CellRule<N>& rule, std::size_t p, const CellPoints<N>& x,
   return rule.weights(p) * jacobian.determinant();
 }
 
-/// Whether the Jacobian is constant: the mid-side nodes of a tetrahedron are in the middle of their edges, another cell
-/// is the image of its reference cell under a linear map. @param x  points of the nodes (3, nodes of the type)
+/// Returns whether the Jacobian is constant: the mid-side nodes of a tetrahedron are in the middle of their edges,
+/// another cell is the image of its reference cell under a linear map. @param x  points of the nodes (3, nodes of the
+/// type)
 bool is_straight(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x);
 
 /// Degrees of the rules for straight cells and for others, see cell_quadrature.

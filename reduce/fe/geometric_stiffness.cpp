@@ -39,8 +39,8 @@ struct FieldMatrices {
   const double* column(std::int64_t pair) const { return values.get() + pair * fields; }
 };
 
-/// A rule that is exact to degree 3 (P. Keast, Comput. Methods Appl. Mech. Eng. 55 (1986) 339), for the product of a
-/// linear stress and two linear gradients.
+/// Returns a rule that is exact to degree 3 (P. Keast, Comput. Methods Appl. Mech. Eng. 55 (1986) 339), for the product
+/// of a linear stress and two linear gradients.
 Quadrature five_points() {
   Quadrature rule{Eigen::MatrixXd::Constant(3, 5, 1.0 / 6), Eigen::VectorXd::Constant(5, 3.0 / 40)};
   rule.points.leftCols<3>().diagonal().setConstant(0.5);

@@ -7,7 +7,7 @@
 
 namespace bielle::reduce {
 
-/// The integral of the strain xx yy zz yz xz xy (engineering shears) over the volume, divided by the volume.
+/// Returns the integral of the strain xx yy zz yz xz xy (engineering shears) over the volume, divided by the volume.
 /// @param fields  (3 points, k) displacements @returns (6, k)
 Eigen::MatrixXd mean_strain(const Solid& solid, const RowMatrix& fields);
 

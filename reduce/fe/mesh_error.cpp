@@ -24,7 +24,7 @@ constexpr Eigen::Index at_a_time = 9;  // number of fields; their stresses at al
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using RowArray = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The square root W of C = W W.
+/// Returns the square root W of C = W W.
 Matrix6 root_of(const Matrix6& elasticity) {
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(elasticity);
   const Matrix6 vectors = pairs.vectors;
@@ -123,7 +123,7 @@ class BlockError {
     return root * stress_rotation(material.axes_at(block_.centroid(e))).transpose();
   }
 
-  /// Whether the stress of a cell is the linear function that its sampling points give.
+  /// Returns whether the stress of a cell is the linear function that its sampling points give.
   static bool has_linear_stress(const CellPoints<N>& x) {
     return SolidCell<N>::is_simplex && is_straight(SolidCell<N>::type, x);
   }

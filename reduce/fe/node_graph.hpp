@@ -65,7 +65,7 @@ class CellPlaces {
   int nodes_[N], order_[N];  // nodes of the cell, and their local numbers in ascending order of the nodes
 };
 
-/// The graph of a mesh's solid cells.
+/// Returns the graph of a mesh's solid cells.
 NodeGraph node_graph(const Mesh& mesh, int threads = 1);
 
 /// Cells sorted into colours so that no two cells of a colour share a node: cells of one colour are assembled at the

@@ -59,7 +59,7 @@ NodeShares node_shares(const Solid& solid, const std::vector<double>& volumes) {
   return result;
 }
 
-/// The sampling points for stress in a cell.
+/// Returns the sampling points for stress in a cell.
 template <int N>
 Quadrature sampling() {
   return cell_quadrature(SolidCell<N>::type, N == 4 ? 0 : 2);

@@ -43,7 +43,7 @@ double largest_share(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& mass, c
   return result;
 }
 
-/// Whether components add up to M~ to the digits of text formats.
+/// Returns whether components add up to M~ to the digits of text formats.
 bool add_up(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass) {
   const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
   return (scale.asDiagonal() * (mass - sum_of(components)) * scale.asDiagonal()).cwiseAbs().maxCoeff() < 1e-6;

@@ -14,7 +14,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Whether nothing but the file is requested, so that a matrix file needs no conversion.
+/// Returns whether nothing but the file is requested, so that a matrix file needs no conversion.
 bool asks_for_the_file_alone(const ForeignMatrices& request) {
   return request.mass.empty() && request.nodes.empty() && request.unknowns.empty() && request.format.empty() &&
          request.names.empty() && request.quantities.empty() && request.units.empty();

@@ -115,7 +115,7 @@ Symmetric symmetric_parts(const Eigen::Matrix3d& d) {
   return result;
 }
 
-/// The same without rotations of nodes: displacements u_a = (d_a G + const) e with an antisymmetric matrix.
+/// Returns the same without rotations of nodes: displacements u_a = (d_a G + const) e with an antisymmetric matrix.
 SixByThree rotations_by_displacements(const NodalMotion& motion, const SixByThree& translations) {
   const SixByThree others = orthogonal_basis(translations).rightCols(3);
   std::vector<Symmetric> parts;
@@ -152,7 +152,8 @@ double median_of(Eigen::VectorXd values) {
   return *middle;
 }
 
-/// The quaternion with the largest q^T n q. Points on a line leave it open, and the one of the smallest angle is taken.
+/// Returns the quaternion with the largest q^T n q. Points on a line leave it open, and the one of the smallest angle
+/// is taken.
 Eigen::Vector4d least_turn(const Eigen::Matrix4d& n) {
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(n);
   const auto equal = (pairs.values.array() > pairs.values(3) - 1e-6 * std::abs(pairs.values(3))).count();

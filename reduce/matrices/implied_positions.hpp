@@ -35,7 +35,7 @@ struct Similarity {
   Eigen::VectorXd distances;  ///< distance of each point from its image [m]
 };
 
-/// The translation alone: the median of the differences.
+/// Returns the translation alone: the median of the differences.
 Similarity nearest_translation(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
 /// Horn's quaternion, B. K. P. Horn, J. Opt. Soc. Am. A 4 (1987) 629, with weights.
 Similarity nearest_similarity(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);

@@ -16,8 +16,8 @@ namespace bielle::reduce {
 Eigen::MatrixXd inertia_loads(const MatrixSet& set, const NodeTies& ties, const MatrixBasis& basis,
                               const Eigen::Vector3d& origin);
 
-/// The held body's answers to the loads of a set without scalars, and the part that the basis lacks. Empty for other
-/// sets.
+/// Returns the held body's answers to the loads of a set without scalars, and the part that the basis lacks. Empty for
+/// other sets.
 InertiaAnswer inertia_answer_of(const MatrixSet& set, const NodeTies& ties, const HeldMatrices& held,
                                 const MatrixBasis& basis, const Eigen::Vector3d& centre);
 

@@ -83,8 +83,8 @@ Eigen::VectorXd largest_entries(const SparseColumns& matrix);
 /// @returns their number
 Eigen::Index remove_empty_unknowns(MatrixSet& set);
 
-/// A square of a frequency that the body has at least, by the diagonals: the least one of scalars, otherwise the median
-/// of the unknowns; 0 if no unknown has both stiffness and mass [rad^2/s^2].
+/// Returns a square of a frequency that the body has at least, by the diagonals: the least one of scalars, otherwise
+/// the median of the unknowns; 0 if no unknown has both stiffness and mass [rad^2/s^2].
 double reference_eigenvalue(const MatrixSet& set);
 
 /// Clears rows and columns of the stiffness that are rounding: those of the interfaces of a body that is held

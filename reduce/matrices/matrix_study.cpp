@@ -143,7 +143,7 @@ double find_statical(MatrixStudy& study, const Eigen::MatrixXd& rigid) {
   }
 }
 
-/// A shift for a body of which nothing else is known: far below the highest omega^2.
+/// Returns a shift for a body of which nothing else is known: far below the highest omega^2.
 double shift_by_diagonals(const MatrixStudy& study) {
   const Eigen::VectorXd k = study.stiffness.diagonal(), m = study.mass.diagonal();
   std::vector<double> ratios;

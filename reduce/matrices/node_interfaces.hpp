@@ -21,7 +21,8 @@ struct NodeTies {
   SparseColumns spread;             ///< (n, averages): force on the nodes for a unit load on each of these directions
 };
 
-/// The interfaces that a file has without a request: the nodes that it declares, or all nodes that have unknowns.
+/// Returns the interfaces that a file has without a request: the nodes that it declares, or all nodes that have
+/// unknowns.
 /// @throws InputError if these are more than 200: full matrices need a body file that names interfaces
 std::vector<NodeInterface> default_interfaces(const MatrixSet& set);
 

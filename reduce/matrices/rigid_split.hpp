@@ -33,13 +33,13 @@ struct RestInertia {
   Eigen::MatrixXd open;  ///< the part of M~ of the rest (N,N) without known directions, of which each got a third
 };
 
-/// Whether no direction has negative kinetic energy. Matrices of beams with inertia of torsion alone have, since no
-/// cloud of mass turns about one axis only.
+/// Returns whether no direction has negative kinetic energy. Matrices of beams with inertia of torsion alone have,
+/// since no cloud of mass turns about one axis only.
 bool is_semidefinite(const std::array<Eigen::MatrixXd, 6>& components);
 
-/// The rest of components that may not add up to M~. In the basis of M~ and their sum (eigenvalues l, 1 where they add
-/// up) motions with l above one half are scaled by l^-1/2, the others get the missing 1 - l in thirds. Components of
-/// which one has negative energy tell nothing.
+/// Returns the rest of components that may not add up to M~. In the basis of M~ and their sum (eigenvalues l, 1 where
+/// they add up) motions with l above one half are scaled by l^-1/2, the others get the missing 1 - l in thirds.
+/// Components of which one has negative energy tell nothing.
 RestInertia rest_inertia(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass,
                          const RigidSplit& split);
 
@@ -52,7 +52,7 @@ std::array<Eigen::MatrixXd, 6> joined_inertia(const RigidSplit& split, const Res
 std::array<Eigen::MatrixXd, 6> normalised_inertia(const std::array<Eigen::MatrixXd, 6>& components,
                                                   const Eigen::MatrixXd& mass);
 
-/// The moments A^T N A along axes A.
+/// Returns the moments A^T N A along axes A.
 RestMoments turned_moments(const RestMoments& moments, const Eigen::Matrix3d& axes);
 
 }  // namespace bielle::reduce

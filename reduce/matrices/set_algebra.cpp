@@ -48,8 +48,8 @@ Eigen::Index largest_part(const Eigen::VectorXd& vector) {
   return at;
 }
 
-/// The least eigenpair of a large matrix with a diagonal of about one, by inverse iteration from below. The distance
-/// grows until the shifted matrix is definite, which Gershgorin's theorem bounds.
+/// Returns the least eigenpair of a large matrix with a diagonal of about one, by inverse iteration from below. The
+/// distance grows until the shifted matrix is definite, which Gershgorin's theorem bounds.
 LeastEigenvalue least_of_large(const SparseColumns& A, int threads) {
   const auto n = A.cols();
   double distance = 1e-7;

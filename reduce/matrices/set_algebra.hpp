@@ -17,7 +17,7 @@ using Unknowns = std::vector<Eigen::Index>;
 /// (A + A^T) / 2
 SparseColumns symmetric_part(const SparseColumns& A);
 
-/// The rows and columns of some unknowns, in their order.
+/// Returns the rows and columns of some unknowns, in their order.
 SparseColumns submatrix(const SparseColumns& A, const Unknowns& rows, const Unknowns& columns);
 
 /// Factor of a symmetric positive definite matrix, of which the lower triangle is read.
@@ -41,7 +41,7 @@ struct NaturalModes {
   Eigen::MatrixXd vectors;      ///< (n, modes) phi^T M phi = 1
 };
 
-/// The lowest modes of a body that may be free.
+/// Returns the lowest modes of a body that may be free.
 /// @param count  at most so many are computed
 /// @param shift  about the first elastic omega^2, or 0 for a body that is held: K + shift M is factorised
 /// @throws NotPositiveDefinite if K + shift M is not definite; ComputationError if modes do not converge

@@ -114,7 +114,7 @@ struct SeenModes {
   std::vector<bool> seen;
 };
 
-/// The mode that looks most like a mode of the first body; -1 if none is seen.
+/// Returns the mode that looks most like a mode of the first body; -1 if none is seen.
 /// @param mac  that of the mode with each mode of b @param frequency  that of the mode
 Eigen::Index counterpart(const Eigen::RowVectorXd& mac, double frequency, const SeenModes& b) {
   double largest = 0;

@@ -13,7 +13,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// Whether a node has unknowns for all three displacements, or rotations.
+/// Returns whether a node has unknowns for all three displacements, or rotations.
 bool has_all(const MatrixSet& set, int node, bool rotations) {
   return std::count_if(set.unknowns.begin(), set.unknowns.end(),
                        [&](const NodalUnknown& u) { return u.node == node && u.is_rotation() == rotations; }) == 3;

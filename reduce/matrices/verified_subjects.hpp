@@ -11,7 +11,7 @@ void add_finding(VerifiedSubject& subject, Check check, const std::string& fault
 
 /// Symmetry and definiteness of K, M and C; unknowns without stiffness or mass.
 VerifiedSubject verify_entries(const MatrixStudy& study);
-/// The first `most` names of unknowns, and the number of the others: "node 1 x, node 1 y and 12 more".
+/// Returns the first `most` names of unknowns, and the number of the others: "node 1 x, node 1 y and 12 more".
 std::string names_of(const MatrixSet& set, const Unknowns& unknowns, std::size_t most = 4);
 
 /// Forces of rigid motions, the distance between the three kinds of them, and their frequencies.

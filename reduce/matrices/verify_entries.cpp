@@ -38,8 +38,9 @@ void verify_symmetry(const MatrixStudy& study, const NamedMatrix& of, VerifiedSu
                           of.matrix.coeff(column, row)));
 }
 
-/// The least scaled eigenvalue of the stiffness. If the body held in six unknowns r is definite, as its static motions
-/// tell, K has the signs of that body and of the Schur complement at r (Sylvester), which takes no factorisation.
+/// Returns the least scaled eigenvalue of the stiffness. If the body held in six unknowns r is definite, as its static
+/// motions tell, K has the signs of that body and of the Schur complement at r (Sylvester), which takes no
+/// factorisation.
 std::optional<LeastEigenvalue> least_of_stiffness(const MatrixStudy& study) {
   const Eigen::VectorXd diagonal = study.stiffness.diagonal();
   // An unknown with a null diagonal takes no part in static motions; entries besides it make K indefinite.

@@ -20,7 +20,7 @@ namespace {
 /// magnifies.
 constexpr double place_limit = 1e-3;
 
-/// A factor between positions and the lengths of the matrices, in words.
+/// Returns a factor between positions and the lengths of the matrices, in words.
 std::string words_of_factor(double factor) {
   struct Known {
     double factor;

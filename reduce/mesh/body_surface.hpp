@@ -17,10 +17,10 @@ struct BodySurface {
   bool geometry = false;      ///< whether these are surfaces of a geometry, which shapes select as a whole
 };
 
-/// The boundary faces of a mesh.
+/// Returns the boundary faces of a mesh.
 BodySurface body_surface(const ExtractedModel& model, const FaceTable& faces, bool geometry);
 
-/// The surfaces of a geometry that is meshed in two dimensions only; the orientation of the sides is arbitrary.
+/// Returns the surfaces of a geometry that is meshed in two dimensions only; the orientation of the sides is arbitrary.
 BodySurface body_surface(const std::map<int, std::vector<Corners>>& surfaces);
 
 }  // namespace bielle::reduce

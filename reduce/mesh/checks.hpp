@@ -19,7 +19,8 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
 /// @throws InputError: number, size and place of the pieces, and whether they touch without sharing nodes
 void check_connected(const Mesh& mesh);
 
-/// A sentence if parts of the body are connected by single nodes or edges only, about which they can turn; else empty.
+/// Returns a sentence if parts of the body are connected by single nodes or edges only, about which they can turn; else
+/// empty.
 std::string loose_joints(const Mesh& mesh, const FaceTable& faces);
 
 /// Pairs of boundary nodes at one place, nearer than 1e-6 of the shortest edge: a crack, or an unmerged mesh.
@@ -29,8 +30,8 @@ struct CoincidentNodes {
 };
 CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces);
 
-/// A sentence if the body is longer than 150 m or smaller than 1 mm, probably because of a wrong unit of length; else
-/// empty.
+/// Returns a sentence if the body is longer than 150 m or smaller than 1 mm, probably because of a wrong unit of
+/// length; else empty.
 std::string implausible_size(const Mesh& mesh);
 std::string implausible_length(double metres);  ///< the same of its largest extent
 

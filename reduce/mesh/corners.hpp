@@ -33,7 +33,7 @@ class Corners {
   void push_back(int node) { nodes_.at(count_++) = node; }
   bool operator==(const Corners&) const = default;
 
-  /// The same nodes in ascending order; -1 stands behind three.
+  /// Returns the same nodes in ascending order; -1 stands behind three.
   std::array<int, 4> key() const {
     std::array<int, 4> sorted = nodes_;
     for (int k = 1; k < count_; ++k)
@@ -54,7 +54,8 @@ Corners corners_of(CellType type, const Nodes& nodes) {
   return corners;
 }
 
-/// The triangles into which a face is divided, with its orientation: itself, or the two on the sides of a diagonal.
+/// Returns the triangles into which a face is divided, with its orientation: itself, or the two on the sides of a
+/// diagonal.
 inline std::vector<std::array<int, 3>> triangles_of(const Corners& c) {
   if (c.size() == 3) return {{c[0], c[1], c[2]}};
   return {{c[0], c[1], c[2]}, {c[0], c[2], c[3]}};

@@ -85,7 +85,7 @@ void orient_outwards(const Eigen::Matrix3Xd& points, std::vector<SurfaceTriangle
   }
 }
 
-/// The bytes of a binary STL file: 80 of a header, the number of triangles, 50 for each.
+/// Returns the bytes of a binary STL file: 80 of a header, the number of triangles, 50 for each.
 std::string stl_of_triangles(const Eigen::Matrix3Xd& points, const std::vector<SurfaceTriangle>& triangles) {
   const auto count = static_cast<std::uint32_t>(triangles.size());
   std::string bytes(80, '\0');

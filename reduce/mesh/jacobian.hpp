@@ -23,7 +23,7 @@ double straight_determinant(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 /// @param nodes  (3,10) in gmsh's order
 Eigen::Matrix<double, 20, 1> determinant_coefficients(const Eigen::Ref<const Eigen::Matrix3Xd>& nodes);
 
-/// The type of the same shape with nodes at the vertices alone.
+/// Returns the type of the same shape with nodes at the vertices alone.
 CellType straight_type(CellType type);
 
 /// det(dx/dxi) [m^3] at the places at which a cell is checked: the constant value of tetrahedra of order 1, the

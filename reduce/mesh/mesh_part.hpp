@@ -19,7 +19,7 @@ struct MeshPart {
 /// Faces of the solid cells by surface group.
 using SurfaceFaces = std::map<std::string, std::vector<int>>;
 
-/// The surface groups of a mesh as faces.
+/// Returns the surface groups of a mesh as faces.
 SurfaceFaces surface_faces(const Mesh& mesh, const FaceTable& faces);
 
 /// Takes cells with their points out of a mesh. It refers to the mesh.

@@ -27,7 +27,8 @@ struct Patch {
 /// 40 degrees. The largest patch comes first.
 std::vector<Patch> find_patches(const Eigen::Matrix3Xd& points, const BodySurface& surface);
 
-/// A hint for a selector that found nothing: "; the nearest cylinders are: ..." (planes; surfaces for a box alone).
+/// Returns a hint for a selector that found nothing: "; the nearest cylinders are: ..." (planes; surfaces for a box
+/// alone).
 std::string near_candidates(const ShapeSelector& shape, const Eigen::Matrix3Xd& points, const BodySurface& surface);
 
 }  // namespace bielle::reduce

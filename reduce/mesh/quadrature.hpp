@@ -17,12 +17,12 @@ struct Quadrature {
   Eigen::VectorXd weights;
 };
 
-/// A rule exact for polynomials up to `degree` >= 0. @param dimension  2 triangle, 3 tetrahedron
+/// Returns a rule exact for polynomials up to `degree` >= 0. @param dimension  2 triangle, 3 tetrahedron
 Quadrature simplex_quadrature(int dimension, int degree);
 
-/// A rule for a type of cell, exact for polynomials up to `degree`: of degree as a whole on simplices, along each
-/// coordinate on quadrilaterals and hexahedra, in the triangle and along the height on wedges; on pyramids of functions
-/// that are polynomials of x/(1 - z), y/(1 - z) and z.
+/// Returns a rule for a type of cell, exact for polynomials up to `degree`: of degree as a whole on simplices, along
+/// each coordinate on quadrilaterals and hexahedra, in the triangle and along the height on wedges; on pyramids of
+/// functions that are polynomials of x/(1 - z), y/(1 - z) and z.
 Quadrature cell_quadrature(CellType type, int degree);
 
 }  // namespace bielle::reduce

@@ -32,7 +32,7 @@ struct TorusShape {
 /// std::monostate: no shape was recognised.
 using Shape = std::variant<std::monostate, PlaneShape, CylinderShape, ConeShape, SphereShape, TorusShape>;
 
-/// The simplest shape on which all points lie within the tolerance; the plane is tried first, the torus last.
+/// Returns the simplest shape on which all points lie within the tolerance; the plane is tried first, the torus last.
 ///
 /// Initial guesses come from the normals (those of a cylinder are normal to its axis, those of a cone make one angle
 /// with it, those of any surface of revolution meet its axis: H. Pottmann, J. Wallner, Computational Line Geometry,

@@ -36,7 +36,7 @@ class SolidCells {
 
   /// Numbers of the cells of a volume group, ascending.
   std::vector<int> members(const Group& group) const;
-  /// A volume group of some cells.
+  /// Returns a volume group of some cells.
   Group group_of(std::vector<int> cells) const;
   /// Blocks of some cells alone, in the order of their numbers. @param number  new number of each node
   std::vector<CellBlock> blocks_of(const std::vector<int>& cells, const std::vector<int>& number) const;

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double most_ratio = 1e6;  // added mass over own: the checks of mass properties have a tolerance of 1e-10
 
-/// The nodes around a place, with the weights that a named point there gives them.
+/// Returns the nodes around a place, with the weights that a named point there gives them.
 SurfaceIntegrals around(const Solid& solid, const Eigen::Vector3d& place, const std::string& body) {
   const std::vector<int> inside = nodes_of_solid(solid);
   const PointWeights weights = point_weights(solid.mesh.points(Eigen::all, inside), place, body);

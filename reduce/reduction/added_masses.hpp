@@ -66,7 +66,7 @@ class AddedMasses {
 /// Mass properties of a body and its masses together.
 MassProperties with_masses(const MassProperties& body, const AddedMasses& masses);
 
-/// The solid of the request, with its coatings.
+/// Returns the solid of the request, with its coatings.
 /// @throws InputError as make_solid, about `regions`; about a coating whose surface the mesh does not have
 Solid requested_solid(const Mesh& mesh, const ReductionOptions& options);
 

@@ -26,7 +26,7 @@ struct HeldFreedoms {
   /// @throws InputError if the body can still move with all kept directions held: the motion
   HeldFreedoms(const Solid& solid, const Ties& ties);
 
-  /// The unknowns that are factorised: all but the supports.
+  /// Returns the unknowns that are factorised: all but the supports.
   InteriorUnknowns interior() const;
   /// Displacements of points from z. @param u  (3 points, k)
   void expand_into(const Eigen::Ref<const Eigen::MatrixXd>& z, RowMatrix& u, int threads) const;

@@ -17,7 +17,7 @@ struct HourglassMode {
   double ratio = 1;       ///< its strain energy with full integration over that of the mode
 };
 
-/// The mode with the highest ratio, of a solid with reduced integration; nothing if the basis has no modes.
+/// Returns the mode with the highest ratio, of a solid with reduced integration; nothing if the basis has no modes.
 std::optional<HourglassMode> worst_hourglass_mode(const Solid& solid, const Basis& basis, int threads);
 
 }  // namespace bielle::reduce

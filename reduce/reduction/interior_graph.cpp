@@ -27,7 +27,7 @@ class Carriers {
   std::vector<std::vector<int>> of_points_;
 };
 
-/// The columns of `carried` that are coupled with each point.
+/// Returns the columns of `carried` that are coupled with each point.
 std::vector<std::vector<int>> pulling_columns(const BlockGraph& points, const SparseRows& carried) {
   std::vector<std::vector<int>> pulling(static_cast<std::size_t>(points.size()));
   if (carried.cols() == 0) return pulling;

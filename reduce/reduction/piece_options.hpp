@@ -15,7 +15,7 @@ struct PiecesRequest {
   bool compare = true;   ///< reduce the uncut body as well, to see what the cuts do to it
 };
 
-/// The cuts for the pieces' file.
+/// Returns the cuts for the pieces' file.
 std::vector<CutSurface> cut_surfaces(const CutMesh& cut);
 
 /// Requests for each piece: the interfaces, points, loads, masses and materials that lie in it, and its sides of the

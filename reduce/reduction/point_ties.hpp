@@ -27,7 +27,7 @@ struct TiedPoint {
 std::vector<TiedPoint> tie_points(const Solid& solid, const std::vector<PointRequest>& requests,
                                   const std::string& body);
 
-/// The motions of the points in terms of the coordinates. @param shapes  T (3 points, n)
+/// Returns the motions of the points in terms of the coordinates. @param shapes  T (3 points, n)
 std::map<std::string, NamedPoint> named_points(const std::vector<TiedPoint>& points, const RowMatrix& shapes);
 
 }  // namespace bielle::reduce

@@ -12,7 +12,7 @@ namespace bielle::reduce {
 
 namespace {
 
-/// The mesh that the superelement keeps: all of it, or its skin with points numbered anew.
+/// Returns the mesh that the superelement keeps: all of it, or its skin with points numbered anew.
 SuperelementMesh kept_mesh(const Solid& solid, const std::vector<int>& points, bool skin) {
   SuperelementMesh result;
   result.points = solid.mesh.points(Eigen::all, points);

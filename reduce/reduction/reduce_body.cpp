@@ -104,7 +104,7 @@ void warn_about_size(Eigen::Index coordinates, Progress& progress) {
   }
 }
 
-/// A superelement without its matrices: names, interfaces, frequencies and mass properties.
+/// Returns a superelement without its matrices: names, interfaces, frequencies and mass properties.
 Superelement described_body(const ReductionOptions& options, const MassProperties& properties, const Ties& ties,
                             const Basis& basis) {
   Superelement body;

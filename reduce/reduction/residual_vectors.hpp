@@ -25,8 +25,8 @@ struct ResidualRequest {
   bool may_be_empty = false;  ///< no error if the modes already represent the answer
 };
 
-/// The loads on points in the requested directions, and those of load patterns with `residual`: each component of the
-/// pattern along each axis.
+/// Returns the loads on points in the requested directions, and those of load patterns with `residual`: each component
+/// of the pattern along each axis.
 /// @throws InputError as pattern_forces
 std::vector<ResidualRequest> residual_requests(const Solid& solid, const std::vector<LoadRequest>& loads,
                                                const std::vector<TiedPoint>& points);

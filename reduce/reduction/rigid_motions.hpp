@@ -17,14 +17,14 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& a);
 /// `about`.
 RowMatrix rigid_motions(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& about);
 
-/// The rigid motion of one direction (x y z rx ry rz in its own axes) of an interface.
+/// Returns the rigid motion of one direction (x y z rx ry rz in its own axes) of an interface.
 Eigen::Matrix<double, 1, 6> interface_rigid_motion(const Interface& interface, int axis, const Eigen::Vector3d& about);
 
-/// The rigid motion of the kept directions of the interfaces: (kept directions, 6).
+/// Returns the rigid motion of the kept directions of the interfaces: (kept directions, 6).
 Eigen::MatrixXd interface_rigid_motions(const std::vector<Interface>& interfaces, const Eigen::Vector3d& about);
 
-/// The rigid motion nearest to given interface coordinates, with rotations weighted by a length: A (6, kept directions)
-/// with A U = I, U the interface_rigid_motions.
+/// Returns the rigid motion nearest to given interface coordinates, with rotations weighted by a length: A (6, kept
+/// directions) with A U = I, U the interface_rigid_motions.
 Eigen::MatrixXd nearest_rigid_motion(const std::vector<Interface>& interfaces, const Eigen::Vector3d& about,
                                      double length);
 

@@ -36,7 +36,7 @@ class Surface {
   Eigen::MatrixXd normal_;      // C C^T (6, 6)
 };
 
-/// The projections of a field on the surfaces; other rows are zero.
+/// Returns the projections of a field on the surfaces; other rows are zero.
 RowMatrix projected(const std::vector<Surface>& surfaces, const RowMatrix& field) {
   RowMatrix result = RowMatrix::Zero(field.rows(), field.cols());
   for (const Surface& surface : surfaces) result(surface.rows(), Eigen::all) = surface.projected(field);

@@ -68,7 +68,7 @@ Eigen::Matrix3d polar_moment(const SurfaceIntegrals& surface);
 /// @param axis  x y z rx ry rz in the interface's axes
 Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interface& interface, int axis);
 
-/// The same for all six directions, (3 nodes, 6): rows x y z of the first node, of the second ...
+/// Returns the same for all six directions, (3 nodes, 6): rows x y z of the first node, of the second ...
 Eigen::MatrixXd spread_unit_loads(const SurfaceIntegrals& surface, const Interface& interface);
 
 /// An arm of a hundred times the body makes the matrices useless, and is probably a wrong unit.

@@ -16,7 +16,7 @@ std::string describe(const Superelement& body);
 /// One line for each check with its result.
 std::string describe(const std::vector<Check>& checks);
 
-/// The cost of the reduction: factorisation, solutions, time and memory of each phase.
+/// Returns the cost of the reduction: factorisation, solutions, time and memory of each phase.
 std::string describe(const ReductionReport& report, const std::vector<PhaseReport>& phases);
 
 }  // namespace bielle::reduce

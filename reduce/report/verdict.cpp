@@ -68,10 +68,10 @@ Range range_of(const Adequacy& found, const Eigen::VectorXd& errors, double most
   return range;
 }
 
-/// A MAC with four digits that promises no more than was found.
+/// Returns a MAC with four digits that promises no more than was found.
 double rounded_down(double assurance) { return std::floor(1e4 * assurance) / 1e4; }
 
-/// The limit of the modes that would bring a frequency within bounds.
+/// Returns the limit of the modes that would bring a frequency within bounds.
 std::string wider_modes(const Adequacy& found, double frequency) {
   return fmt::format("modes: {{below: {}}}",
                      rounded_up(std::max(beyond_wanted * frequency, 1.1 * std::max(found.next_mode, found.wanted))));
@@ -206,7 +206,7 @@ std::string text(const std::string& first, const Findings& findings) {
   return result;
 }
 
-/// The stresses of all pieces together; frequencies of single pieces have no meaning for the body.
+/// Returns the stresses of all pieces together; frequencies of single pieces have no meaning for the body.
 Adequacy mesh_of_pieces(const CutBody& body) {
   Adequacy all;
   double worst = -1;

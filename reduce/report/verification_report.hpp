@@ -7,7 +7,7 @@
 
 namespace bielle::reduce {
 
-/// The verdict with the faults, the worst first; then each subject with its numbers.
+/// Returns the verdict with the faults, the worst first; then each subject with its numbers.
 std::string describe(const Verification& verification);
 
 }  // namespace bielle::reduce

@@ -39,7 +39,7 @@ struct CholmodDeleter {
 using CholmodFactor = std::unique_ptr<cholmod_factor, CholmodDeleter>;
 using CholmodSparse = std::unique_ptr<cholmod_sparse, CholmodDeleter>;
 
-/// A view that CHOLMOD only reads. @param values  nullptr: the pattern alone
+/// Returns a view that CHOLMOD only reads. @param values  nullptr: the pattern alone
 cholmod_sparse cholmod_view(std::int64_t size, const std::int64_t* starts, const std::int64_t* rows,
                             const double* values);
 cholmod_sparse cholmod_view(const SymmetricMatrix& a);

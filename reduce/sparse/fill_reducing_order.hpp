@@ -8,8 +8,8 @@
 
 namespace bielle {
 
-/// The blocks in the order of elimination. The order is reproducible for the same graph, as long as no other thread
-/// calls std::rand, which METIS does.
+/// Returns the blocks in the order of elimination. The order is reproducible for the same graph, as long as no other
+/// thread calls std::rand, which METIS does.
 /// @throws ComputationError when memory does not suffice
 std::vector<std::int64_t> fill_reducing_order(const BlockGraph& graph);
 

@@ -25,13 +25,15 @@ struct SymmetricMatrix {
   Eigen::VectorXd diagonal() const;
 };
 
-/// The submatrix of A with the rows and columns `kept` (ascending).
+/// Returns the submatrix of A with the rows and columns `kept` (ascending).
 SymmetricMatrix principal_submatrix(const SymmetricMatrix& a, std::span<const std::int64_t> kept);
 
-/// The matrix [A B; B^T C] with a few dense rows and columns appended. @param b (size,k); @param c (k,k) symmetric
+/// Returns the matrix [A B; B^T C] with a few dense rows and columns appended. @param b (size,k); @param c (k,k)
+/// symmetric
 SymmetricMatrix bordered(const SymmetricMatrix& a, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c);
 
-/// The lower triangle of a dense symmetric matrix without entries that are exactly zero (except on the diagonal).
+/// Returns the lower triangle of a dense symmetric matrix without entries that are exactly zero (except on the
+/// diagonal).
 SymmetricMatrix sparse_lower(const Eigen::MatrixXd& a);
 
 }  // namespace bielle

@@ -27,7 +27,7 @@ struct ShiftInvertProblem {
 
 enum class EigenMethod { automatic, arpack, block_lanczos };
 
-/// The method for `automatic`: ARPACK for problems of up to 100,000 unknowns and up to 60 pairs and one more.
+/// Returns the method for `automatic`: ARPACK for problems of up to 100,000 unknowns and up to 60 pairs and one more.
 EigenMethod sensible_method(Eigen::Index size, int count);
 
 struct Eigenpairs;

@@ -180,8 +180,8 @@ class ArnoldiIteration {
       throw ComputationError(fmt::format("the eigenvalue iteration failed (ARPACK's naupd returned {})", info_));
   }
 
-  /// An orthonormal basis of the invariant subspace that was found, made of Schur vectors, which unlike eigenvectors
-  /// are never nearly parallel.
+  /// Returns an orthonormal basis of the invariant subspace that was found, made of Schur vectors, which unlike
+  /// eigenvectors are never nearly parallel.
   MatrixOf<Scalar> vectors() {
     std::vector<a_int> select(static_cast<std::size_t>(basis_));
     MatrixOf<Scalar> vectors(size_, wanted_ + 1);

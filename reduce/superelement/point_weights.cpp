@@ -32,7 +32,7 @@ Matrix3d cross_matrix(const Vector3d& a) {
   return s;
 }
 
-/// The mesh nodes nearest to a point, ascending in distance.
+/// Returns the mesh nodes nearest to a point, ascending in distance.
 std::vector<Index> nodes_around(const Matrix3Xd& points, const Vector3d& point) {
   std::vector<Index> nodes(static_cast<std::size_t>(points.cols()));
   std::iota(nodes.begin(), nodes.end(), Index{0});

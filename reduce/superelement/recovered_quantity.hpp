@@ -17,7 +17,7 @@ struct RecoveredQuantity {
   std::vector<std::string> units;  ///< of each row, "Pa"
   Eigen::MatrixXd matrix;          ///< (rows,n): in terms of the coordinates
 
-  /// The unit of all rows, or those of each with commas between.
+  /// Returns the unit of all rows, or those of each with commas between.
   std::string all_units() const;
 };
 

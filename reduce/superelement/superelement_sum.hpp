@@ -7,7 +7,7 @@ namespace bielle {
 
 struct Superelement;
 
-/// A checksum over all numbers and names of interfaces, loads, points, mesh, matrices and recovery.
+/// Returns a checksum over all numbers and names of interfaces, loads, points, mesh, matrices and recovery.
 std::int64_t sum_of(const Superelement& body);
 
 }  // namespace bielle

@@ -28,7 +28,7 @@ struct HashOfPoint {
   }
 };
 
-/// A name that can be the name of a group in the results file.
+/// Returns a name that can be the name of a group in the results file.
 std::string name_of_file(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
   for (char& letter : name)

@@ -15,7 +15,7 @@ struct SampleClock {
   double period = 1;  ///< [s] > 0
   double delay = 0;   ///< from an instant to the change of the outputs [s] >= 0, also longer than `period`
 
-  /// Whether a time has come, up to rounding of the ends of steps.
+  /// Returns whether a time has come, up to rounding of the ends of steps.
   bool has_come(double time, double now) const {
     return now >= time - 1e-9 * period - 32 * std::numeric_limits<double>::epsilon() * std::abs(time);
   }
@@ -26,7 +26,7 @@ struct SampleClock {
     while (has_come(instant(k), now)) ++k;
     return k;
   }
-  /// The largest number of samples that wait for the end of the delay at one time.
+  /// Returns the largest number of samples that wait for the end of the delay at one time.
   double most_waiting() const { return delay > 0 ? std::floor(delay / period) + 1 : 0; }
   std::vector<Sampler::Instants> instants() const {
     constexpr double rounding = 5e-10;  // less than that of has_come

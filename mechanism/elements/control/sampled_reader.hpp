@@ -15,7 +15,7 @@ namespace bielle::mechanism {
 
 Key sampled_key();
 const KeyTable& sampled_keys();
-/// The keys of transfer functions and state spaces, which continuous and sampled blocks share.
+/// Returns the keys of transfer functions and state spaces, which continuous and sampled blocks share.
 Key transfer_function_key();
 Key state_space_key();
 /// @param entry  entry with the key `sampled`, bound to sampled_keys. @throws InputError

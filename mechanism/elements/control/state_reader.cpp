@@ -36,7 +36,7 @@ struct StateSetup {
   std::vector<Output> outputs{};
 };
 
-/// Whether the value is `start: equilibrium`.
+/// Returns whether the value is `start: equilibrium`.
 bool says_equilibrium(const YamlValue& start) { return start.is_scalar() && start.text() == "equilibrium"; }
 
 StateSetup read_rate(const std::string& name, const YamlValue& entry) {

@@ -81,7 +81,8 @@ const std::set<int>& nodes_of(const Component& component, std::map<const Compone
   return known.emplace(&component, std::move(nodes)).first->second;
 }
 
-/// Whether only a node's rotations are held because the parts on it have no inertia: the support then has no reaction.
+/// Returns whether only a node's rotations are held because the parts on it have no inertia: the support then has no
+/// reaction.
 /// @param held  directions held by constraints, or nullptr
 bool holds_a_point_mass(const Node& node, const HeldDirections* held, const std::vector<const Component*>& acting) {
   const auto& freedom = node.freedom;

@@ -6,7 +6,7 @@
 
 namespace bielle::mechanism {
 
-/// The keys of a solid.
+/// Returns the keys of a solid.
 const KeyTable& solid_keys();
 /// Reads a solid, or the sum of a list of solids, in the axes of the body's node:
 // clang-format off
@@ -18,7 +18,7 @@ const KeyTable& solid_keys();
 /// left, if the rest is not a valid body, or if a whole cut contains no material
 MassProperties read_solids(const YamlValue& value);
 
-/// Whether any of the solids gives its position.
+/// Returns whether any of the solids gives its position.
 bool solids_are_placed(const YamlValue& value);
 
 }  // namespace bielle::mechanism

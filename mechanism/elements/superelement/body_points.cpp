@@ -93,7 +93,7 @@ struct PointEntry {
   std::optional<PointInFile> named;
 };
 
-/// Whether a node has the rotation of the body: a moving node with fixed rotations only transmits forces.
+/// Returns whether a node has the rotation of the body: a moving node with fixed rotations only transmits forces.
 bool tells_rotation(const Node& node) {
   const auto rotations = node.freedom.begin() + 3;
   const bool moves = std::count(node.freedom.begin(), rotations, Freedom::free) > 0;

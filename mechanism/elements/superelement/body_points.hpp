@@ -14,7 +14,7 @@
 
 namespace bielle::mechanism {
 
-/// The keys of an entry of `points`.
+/// Returns the keys of an entry of `points`.
 const KeyTable& point_keys();
 /// Creates the nodes; they are attached to their bodies after all entries have been read.
 /// @param elements  the section of the file

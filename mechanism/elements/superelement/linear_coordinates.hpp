@@ -29,7 +29,7 @@ class LinearCoordinates {
   const VectorX& eps() const { return eps_; }
   /// Number of rows of interfaces; 0 for a body without geometric stiffness, whose eps is q.
   Eigen::Index rows() const { return gradient_.interfaces.rows(); }
-  /// The nonzero rows of J - I (rows, n). They are valid after set_excess.
+  /// Returns the nonzero rows of J - I (rows, n). They are valid after set_excess.
   const MatrixX& excess() const { return excess_; }
   void set_excess();
   /// Computes the nonzero rows of J G(x), after set_excess. @param gradient  G(x)^T; @param product  (rows, n)

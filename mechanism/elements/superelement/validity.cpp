@@ -61,8 +61,8 @@ double largest_turn_of_chords(const std::vector<BodyPoint>& points, const LocalS
   return largest;
 }
 
-/// Whether the interfaces are at one end of the body, or in its middle: the largest distance between two is less than
-/// half of a bar's length, which is the root of 12 times its radius of gyration.
+/// Returns whether the interfaces are at one end of the body, or in its middle: the largest distance between two is
+/// less than half of a bar's length, which is the root of 12 times its radius of gyration.
 bool leave_an_end_free(const std::vector<BodyPoint>& points, double gyration) {
   double largest = 0;
   for (const BodyPoint& a : points)

@@ -27,12 +27,12 @@ class PressureNode : public Component {
 
   /// @param own  its own local state
   double pressure(const LocalState& own) const { return own.first_order()[rows_.pressure]; }
-  /// Whether its pressure is given, for any flow: the power of flows is then that of a source.
+  /// Returns whether its pressure is given, for any flow: the power of flows is then that of a source.
   virtual bool is_given() const { return false; }
-  /// Whether it is a part of a component, and cannot be named by the user.
+  /// Returns whether it is a part of a component, and cannot be named by the user.
   virtual bool is_part() const { return false; }
-  /// Whether flows contribute to its balance. A static analysis keeps the fluid of volumes constant, because time does
-  /// not advance.
+  /// Returns whether flows contribute to its balance. A static analysis keeps the fluid of volumes constant, because
+  /// time does not advance.
   virtual bool balances(const LocalState& /*own*/) const { return true; }
   /// The factor of a flow in its balance, and its derivatives by its own first-order unknowns. (See Fluid::content.)
   struct Exchange {

@@ -58,7 +58,7 @@ class Volume final : public PressureNode {
   }
   std::optional<double> start() const { return start_; }  ///< its start pressure, if it is given [Pa]
 
-  /// Whether its fluid is not known yet, because at the start of a motion its pressure follows from the load.
+  /// Returns whether its fluid is not known yet, because at the start of a motion its pressure follows from the load.
   bool waits(const LocalState& own) const {
     return !start_ && own.memory()[0] == 0 && own.first_order()[fluid_row] < 0;
   }

@@ -24,7 +24,8 @@ class KktMatrix {
   /// Sign of the last matrix's determinant.
   int determinant_sign() const { return linear_.determinant_sign(); }
 
-  /// Whether the factors are those of the present positions and constraints, or near enough for iterative refinement.
+  /// Returns whether the factors are those of the present positions and constraints, or near enough for iterative
+  /// refinement.
   bool serves() const { return serves_; }
   void serve_no_more() { serves_ = false; }
   void choose_pivots_anew() {

@@ -203,8 +203,8 @@ std::vector<std::string> name_constraints(const System& system, const std::vecto
 
 namespace {
 
-/// Whether fewer constraints are redundant after a small motion along a direction that the other constraints permit:
-/// the mechanism is then in a singular position, for example with links in line.
+/// Returns whether fewer constraints are redundant after a small motion along a direction that the other constraints
+/// permit: the mechanism is then in a singular position, for example with links in line.
 bool stands_in_singular_position(const System& system, const Environment& environment, const State& state) {
   // Along the motion, constraints are satisfied to second order: permanently redundant ones differ by 1e-6, and those
   // that are redundant only here by 1e-3.

@@ -30,15 +30,16 @@ class Extrapolation {
   /// Computes the values of a given order at a time.
   /// @param order  at most `highest_order()`
   void calc(int order, double time, VectorX& values) const;
-  /// The highest order that the number of accepted states permits; -1: there is none.
+  /// Returns the highest order that the number of accepted states permits; -1: there is none.
   int highest_order() const { return std::min(count_ - 1, allowed_); }
-  /// The highest order that amplifies errors of the values no more than with steps of equal size. @param time  time of
-  /// the initial guess
+  /// Returns the highest order that amplifies errors of the values no more than with steps of equal size. @param time
+  /// time of the initial guess
   int highest_order(double time) const;
 
-  /// The order to use at a time without further information.
+  /// Returns the order to use at a time without further information.
   int order(double time) const { return std::min(order_, highest_order(time)); }
-  /// Whether the order should be chosen again. @param size  size of the residual at the initial guess of the step
+  /// Returns whether the order should be chosen again. @param size  size of the residual at the initial guess of the
+  /// step
   bool wants_choice(double size) const;
   /// @param size  size of the residual at the initial guess of this order
   void choose(int order, double size);

@@ -114,7 +114,7 @@ double PulseWatch::missed_by(const Source& source) const {
 /// Estimates the error of a source's impulse from its formulas, by their earlier effect; negative: not known.
 double PulseWatch::estimate(const Source& source) const { return source.gain * step_.size() * missed_by(source); }
 
-/// Whether the impulse of a source must be computed. @param large  an estimate that is significant
+/// Returns whether the impulse of a source must be computed. @param large  an estimate that is significant
 bool PulseWatch::wants_impulse(const Source& source, double large) const {
   constexpr std::size_t refresh = 32;  // number of steps after which the effect of a formula may have changed
   if (source.gain < 0 || estimate(source) > large) return true;
@@ -141,7 +141,7 @@ void PulseWatch::set_impulse(const Source& source, const Environment& environmen
   for (int i = 0; i < step_.parts; ++i) add(step_.middle(i), h / step_.parts);
 }
 
-/// Whether the impulse acts on an algebraic unknown. If it acts on other unknowns as well, their error is used.
+/// Returns whether the impulse acts on an algebraic unknown. If it acts on other unknowns as well, their error is used.
 bool PulseWatch::acts_on_algebraic() const {
   const std::vector<int>& algebraic = system_.algebraic();
   return std::any_of(algebraic.begin(), algebraic.end(), [&](int k) { return impulse_[system_.dofs() + k] != 0; });

@@ -27,7 +27,7 @@ namespace bielle::mechanism {
 
 class SchemeLoss {
  public:
-  /// Whether a scheme removes energy from linear oscillations.
+  /// Returns whether a scheme removes energy from linear oscillations.
   static bool is_of(const Scheme& scheme) { return scheme.alpha_f - scheme.alpha_m > 1e-12; }
   /// Adds the loss of a trial that is accepted; call it before `take_algorithmic_values`.
   void add(const SchemeStep& step, const Environment& environment);

@@ -19,7 +19,7 @@ double ShortSpan::longest(const State& state, const Scheme& scheme) const {
   return largest > 0 ? std::sqrt(digits * eps * size * share / largest) : std::numeric_limits<double>::infinity();
 }
 
-/// Whether possibly stiff unknowns move by no more than a small fraction of their size.
+/// Returns whether possibly stiff unknowns move by no more than a small fraction of their size.
 bool ShortSpan::moves_little(const State& begin, double span) const {
   constexpr double little = 1e-6;
   for (int k = 0; k < system_.first_orders(); ++k) {
@@ -31,7 +31,7 @@ bool ShortSpan::moves_little(const State& begin, double span) const {
          little * begin.amplitude.lpNorm<Eigen::Infinity>();
 }
 
-/// Whether no unknown has an acceleration at the end that would have changed its motion significantly.
+/// Returns whether no unknown has an acceleration at the end that would have changed its motion significantly.
 bool ShortSpan::is_slow(const State& begin, const State& after, const VectorX& dq, double span) const {
   constexpr double little = 1e-3, rounding = 1e3 * std::numeric_limits<double>::epsilon();
   const double length = model_length(begin) + model_extent(begin),

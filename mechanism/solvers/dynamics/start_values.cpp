@@ -33,9 +33,9 @@ VectorX acceleration_rate(const SchemeStep& step, const Environment& environment
   return (4 * ahead[0] - ahead[1] - 3 * a) / (2 * e);
 }
 
-/// Whether accelerations change little within a step. The criterion for each kind is that they change by less than
-/// their size, or that the velocities change little if accelerations happen to vanish (an oscillator at its centre: h^2
-/// j / v = (omega h)^2).
+/// Returns whether accelerations change little within a step. The criterion for each kind is that they change by less
+/// than their size, or that the velocities change little if accelerations happen to vanish (an oscillator at its
+/// centre: h^2 j / v = (omega h)^2).
 bool resolved(const SchemeStep& step, const VectorX& j, double h) {
   constexpr double little = 0.01;
   const System& system = step.system();

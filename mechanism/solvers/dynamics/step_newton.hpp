@@ -29,7 +29,7 @@ class StepNewton {
   void evaluate(SchemeStep& step, StepReport& report);
   /// Size of the last residual, comparable between trials of the same step.
   double size_of_residual();
-  /// Whether a scale for residuals is known: not before the first factorisation.
+  /// Returns whether a scale for residuals is known: not before the first factorisation.
   bool measures() const { return measures_; }
   /// Iterates from a trial that has been evaluated. The report contains the reason of a failure.
   /// @throws ComputationError if a component cannot be evaluated, or the equations are singular
@@ -50,7 +50,7 @@ class StepNewton {
   void begin_anew();
   /// Step sizes differ little while an event is located: one factorisation of the tangent is then used for all of them.
   void share_factors(bool shared) { factors_serve_within_ = shared ? 0.1 : same; }
-  /// Whether two step sizes are equal up to rounding.
+  /// Returns whether two step sizes are equal up to rounding.
   static bool same_size(double h, double other, double within = same) { return std::abs(h - other) <= within * other; }
 
  private:

@@ -25,10 +25,10 @@ class TangentPolicy {
     return evaluations * costs_.evaluation + solutions * costs_.solution + factorisations * costs_.factorisation;
   }
   bool ever_reuses() const { return wanted_ != Tangent::renewed; }
-  /// Whether the first iteration of the next step needs new factors, although those of an earlier step exist.
+  /// Returns whether the first iteration of the next step needs new factors, although those of an earlier step exist.
   bool renews_at_start() const { return wanted_ == Tangent::renewed || renewals_left_ > 0; }
-  /// Whether old factors are good enough in a step. @param before,now  the residual before and after an iteration with
-  /// them, relative to its tolerance
+  /// Returns whether old factors are good enough in a step. @param before,now  the residual before and after an
+  /// iteration with them, relative to its tolerance
   bool worthwhile(double before, double now) const;
   /// Judges the factors after a converged step.
   /// @param wasted  cost of the iterations in it before the first factorisation, if there was one; otherwise 0

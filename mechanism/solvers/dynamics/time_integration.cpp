@@ -43,8 +43,8 @@ VectorX prescribed_rates(const System& system, const Environment& environment, S
   return rates;
 }
 
-/// Whether one of them differs just before and just after a time: by more than rounding of its own value, and of the
-/// rates with which the mechanism moves.
+/// Returns whether one of them differs just before and just after a time: by more than rounding of its own value, and
+/// of the rates with which the mechanism moves.
 bool prescribed_rates_jump(const System& system, const Environment& environment, const State& state, double off) {
   const VectorX before = prescribed_rates(system, environment, state, state.time - off);
   const VectorX after = prescribed_rates(system, environment, state, state.time + off);

@@ -63,7 +63,7 @@ class TimeIntegration {
   StepReport attempt_settled(double h, double end, bool kink);
   /// Returns the first time after `after` at which an earlier jump comes back by a delay [s]; infinity if none does.
   double next_echo(double after) const { return echoes_.next(state(), environment_, after); }
-  /// Whether the last attempt was over a short span, without the scheme.
+  /// Returns whether the last attempt was over a short span, without the scheme.
   bool is_short() const { return short_; }
   /// In spans shorter than this, accelerations of the scheme have less than six accurate digits, at the present state
   /// [s].

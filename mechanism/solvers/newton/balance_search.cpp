@@ -86,7 +86,7 @@ bool BalanceSearch::beyond_bounds(const State& state) const {
   });
 }
 
-/// Whether f is zero to 1e-12 of the flows, or to the rounding of the unknowns.
+/// Returns whether f is zero to 1e-12 of the flows, or to the rounding of the unknowns.
 bool BalanceSearch::balanced() const {
   constexpr double accurate = 1e-12, rounding = 10 * std::numeric_limits<double>::epsilon();
   for (Eigen::Index i = 0; i < f_.size(); ++i) {

@@ -26,13 +26,14 @@ class BalanceSearch {
   explicit BalanceSearch(const System& system);
   bool empty() const { return balances_.empty(); }  ///< no equation is a balance
 
-  /// Whether a balance's unknown is beyond its bounds: such a value is no solution, even if rounding hides the
+  /// Returns whether a balance's unknown is beyond its bounds: such a value is no solution, even if rounding hides the
   /// residual.
   bool beyond_bounds(const State& state) const;
   /// Solves the balances of a state for their own unknowns only.
   /// @returns whether they were found; otherwise the state is unchanged, and `why` gives the reason
   bool find(const Environment& environment, State& state);
-  /// The reason why the last search failed: "0.0001 m^3/s are left for pressure of junction 'j': more flows in than
+  /// Returns the reason why the last search failed: "0.0001 m^3/s are left for pressure of junction 'j': more flows in
+  /// than
   /// ..". It is empty if the search succeeded, or did not converge.
   const std::string& why() const { return why_; }
 

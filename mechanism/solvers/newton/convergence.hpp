@@ -55,8 +55,8 @@ class Convergence {
   void measure_terms(const NewtonMatrix& linear, const State& state);
   /// @param r  residual (size) with its scale
   bool reached(const Eigen::Ref<const VectorX>& r, const ResidualScale& scale);
-  /// Whether a residual of the given size (by `size_of`) certainly exceeds the tolerance at this scale: a check at no
-  /// cost.
+  /// Returns whether a residual of the given size (by `size_of`) certainly exceeds the tolerance at this scale: a check
+  /// at no cost.
   bool out_of_reach(double size, const ResidualScale& scale) const;
   /// Sets the tolerances used by `size_of` to those at this residual's scale.
   void measure_by(const ResidualScale& scale);

@@ -41,7 +41,7 @@ class NewtonMatrix {
   /// delta = -J^-1 r. @param r,delta (size)
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const;
 
-  /// Whether the last factors have a pivot that is only rounding. The factors must exist.
+  /// Returns whether the last factors have a pivot that is only rounding. The factors must exist.
   bool nearly_singular() const;
   /// Unknown at which the last factorisation found no pivot, or -1.
   int singular_unknown() const { return factors_->singular_column(); }

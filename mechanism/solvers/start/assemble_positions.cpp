@@ -15,7 +15,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Whether all conditions are satisfied initially: the most frequent case, checked without a factorisation.
+/// Returns whether all conditions are satisfied initially: the most frequent case, checked without a factorisation.
 bool holds(const System& system, const Environment& environment, const State& state,
            const StartConditions& conditions) {
   constexpr double satisfied = 1e-13, repeated = 1e-6;  // limit for redundant constraints, as in check_set_aside()
@@ -159,7 +159,7 @@ class PositionAssembly {
     return false;
   }
 
-  /// Whether constraints that were set aside are satisfied.
+  /// Returns whether constraints that were set aside are satisfied.
   bool repeated_hold(State state) const {
     settle_idle(state);
     try {

@@ -32,7 +32,7 @@ class ClosingEquations {
 
   int rows() const { return static_cast<int>(weights_.size()); }  ///< rows of constraints, then of conditions
   bool takes_part(int row) const { return active_[static_cast<std::size_t>(row)]; }
-  /// Whether one of the constraints is non-holonomic.
+  /// Returns whether one of the constraints is non-holonomic.
   bool any_nonholonomic() const { return any_nonholonomic_; }
   /// Returns the state with the included constraints in the equations.
   State taken(const State& state) const;

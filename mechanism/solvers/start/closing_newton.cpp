@@ -70,7 +70,7 @@ class ClosingNewton {
   }
 
  private:
-  /// Whether large gaps have hardly decreased over the last iterations.
+  /// Returns whether large gaps have hardly decreased over the last iterations.
   bool stands_still() {
     constexpr std::size_t iterations = 15;
     constexpr double hardly = 0.98;
@@ -108,7 +108,7 @@ class ClosingNewton {
     return false;
   }
 
-  /// Whether gaps decrease by a fraction of the prediction of the linear equations, or are small anyway.
+  /// Returns whether gaps decrease by a fraction of the prediction of the linear equations, or are small anyway.
   bool accepted(const Gaps& gaps, const VectorX& linear) const {
     constexpr double part = 0.1;
     if (!std::isfinite(gaps.squared)) return false;

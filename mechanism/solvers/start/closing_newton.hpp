@@ -5,7 +5,7 @@
 
 namespace bielle::mechanism {
 
-/// Whether a state is closed to rounding.
+/// Returns whether a state is closed to rounding.
 bool is_closed(const ClosingEquations::Gaps& gaps);
 
 /// Closes the gaps from a state. @returns whether they are closed; otherwise the state is the one at which they do not

@@ -236,12 +236,12 @@ class AccelerationEquations {
       any_positive = any_positive || sign > 0;
       any_negative = any_negative || sign < 0;
     }
-    /// Whether the determinant had another sign during the search than without forces that depend on reactions.
+    /// Returns whether the determinant had another sign during the search than without forces that depend on reactions.
     bool flips(int without) const { return without > 0 ? any_negative : any_positive; }
   };
 
-  /// Whether Newton's method has converged: by the size of its last step, or because rounding (of forces of stiff
-  /// parts, of nearly redundant reactions) prevents shorter steps. Other solutions are much farther away.
+  /// Returns whether Newton's method has converged: by the size of its last step, or because rounding (of forces of
+  /// stiff parts, of nearly redundant reactions) prevents shorter steps. Other solutions are much farther away.
   /// @param before  size of the previous step
   static bool settled(double size, double before) {
     constexpr double accurate = 1e-11, rounding = 1e-8;

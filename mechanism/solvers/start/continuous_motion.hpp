@@ -33,7 +33,7 @@ class ContinuousMotion {
  private:
   State advance(const State& from, double time, bool jumps, int depth);
   State advance_in_halves(const State& from, double time, bool jumps, int depth);
-  /// Whether the velocities of two states agree with their accelerations by the trapezoidal rule.
+  /// Returns whether the velocities of two states agree with their accelerations by the trapezoidal rule.
   bool fits(const State& from, const State& to);
 
   const System& system_;

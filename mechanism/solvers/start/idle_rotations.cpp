@@ -91,7 +91,7 @@ void reduce(Candidate& candidate, const Eigen::MatrixXd& rows) {
   candidate.motions = Eigen::MatrixXd(turned(Eigen::all, left));
 }
 
-/// The state with its loops closed, if they can be.
+/// Returns the state with its loops closed, if they can be.
 State closed(const System& system, const Environment& environment, State state) {
   StartReport report;
   try {
@@ -101,7 +101,7 @@ State closed(const System& system, const Environment& environment, State state) 
   return state;
 }
 
-/// A position in the neighbourhood with other rates, the same in each run.
+/// Returns a position in the neighbourhood with other rates, the same in each run.
 State moved(const System& system, const Environment& environment, const State& start) {
   constexpr double angle = 0.1;
   const double distance = 0.1 * model_length(start);
@@ -117,7 +117,7 @@ State moved(const System& system, const Environment& environment, const State& s
   return state;
 }
 
-/// Whether a force of the residual acts along a motion. Other forces on the node give the size of rounding.
+/// Returns whether a force of the residual acts along a motion. Other forces on the node give the size of rounding.
 bool is_pushed(const Candidate& candidate, const VectorX& residual) {
   const auto own = residual.segment(candidate.begin, candidate.count);
   const double size = candidate.motions.cwiseAbs().maxCoeff() * own.cwiseAbs().maxCoeff();

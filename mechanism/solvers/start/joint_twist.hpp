@@ -28,7 +28,8 @@ class JointTwist {
   /// Returns the motion of the moving side relative to the other one that the joint's constraints permit if one
   /// coordinate has the rate 1 and its other coordinates stand still; drives and locks are ignored.
   RigidVelocity of_unit_rate(std::size_t joint, int moving, int base, std::size_t coordinate);
-  /// Whether the constraints of a member of two nodes permit this motion of one node while the other does not change.
+  /// Returns whether the constraints of a member of two nodes permit this motion of one node while the other does not
+  /// change.
   bool allows(std::size_t member, const RigidVelocity& motion);
   /// Sets other velocities of nodes.
   void set_rates(const State& state);

@@ -24,7 +24,7 @@ struct PartBehind {
 PartBehind part_behind(const System& system, std::size_t joint, int moving, int base,
                        const std::function<bool(std::size_t)>& allows);
 
-/// Whether a node is held in all directions.
+/// Returns whether a node is held in all directions.
 bool all_held(const Node& node);
 
 }  // namespace bielle::mechanism

@@ -134,7 +134,7 @@ class RigidStart {
           describe(by.joint), node.name, turns));
   }
 
-  /// Whether any member depends on the rotation of a node: an interface that only transmits forces does not.
+  /// Returns whether any member depends on the rotation of a node: an interface that only transmits forces does not.
   bool feels_rotation(const Carrying& by, int index) const {
     constexpr double turn = 0.1;  // [rad]
     State turned = state_;

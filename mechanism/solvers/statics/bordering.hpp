@@ -13,7 +13,7 @@ class Bordering {
   virtual void begin() {}  ///< begins a search
   /// Adds forces of these unknowns to a residual (size), and stores the residual of their equations at the state.
   virtual void add_forces(const Environment& environment, const State& state, Eigen::Ref<VectorX> r) = 0;
-  /// Whether their equations are satisfied, to rounding. @param scale  scale of the residual
+  /// Returns whether their equations are satisfied, to rounding. @param scale  scale of the residual
   virtual bool reached(const ResidualScale& scale) = 0;
   /// Computes delta with the tangent's factors for a residual r that includes the forces; the change of these unknowns
   /// is stored for `move`.

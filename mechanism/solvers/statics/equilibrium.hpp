@@ -46,13 +46,13 @@ class Equilibrium {
   void push(const VectorX& forces) { push_ = forces; }
   /// Number of linear solutions so far, including those of failed attempts.
   long solves() const { return solves_; }
-  /// Whether the last `find` found a load on an unsupported motion (an arm away from its hanging position): `relax` can
-  /// then find the equilibrium.
+  /// Returns whether the last `find` found a load on an unsupported motion (an arm away from its hanging position):
+  /// `relax` can then find the equilibrium.
   bool falls() const { return falls_; }
-  /// The first iteration of the last `find` or `search` (size): the linear response to the increment, including
+  /// Returns the first iteration of the last `find` or `search` (size): the linear response to the increment, including
   /// motions.
   const VectorX& first_response() const { return first_response_; }
-  /// Whether the sign of the determinant differed between its first and its last iteration.
+  /// Returns whether the sign of the determinant differed between its first and its last iteration.
   bool sign_changed() const { return last_sign_ != first_sign_; }
   /// Returns the linear response (size) of an equilibrium that was just found to a change of the load factor, with the
   /// factors of the last iteration.

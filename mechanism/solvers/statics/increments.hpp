@@ -30,7 +30,7 @@ class Increments {
     const auto stop = std::upper_bound(stops_.begin(), stops_.end(), made_);
     return stop != stops_.end() && *stop < end * (1 + rounding) ? *stop : end;
   }
-  /// Whether increments have been halved so often that another method is tried.
+  /// Returns whether increments have been halved so often that another method is tried.
   bool stuck() const { return part_ <= 16 * least_; }
   /// @returns false if they have become too small
   bool halve() {

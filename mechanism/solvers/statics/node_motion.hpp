@@ -38,7 +38,7 @@ class IncrementMeasure {
  public:
   /// @param state  state at the start of an analysis: its size defines small motions
   explicit IncrementMeasure(const State& state);
-  /// Whether a motion is so small that it needs no check.
+  /// Returns whether a motion is so small that it needs no check.
   bool small(const NodeMotions& motion) const;
   /// Returns the difference of an increment from the description by its ends: more than one is too far. @param
   /// begin,end  d_0, d_1

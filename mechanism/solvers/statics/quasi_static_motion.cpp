@@ -108,7 +108,7 @@ QuasiStaticMotion::Extended QuasiStaticMotion::at_rest(const State& still, doubl
   return r;
 }
 
-/// Whether supports move nodes near a state's time.
+/// Returns whether supports move nodes near a state's time.
 bool QuasiStaticMotion::do_supports_move(const State& still) const {
   State moved = still;
   for (const double after : {-step_, 0.3 * step_, step_}) {

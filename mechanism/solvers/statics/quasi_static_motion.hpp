@@ -38,7 +38,7 @@ class QuasiStaticMotion {
   /// Stores the deformation due to inertia at a point, to estimate the neglected accelerations from three points at
   /// equal steps.
   void note_left_out(const State& state);
-  /// The largest neglected acceleration relative to the largest acceleration of a node [-].
+  /// Returns the largest neglected acceleration relative to the largest acceleration of a node [-].
   double left_out() const { return largest_motion_ > 0 ? largest_left_out_ / largest_motion_ : 0; }
 
  private:

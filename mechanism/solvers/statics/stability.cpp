@@ -107,8 +107,8 @@ std::optional<Stability::Parts> Stability::parts() const {
   return parts;
 }
 
-/// Whether forces have a potential. Rotations of a node commute only if its moments balance: the residual moments of an
-/// equilibrium are not counted as an asymmetry.
+/// Returns whether forces have a potential. Rotations of a node commute only if its moments balance: the residual
+/// moments of an equilibrium are not counted as an asymmetry.
 bool Stability::is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over) const {
   constexpr double asymmetry = 1e-7;  // relative to the sizes
   const Sparse difference = parts.K - Sparse(parts.K.transpose());

@@ -20,7 +20,7 @@ class StabilityWatch {
   /// Checks an equilibrium before it is accepted. If stability has changed since the last one, locates the change;
   /// moves the state to the branch, if one is to be followed. @throws ComputationError if no branch is found
   void look(double factor, State& state, StaticsLog& log);
-  /// Whether an equilibrium has more unstable motions than the last one; false if that is not known.
+  /// Returns whether an equilibrium has more unstable motions than the last one; false if that is not known.
   bool less_stable(double factor, const State& state) {
     const std::optional<int> now = count(factor, state);
     return now && last_count_ && *now > *last_count_;

@@ -122,7 +122,7 @@ int LoadStepping::find(double factor, bool& falls) {
   return iterations;
 }
 
-/// The last method if Newton's method does not converge. @returns the number of iterations, or -1
+/// Applies the last method if Newton's method does not converge. @returns the number of iterations, or -1
 int LoadStepping::follow(double factor) {
   const long solves = equilibrium_.solves();
   PathWatch::Point point{this->factor(), state_};

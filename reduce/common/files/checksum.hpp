@@ -22,7 +22,7 @@ class Checksum {
     add_word(text.size());
     for (const char letter : text) add_word(static_cast<unsigned char>(letter));
   }
-  /// A whole number that a double holds exactly.
+  /// Returns a whole number that a double holds exactly.
   std::int64_t value() const { return static_cast<std::int64_t>(sum_ >> 12); }
 
  private:

@@ -18,7 +18,7 @@ void for_row_blocks(Eigen::Index rows, Eigen::Index columns, Action&& action) {
   for (Eigen::Index first = 0; first < rows; first += most) action(first, std::min(most, rows - first));
 }
 
-/// The part of a 2-d dataset's space that holds some of its rows.
+/// Returns the part of a 2-d dataset's space that holds some of its rows.
 Hdf5Id rows_of(hid_t dataset, Eigen::Index first, Eigen::Index rows) {
   Hdf5Id space(H5Dget_space(dataset), H5Sclose);
   hsize_t start[2] = {0, 0}, count[2] = {0, 0};

@@ -29,7 +29,7 @@ class Hdf5File {
  public:
   static Hdf5File create(const std::string& path);  ///< replaces an existing file
   static Hdf5File open(const std::string& path);    ///< to read. @throws InputError: missing, truncated, no HDF5
-  /// Whether the first bytes are those of an HDF5 file, however little follows.
+  /// Returns whether the first bytes are those of an HDF5 file, however little follows.
   static bool begins_like_one(const std::string& path);
   static Hdf5File open_to_extend(const std::string& path);  ///< Tells whether a file begins with the signature of HDF5,
                                                             ///< even if it is otherwise incomplete.

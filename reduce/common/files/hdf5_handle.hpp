@@ -90,14 +90,14 @@ struct Hdf5File::Handle {
     if (writing) throw ComputationError(message);
     throw InputError(message);
   }
-  /// The result of a call that returns a negative number on failure.
+  /// Returns the result of a call that returns a negative number on failure.
   template <class Result>
   Result checked(Result result, const std::string& object, const char* what) const {
     if (result < 0) fail(object, what);
     return result;
   }
 
-  /// The path of an object in the file.
+  /// Returns the path of an object in the file.
   std::string at(const std::string& object) const {
     if (object.empty() || base.empty()) return object;
     return object == "/" ? base : base + object;

@@ -23,8 +23,8 @@ namespace bielle {
 
 namespace {
 
-/// The check reads metadata only, a few kB per dataset, in a second or two for the largest files. Texts are read
-/// completely.
+/// The check reads metadata only, a few kB per dataset, in a second or two for the largest files. Texts are
+/// read completely.
 ChildLimits limits_of_a_walk(std::uint64_t size) {
   return {.seconds = 3 + static_cast<int>(size / 10'000'000), .memory = 3 * size + 200'000'000};
 }
@@ -125,8 +125,8 @@ std::string walk_dataset(hid_t dataset) {
 
 herr_t pass_over(hid_t, const char*, const H5L_info_t*, void*) { return 0; }
 
-/// Whether the names in a group can be listed as Hdf5File::names_in does. If HDF5 fails half-way, it frees what it has
-/// not set: it may crash in one program, and fail in another.
+/// Returns whether the names in a group can be listed as Hdf5File::names_in does. If HDF5 fails half-way, it frees what
+/// it has not set: it may crash in one program, and fail in another.
 bool can_be_listed(hid_t group) {
   const Hdf5Id creation(H5Gget_create_plist(group), H5Pclose);
   unsigned order = 0;

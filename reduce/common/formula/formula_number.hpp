@@ -39,7 +39,7 @@ inline Slopes argument_with_slopes(double value, std::size_t index, std::size_t 
   return x;
 }
 
-/// The product a b; a zero wins against an infinite other factor.
+/// Returns the product a b; a zero wins against an infinite other factor.
 inline double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
 /// Sign of x on the right of the point of evaluation.
@@ -48,7 +48,7 @@ inline double sign_of(const Jet& x) {
   return x.value != 0 ? sign_of(x.value) : first(x) != 0 ? sign_of(first(x)) : sign_of(second(x));
 }
 
-/// Whether x moves to the right of its value: a piecewise function then takes the piece on the right.
+/// Returns whether x moves to the right of its value: a piecewise function then takes the piece on the right.
 inline bool rises(double) { return true; }
 inline bool rises(const Jet& x) { return first(x) != 0 ? first(x) > 0 : second(x) >= 0; }
 
@@ -79,7 +79,7 @@ Number power(const Number& x, double n) {
 }
 inline double power(double x, double n) { return std::pow(x, n); }
 
-/// The floor of the value on the right of x.
+/// Returns the floor of the value on the right of x.
 template <class Number>
 double floor_of(const Number& x) {
   const double v = std::floor(value_of(x));

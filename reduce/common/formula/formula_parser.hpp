@@ -20,11 +20,11 @@ FormulaTree parse_formula(const std::string& text, const std::vector<std::string
 /// Functions and `pi`.
 const std::vector<std::string>& built_in_names();
 
-/// Whether a name can stand in a formula without quotes: letters, digits and `_`, no digit first, or several such words
-/// with dots between them.
+/// Returns whether a name can stand in a formula without quotes: letters, digits and `_`, no digit first, or several
+/// such words with dots between them.
 bool is_dotted_word(const std::string& name);
 
-/// Whether a name is among others.
+/// Returns whether a name is among others.
 inline bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }

@@ -50,7 +50,7 @@ double elementary_value(Operation operation, double v) {
   }
 }
 
-/// The same operations with derivatives. @param f  its value
+/// Computes the same operations with derivatives. @param f  its value
 template <class Number>
 Number elementary_chain(Operation operation, const Number& x, double f) {
   const double v = value_of(x);

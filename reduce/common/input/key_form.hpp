@@ -89,7 +89,7 @@ KeyForm number(std::string unit = {});
 KeyForm integer();
 /// @param variables  its own variables besides the parameters: {"t"}
 KeyForm formula(std::string unit, std::vector<std::string> variables);
-/// A formula that may read measures of the state.
+/// Returns a formula that may read measures of the state.
 KeyForm state_formula(std::string unit, std::vector<std::string> variables);
 KeyForm boolean();
 KeyForm text();
@@ -103,13 +103,13 @@ KeyForm list_of(KeyForms item);
 KeyForm list_of(KeyForm item);
 KeyForm list_of(std::size_t count, KeyForms item);
 KeyForm list_of(std::size_t count, KeyForm item);
-/// A list in which each place has its own forms.
+/// Returns a list in which each place has its own forms.
 KeyForm tuple(std::vector<KeyForms> items);
 KeyForm vector3(std::string unit);
 /// Three numbers, not all zero; their length is arbitrary.
 KeyForm direction();
 KeyForm matrix(std::size_t rows, std::size_t columns, std::string unit);
-/// A map with the keys of a table.
+/// Returns a map with the keys of a table.
 KeyForm nested(const KeyTable& (*table)());
 /// @param of  the kind of thing that a key names: "direction", "node"
 KeyForm entries(std::string of, KeyForms value);

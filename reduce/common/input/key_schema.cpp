@@ -50,7 +50,7 @@ class Writer {
     for (const KeyTable::Variant& variant : table.variants) add_entry_table(variant.table());
   }
 
-  /// Whether a map without the key of a variant has keys other than the one that selects it.
+  /// Returns whether a map without the key of a variant has keys other than the one that selects it.
   static bool has_form_of_its_own(const KeyTable& table) {
     return !table.variants.empty() &&
            (table.keys.size() > 1 || (table.keys.size() == 1 && table.keys[0].name != "type"));

@@ -65,7 +65,7 @@ std::string sum_of_file(const std::string& folder, const std::string& name) {
   return fmt::format("; contents {:x}", sum_over_file(path.string()));
 }
 
-/// The sums of the files that are named by the whole text or by a quoted name in it: `table('torque.csv', t)`.
+/// Returns the sums of the files that are named by the whole text or by a quoted name in it: `table('torque.csv', t)`.
 std::string files_in(const std::string& text, const std::string& folder) {
   std::string sums = sum_of_file(folder, text);
   for (std::size_t k = text.find_first_of("'\""); k != std::string::npos;) {

@@ -69,8 +69,8 @@ void finish_standard_output() {
   throw ComputationError(output_fault(errno == EPIPE));
 }
 
-/// A line that leads from a message to its explanation, if there is one. Only a reader at a terminal gets it: scripts
-/// find one line for each error.
+/// Returns a line that leads from a message to its explanation, if there is one. Only a reader at a terminal gets it:
+/// scripts find one line for each error.
 std::string hint(const std::string& program, const std::string& message) {
   if (isatty(STDERR_FILENO) == 0) return "";
   const std::vector<Explanation> explanations = read_explanations(explanation_pages());

@@ -190,7 +190,7 @@ class Search {
     check(VecDestroy(&random));
   }
 
-  /// A number in (-1, 1) that does not depend on the number of ranks and differs for each search (splitmix64).
+  /// Returns a number in (-1, 1) that does not depend on the number of ranks and differs for each search (splitmix64).
   double pseudo_random(std::uint64_t k) const {
     std::uint64_t z = (k + 1 + 1000003 * vectors_.size()) * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

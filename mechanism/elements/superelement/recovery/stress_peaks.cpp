@@ -131,7 +131,7 @@ void StressPeaks::offer(int row, Kind kind, const StressPeak& peak, Peaks& peaks
   });
 }
 
-/// Whether a principal stress within mean +- reach can be a new peak.
+/// Returns whether a principal stress within mean +- reach can be a new peak.
 bool StressPeaks::may_raise(int row, double mean, double reach, const Peaks& peaks) const {
   bool may = false;
   for_each_region_of(row, [&](std::size_t region) {
