@@ -71,16 +71,18 @@ class CampbellStates {
     return sample;
   }
 
-  /// Names the tracked modes by their shapes at the last point; modes that are lost there, by those at the first.
+  /// Names the tracked modes as the modes of the last point are named; modes that are lost there, as those of the
+  /// first.
   void name_modes() {
     const SweepPoint &first = found_->swept.points.front(), &last = found_->swept.points.back();
     if (last.tracks.empty()) return;
-    std::vector<ModeName> names(last.tracks.size());
-    describe(last, names);
-    if (!std::all_of(last.tracks.begin(), last.tracks.end(), [](const TrackedMode& track) { return track.found; }))
-      describe(first, names);
-    for (std::size_t i = 0; i < names.size(); ++i) names[i].rate = std::abs(first.tracks[i].s);
-    found_->names = full_names(std::move(names));
+    std::vector<std::string>& names = found_->names;
+    names = names_at(last);
+    if (std::all_of(last.tracks.begin(), last.tracks.end(), [](const TrackedMode& track) { return track.found; }))
+      return;
+    const std::vector<std::string> before = names_at(first);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (!last.tracks[i].found && !before[i].empty()) names[i] = before[i] + ", lost";
   }
 
  private:
@@ -99,21 +101,23 @@ class CampbellStates {
     return nearest;
   }
 
-  /// Describes the tracked modes of a point that have no description yet.
-  void describe(const SweepPoint& point, std::vector<ModeName>& names) const {
+  /// Returns the names of the tracked modes among all modes of a point.
+  std::vector<std::string> names_at(const SweepPoint& point) const {
+    std::vector<std::string> names(point.tracks.size());
     with_modes(
         point.value, count_,
         [&](const System& system, const ModesReport& report) {
-          const std::vector<ModeName> all = describe_modes(system, report);
+          const std::vector<std::string> all = full_names(describe_modes(system, report));
           std::vector<char> taken(all.size(), 0);
           for (std::size_t i = 0; i < point.tracks.size(); ++i) {
             const std::optional<std::size_t> mode = mode_of(point.tracks[i], report.found.modes, taken);
             if (!mode) continue;
             taken[*mode] = 1;
-            if (names[i].part.empty()) names[i] = all[*mode];
+            names[i] = all[*mode];
           }
         },
         true);
+    return names;
   }
 
   /// Keeps the largest number of harmonics and the largest change by one more.

@@ -35,8 +35,8 @@ struct Campbell : LinearisedSetting {
   SweptModes swept;
   Vector3 axis = Vector3::Zero();  ///< zero for a rotation behind a joint
   std::vector<double> unsteady;    ///< values at which the motion was not steady in these axes
-  /// Name of each mode (mode_names.hpp) by its shape at the last value, or at the first if it is lost there; numbered
-  /// by the frequencies at the first value.
+  /// Name of each mode (mode_names.hpp): that of the mode at the last value, among all modes there; if it is lost
+  /// there, that at the first value with the word "lost".
   std::vector<std::string> names;
   std::string gathered;  ///< summary of the step recorders of another model, for the last value
 };

@@ -59,6 +59,14 @@ PeriodicEquations periodic_equations(const System& system, const StandingState& 
   }
 }
 
+std::optional<PeriodicEquations> mean_equations(const System& system, const StandingState& about,
+                                                const TurningEquations& turning, double rate) {
+  if (!turning.orbit) return std::nullopt;
+  PeriodicEquations mean(equations_over_turn(system, about.environment, about.state, turning.part, least_azimuths),
+                         rate, model_length(about.state));
+  return mean.resolved() ? std::optional(std::move(mean)) : std::nullopt;
+}
+
 }  // namespace
 
 TurningEquations::TurningEquations(const System& system, const StandingState& about, const SteadyRotation& rotation)
@@ -66,6 +74,7 @@ TurningEquations::TurningEquations(const System& system, const StandingState& ab
       negligible(is_negligible(system, about, part, rotation.rate)),
       orbit(orbit_of(system, about, part, rotation, negligible)),
       periodic(periodic_equations(system, about, *this, rotation.rate)),
+      mean_periodic(mean_equations(system, about, *this, rotation.rate)),
       turning(part.turning_unknowns(system)),
       joint(describe(system.model().members()[*rotation.joint])),
       moved(orbit ? system.model().node(orbit->moved).name : ""),

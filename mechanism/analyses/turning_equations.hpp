@@ -20,7 +20,9 @@ struct TurningEquations {
 
   /// Returns the mechanism at equidistant azimuths of a turn, along the periodic motion if there is one.
   std::vector<Azimuth> azimuths(const System& system, const StandingState& about, int count) const;
-  HarmonicSearch search() const { return {periodic, turning, orbit ? orbit->shift : MatrixX()}; }
+  HarmonicSearch search() const {
+    return {periodic, turning, orbit ? orbit->shift : MatrixX(), mean_periodic ? &*mean_periodic : nullptr};
+  }
   LinearisedSetting setting(const HarmonicModes& modes) const;
 
   TurningPart part;
@@ -31,10 +33,12 @@ struct TurningEquations {
   /// equations are those about the mean state.
   std::optional<PeriodicOrbit> orbit;
   PeriodicEquations periodic;  ///< at a negligible rate those of the present azimuth alone
-  std::vector<char> turning;   ///< for each unknown, whether it belongs to the part
-  std::string joint;           ///< its description
-  std::string moved;           ///< name of the node that the orbit moves farthest
-  bool mean;                   ///< whether vibrations are left out on request
+  /// The equations about the mean state, if there is a periodic motion.
+  std::optional<PeriodicEquations> mean_periodic;
+  std::vector<char> turning;  ///< for each unknown, whether it belongs to the part
+  std::string joint;          ///< its description
+  std::string moved;          ///< name of the node that the orbit moves farthest
+  bool mean;                  ///< whether vibrations are left out on request
 };
 
 }  // namespace bielle::mechanism

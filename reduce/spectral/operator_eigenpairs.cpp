@@ -256,10 +256,13 @@ std::vector<Index> by_magnitude(const VectorXcd& values) {
   return order;
 }
 
+/// Returns the usual dimension of the Krylov space of a search for a number of eigenvalues.
+Index usual_basis(Index count) { return 2 * count + 20; }
+
+/// @param basis  largest dimension of the Krylov space
 template <class Scalar>
-MatrixOf<Scalar> search(const LinearOperator<Scalar>& T, const MatrixOf<Scalar>& known, Index count, double tolerance,
-                        int restarts, int seed, Index enough) {
-  const Index basis = std::min(T.size, 2 * count + 20);
+MatrixOf<Scalar> search(const LinearOperator<Scalar>& T, const MatrixOf<Scalar>& known, Index count, Index basis,
+                        double tolerance, int restarts, int seed, Index enough) {
   ArnoldiIteration<Scalar> iteration(T.size, count, basis, tolerance, restarts, seed);
   const auto without_known = [&](VectorOf<Scalar> x) {
     if (known.cols() > 0)
@@ -278,6 +281,8 @@ void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEige
                 Subspace<Scalar>& found) {
   constexpr int rounds = 20;
   constexpr Index batch = 4;
+  // Eigenvalues beyond the found ones may be as close together as those, which this dimension has separated.
+  const auto basis = [&] { return std::min(T.size - found.Q.cols(), usual_basis(count)); };
   for (int round = 0; round < rounds && T.size - found.Q.cols() > 50; ++round) {
     const ComplexPairs pairs = found.pairs();
     const std::vector<Index> order = by_magnitude(pairs.values);
@@ -285,7 +290,7 @@ void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEige
         std::abs(pairs.values[order[static_cast<std::size_t>(std::min<Index>(count, pairs.values.size())) - 1]]);
     // Little accuracy is needed to see that nothing is missing.
     constexpr double rough = 1e-3;
-    const MatrixOf<Scalar> next = search(T, found.Q, 1, rough, options.restarts, 2 * round + 2, 1);
+    const MatrixOf<Scalar> next = search(T, found.Q, 1, basis(), rough, options.restarts, 2 * round + 2, 1);
     MatrixOf<Scalar> answers(T.size, next.cols());
     for (Index k = 0; k < next.cols(); ++k) answers.col(k) = T.apply(next.col(k));
     const double most = dense_pairs(MatrixOf<Scalar>(next.adjoint() * answers)).values.cwiseAbs().maxCoeff();
@@ -293,7 +298,7 @@ void add_missed(const LinearOperator<Scalar>& T, Index count, const OperatorEige
     // Errors of the found subspace may prevent full convergence of other eigenvalues; these are sought in another
     // round.
     const double tolerance = std::max(options.tolerance, 1e-10);
-    found.add(T, search(T, found.Q, batch, tolerance, 30, 2 * round + 3, 1));
+    found.add(T, search(T, found.Q, batch, basis(), tolerance, 30, 2 * round + 3, 1));
   }
 }
 
@@ -308,17 +313,18 @@ OperatorEigenpairs largest(const LinearOperator<Scalar>& T, Index count, const O
   }
   constexpr Index large = 3000;
   ComplexPairs pairs;
-  if (T.size <= options.dense || (2 * count + 20 >= T.size && T.size <= large)) {
+  if (T.size <= options.dense || (usual_basis(count) >= T.size && T.size <= large)) {
     MatrixOf<Scalar> A(T.size, T.size);
     for (Index k = 0; k < T.size; ++k) A.col(k) = T.apply(VectorOf<Scalar>::Unit(T.size, k));
     pairs = dense_pairs(A);
     result.all = true;
-  } else if (2 * count + 20 >= T.size) {
+  } else if (usual_basis(count) >= T.size) {
     throw ComputationError(fmt::format("{} are too many eigenvalues of an operator of size {}", count, T.size));
   } else {
     Subspace<Scalar> found;
     found.Q.resize(T.size, 0);
-    found.add(T, search<Scalar>(T, found.Q, count, options.tolerance, options.restarts, 1, count));
+    found.add(T, search<Scalar>(T, found.Q, count, std::min(T.size, usual_basis(count)), options.tolerance,
+                                options.restarts, 1, count));
     if (options.copies) add_missed(T, count, options, found);
     pairs = found.pairs();
   }

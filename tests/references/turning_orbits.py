@@ -19,10 +19,10 @@ GRAVITY = 9.81
 
 class Blades:
     """States: displacements of the hub (if it moves), lag angles; then their rates."""
-    mass, radius, inertia, hinge, rate = 2.0, 0.4, 0.06, 0.2, 6.0
+    mass, radius, inertia, hinge = 2.0, 0.4, 0.06, 0.2
 
-    def __init__(self, count, spring, damper, hub=None):
-        self.count, self.spring, self.damper, self.hub = count, spring, damper, hub
+    def __init__(self, count, spring, damper, hub=None, rate=6.0):
+        self.count, self.spring, self.damper, self.hub, self.rate = count, spring, damper, hub, rate
         self.size = count + (2 if hub else 0)
 
     def __call__(self, t, z):
@@ -125,6 +125,7 @@ def fill(rows):
     add(rows, "soft_blade", Blades(1, 20.0, 0.3), "a soft blade under gravity")
     hub = {"mass": 20.0, "spring": [9000.0, 14000.0], "damper": [30.0, 50.0]}
     add(rows, "two_blades", Blades(2, 60.0, 0.3, hub), "two blades under gravity on a hub on springs")
+    add(rows, "slow_blades", Blades(3, 60.0, 0.3, hub, 1.0), "three blades under gravity at 1 rad/s")
     system = Unbalance()
     phi = orbit(system)[1]
     oscillating = [s for s in exponents(system, phi) if s.imag > 1e-3]

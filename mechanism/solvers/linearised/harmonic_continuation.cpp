@@ -13,6 +13,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr double accurate = 1e-8;  // residual of a mode
+
 /// Returns the amplitudes with zeros for further harmonics.
 Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h) {
   Eigen::MatrixXcd wide = Eigen::MatrixXcd::Zero(amplitudes.rows(), 2 * h + 1);
@@ -49,7 +51,6 @@ void iterate(const LinearisedEquations& equations, const ShiftedOperator& T, dou
 /// @param near  operator at another shift, whose pivots are used; replaced
 void improve(const LinearisedEquations& equations, double rate, std::unique_ptr<ShiftedOperator>& near, Mode& mode) {
   const Complex shift = mode.s + std::max(std::abs(mode.s), std::abs(rate)) * Complex(6e-6, 8e-6);
-  constexpr double accurate = 1e-8;
   const Mode before = mode;
   const bool chosen = near == nullptr;
   near = std::make_unique<ShiftedOperator>(equations, shift, std::move(near));
@@ -58,6 +59,19 @@ void improve(const LinearisedEquations& equations, double rate, std::unique_ptr<
   mode = before;
   near = std::make_unique<ShiftedOperator>(equations, shift);
   if (near->regular()) iterate(equations, *near, rate, mode);
+}
+
+/// Improves a mode as far as shifts that follow its exponent do.
+void improve_well(const LinearisedEquations& equations, double rate, std::unique_ptr<ShiftedOperator>& near,
+                  Mode& mode) {
+  constexpr int most = 4;
+  constexpr double far = 1e-4;
+  for (int k = 0; k < most; ++k) {
+    const Complex before = mode.s;
+    improve(equations, rate, near, mode);
+    if (mode.residual < accurate || std::abs(mode.s - before) < far * std::max(std::abs(mode.s), std::abs(rate)))
+      return;
+  }
 }
 
 /// Takes the copy of a motion whose exponent is larger by a multiple of i rate.
@@ -82,7 +96,7 @@ bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Ei
 }
 
 std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, const HarmonicShapes& shapes,
-                                            const HarmonicModes& from, int harmonics) {
+                                            const HarmonicModes& from, int harmonics, Copies copies) {
   const double rate = equations.rate();
   HarmonicModes modes;
   modes.harmonics = harmonics;
@@ -98,7 +112,7 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
       mode.u = equations.coefficients(u);
       mode.w = equations.coefficients(w);
       if (mode.kind == ModeKind::rigid) return;
-      improve(modes.equations, rate, near, mode);
+      improve_well(modes.equations, rate, near, mode);
       u = equations.amplitudes(mode.u, harmonics);
       w = equations.amplitudes(mode.w, harmonics);
     };
@@ -106,7 +120,10 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
     if (mode.kind != ModeKind::rigid) {
       const double size = std::max(std::abs(mode.s), std::abs(rate));
       modes.change = std::max(modes.change, std::abs(mode.s - from.found.modes[k].s) / size);
-      if (const int multiple = shapes.sizes(u, mode.s).largest(); multiple != 0) {
+      if (copies == Copies::continued) {
+        constexpr double same = 0.5;
+        if (!(mode.s.imag() >= 0) || !(shapes.similarity(u, widened(from.u[k], harmonics)) > same)) return std::nullopt;
+      } else if (const int multiple = shapes.sizes(u, mode.s).largest(); multiple != 0) {
         take_copy(multiple, rate, mode.s, u, w);
         improve_here();
       }
@@ -118,6 +135,41 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
     modes.w.push_back(std::move(w));
   }
   return modes;
+}
+
+void take_copies_of(const HarmonicModes& others, const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                    HarmonicModes& modes) {
+  struct Copy {
+    std::size_t mode, other;
+    Complex s;
+    Eigen::MatrixXcd u, w;
+    double similarity;
+  };
+  const double rate = equations.rate();
+  std::vector<Copy> copies;
+  for (std::size_t k = 0; k < modes.found.modes.size(); ++k)
+    for (std::size_t other = 0; other < others.found.modes.size(); ++other) {
+      if (modes.found.modes[k].kind == ModeKind::rigid || others.found.modes[other].kind == ModeKind::rigid) continue;
+      const Complex wanted = others.found.modes[other].s;
+      Copy copy{k, other, modes.found.modes[k].s, modes.u[k], modes.w[k], 0};
+      take_copy(static_cast<int>(std::round((wanted - copy.s).imag() / rate)), rate, copy.s, copy.u, copy.w);
+      copy.similarity = shapes.similarity(copy.u, widened(others.u[other], modes.harmonics));
+      copies.push_back(std::move(copy));
+    }
+  std::stable_sort(copies.begin(), copies.end(),
+                   [](const Copy& a, const Copy& b) { return a.similarity > b.similarity; });
+  std::vector<char> done(modes.found.modes.size(), 0), taken(others.found.modes.size(), 0);
+  for (Copy& copy : copies) {
+    if (done[copy.mode] != 0 || taken[copy.other] != 0) continue;
+    done[copy.mode] = taken[copy.other] = 1;
+    Mode& mode = modes.found.modes[copy.mode];
+    mode.s = copy.s;
+    mode.u = equations.coefficients(copy.u);
+    mode.w = equations.coefficients(copy.w);
+    modes.whirl[copy.mode] = shapes.whirl(shapes.sizes(copy.u, copy.s));
+    modes.u[copy.mode] = std::move(copy.u);
+    modes.w[copy.mode] = std::move(copy.w);
+  }
 }
 
 bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, double exact) {

@@ -30,10 +30,20 @@ struct HarmonicModes {
 bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u,
               std::complex<double> s);
 
-/// @param from  modes with fewer harmonics
-/// @returns modes with their changes by the further harmonics; nothing if two become the same one, or the shift in time
+/// Exponents that represent a motion: those of the largest harmonic (harmonic_shapes.hpp), or those into which the
+/// exponents go over that are continued.
+enum class Copies { largest, continued };
+
+/// @param from  modes with fewer harmonics, or of equations that differ a little
+/// @returns modes with their changes by the further harmonics; nothing if two become the same one, or the shift in
+/// time, or, of continued exponents, if a shape has become another one
 std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, const HarmonicShapes& shapes,
-                                            const HarmonicModes& from, int harmonics);
+                                            const HarmonicModes& from, int harmonics, Copies copies);
+
+/// Takes for each mode that copy which resembles a mode of other equations with the same rate, one each, and whose
+/// exponent is next to that mode's.
+void take_copies_of(const HarmonicModes& others, const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                    HarmonicModes& modes);
 
 /// Whether the modes satisfy the equations with one more harmonic, which shows that they are exact. One factorisation
 /// at a real shift serves all modes. Rounding of stiff equations may hide it.

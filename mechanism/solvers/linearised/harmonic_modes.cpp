@@ -161,23 +161,104 @@ bool HarmonicSearch::counts_shift_twice(const HarmonicModes& modes) const {
   return shapes_.any_shift() && std::count_if(modes.found.modes.begin(), modes.found.modes.end(), is_rigid) > 1;
 }
 
+/// Returns the oscillations and decays about the mean state, some more than asked for; nothing if they have harmonics
+/// of their own, or if there are more rigid modes than the shift in time.
+std::optional<HarmonicModes> HarmonicSearch::modes_of_mean(const ModeOptions& options) const {
+  if (!mean_ || options.near) return std::nullopt;
+  constexpr int more = 4;  // the order of exponents may change
+  constexpr double higher = 1.05;
+  ModeOptions wider = options;
+  wider.count += more;
+  if (wider.below) *wider.below *= higher;
+  HarmonicModes mean = mean_->find(wider);
+  if (mean.periodicity == Periodicity::periodic) return std::nullopt;
+  int rigid = 0;
+  for (std::size_t k = mean.found.modes.size(); k-- > 0;) {
+    if (mean.found.modes[k].kind != ModeKind::rigid) continue;
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    mean.found.modes.erase(mean.found.modes.begin() + at);
+    mean.u.erase(mean.u.begin() + at);
+    mean.w.erase(mean.w.begin() + at);
+    mean.whirl.erase(mean.whirl.begin() + at);
+    ++rigid;
+  }
+  if (rigid != (shapes_.any_shift() ? 1 : 0)) return std::nullopt;
+  return mean;
+}
+
+/// Continues modes from the mean equations to these, in steps if necessary.
+std::optional<HarmonicModes> HarmonicSearch::continue_mean(const HarmonicModes& mean, int harmonics) const {
+  constexpr double least = 1.0 / 32;
+  constexpr int modulated = 8;
+  // One step with few harmonics suffices unless frequencies are modulated by more than the rate.
+  if (auto modes = continue_modes(equations_, shapes_, mean, harmonics, Copies::continued)) return modes;
+  HarmonicModes modes = mean;
+  double made = 0, step = 0.5;
+  while (made < 1) {
+    const double end = std::min(1.0, made + step);
+    const PeriodicEquations here = mean_equations_->towards(equations_, end);
+    auto next = continue_modes(here, shapes_, modes, std::max(harmonics, modulated), Copies::continued);
+    if (next) {
+      modes = *std::move(next);
+      made = end;
+      continue;
+    }
+    step /= 2;
+    if (step < least) return std::nullopt;
+  }
+  return modes;
+}
+
+/// Completes modes that were continued from those of the mean.
+void HarmonicSearch::finish_continued(const ModeOptions& options, HarmonicModes& modes) const {
+  judge_modes(modes, options);
+  sort_by_rate(modes);
+  const std::vector<Mode>& all = modes.found.modes;
+  const auto slow = [&](const Mode& mode) { return mode.frequency() <= *options.below; };
+  const auto count = options.below ? static_cast<std::size_t>(std::count_if(all.begin(), all.end(), slow))
+                                   : static_cast<std::size_t>(options.count);
+  if (all.size() > count) {
+    modes.found.all = false;
+    modes.found.modes.resize(count);
+    modes.u.resize(count);
+    modes.w.resize(count);
+    modes.whirl.resize(count);
+  }
+  if (shapes_.any_shift()) add_shift(modes);
+  modes.found.all = modes.found.all && is_complete(modes);
+}
+
 HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const {
   if (equations_.constant()) return find_with(options, 0);
   constexpr int most = 64, most_searched = 16;
   constexpr double exact = 1e-7;
-  HarmonicModes modes = find_with(options, std::max(1, least));
+  const std::optional<HarmonicModes> mean = modes_of_mean(options);
+  std::optional<HarmonicModes> of_mean = mean ? continue_mean(*mean, std::max(1, least)) : std::nullopt;
+  Copies copies = of_mean ? Copies::continued : Copies::largest;
+  const auto finish = [&](HarmonicModes& modes) {
+    if (copies == Copies::continued) {
+      finish_continued(options, modes);
+    } else if (mean) {
+      take_copies_of(*mean, equations_, shapes_, modes);
+      sort_by_rate(modes);
+    }
+  };
+  HarmonicModes modes = of_mean ? *std::move(of_mean) : find_with(options, std::max(1, least));
   for (bool continued = false;;) {
     const int h = modes.harmonics, more = h + std::max(1, h / 2);
     if (h == 1 && are_exact(equations_, modes, exact)) {
       modes.periodicity = Periodicity::multiblade;
+      finish(modes);
       return modes;
     }
-    std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more);
+    std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more, copies);
     if (next && next->change < exact) {
-      if (continued && h <= most_searched && counts_shift_twice(modes)) modes = find_with(options, h);
+      if (copies == Copies::largest && continued && h <= most_searched && counts_shift_twice(modes))
+        modes = find_with(options, h);
       modes.change = next->change;
       modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
-      if (continued) judge_modes(modes, options);
+      if (copies == Copies::largest && continued) judge_modes(modes, options);
+      finish(modes);
       return modes;
     }
     if (more > (next ? most : most_searched))
@@ -187,6 +268,7 @@ HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const 
           "change of a frequency over a turn",
           h, next ? fmt::format(" (further ones change them by {:.2g})", next->change) : ""));
     continued = next.has_value();
+    if (!next) copies = Copies::largest;
     modes = next ? *std::move(next) : find_with(options, more);
   }
 }

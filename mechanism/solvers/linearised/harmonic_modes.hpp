@@ -3,7 +3,14 @@
 // All modes are searched for once, with few harmonics. Each is then continued with more harmonics by inverse iteration
 // until these change its exponent no more. The slower the rotation, the more harmonics are necessary: about as many as
 // the rate is contained in the change of a frequency over a turn.
+//
+// About a periodic motion of equal blades the modes are continued from those about its mean state, which one harmonic
+// of the rotation contains. At a slow rate this is the only way to tell copies of the modes from modes: they are close
+// together, and a motion whose frequency is modulated has its largest harmonic anywhere within the modulation. The
+// exponent that represents a motion is then the one into which that of the mean state goes over.
 #pragma once
+
+#include <memory>
 
 #include "mechanism/solvers/linearised/harmonic_continuation.hpp"
 
@@ -13,8 +20,12 @@ class HarmonicSearch {
  public:
   /// @param turning  for each unknown, whether it belongs to the turning part @param shift  coefficients of the shift
   /// of a periodic motion in time (periodic_orbit.hpp), which is a rigid mode; empty: there is none
-  HarmonicSearch(const PeriodicEquations& equations, std::vector<char> turning, MatrixX shift = {})
-      : equations_(equations), shapes_(equations, std::move(turning), std::move(shift)) {}
+  /// @param mean  equations about the mean state of that motion; must outlive this object
+  HarmonicSearch(const PeriodicEquations& equations, const std::vector<char>& turning, MatrixX shift = {},
+                 const PeriodicEquations* mean = nullptr)
+      : equations_(equations), shapes_(equations, turning, std::move(shift)), mean_equations_(mean) {
+    if (mean) mean_ = std::make_unique<const HarmonicSearch>(*mean, turning);
+  }
 
   /// Finds the modes with as many harmonics as they need, at least with the given number.
   /// @throws ComputationError if they need too many
@@ -22,6 +33,9 @@ class HarmonicSearch {
 
  private:
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
+  std::optional<HarmonicModes> modes_of_mean(const ModeOptions& options) const;
+  std::optional<HarmonicModes> continue_mean(const HarmonicModes& mean, int harmonics) const;
+  void finish_continued(const ModeOptions& options, HarmonicModes& modes) const;
   void add_shift(HarmonicModes& result) const;
   bool is_complete(const HarmonicModes& modes) const;
   bool counts_shift_twice(const HarmonicModes& modes) const;
@@ -30,6 +44,8 @@ class HarmonicSearch {
 
   const PeriodicEquations& equations_;
   HarmonicShapes shapes_;
+  const PeriodicEquations* mean_equations_;
+  std::unique_ptr<const HarmonicSearch> mean_;
 };
 
 }  // namespace bielle::mechanism

@@ -87,6 +87,15 @@ bool HarmonicShapes::are_same(const Eigen::MatrixXcd& u, std::complex<double> s,
   return false;
 }
 
+double HarmonicShapes::similarity(const Eigen::MatrixXcd& u, const Eigen::MatrixXcd& other) const {
+  const Eigen::VectorXcd weight = weights(std::abs(equations_.rate())).cast<std::complex<double>>();
+  const auto product = [&](const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+    return a.conjugate().cwiseProduct(weight.asDiagonal() * b).sum();
+  };
+  const double sizes = product(u, u).real() * product(other, other).real();
+  return sizes > 0 ? std::norm(product(u, other)) / sizes : 0;
+}
+
 bool HarmonicShapes::is_shift(const Eigen::MatrixXcd& u, std::complex<double> s) const {
   if (!any_shift()) return false;
   const auto h = static_cast<int>(u.cols() / 2);

@@ -46,6 +46,8 @@ class HarmonicShapes {
   /// exponent may be any two of its shapes, which are nearly parallel by chance
   bool are_same(const Eigen::MatrixXcd& u, std::complex<double> s, const Eigen::MatrixXcd& other,
                 std::complex<double> of_other, double alike = 1 - 1e-6) const;
+  /// Square of the cosine between two shapes with as many harmonics, 0..1.
+  double similarity(const Eigen::MatrixXcd& u, const Eigen::MatrixXcd& other) const;
   /// Whether a mode is the shift of the motion in time, or a copy of it. (A mode in resonance with the rotation has
   /// another shape.)
   bool is_shift(const Eigen::MatrixXcd& u, std::complex<double> s) const;

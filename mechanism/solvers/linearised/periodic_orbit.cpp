@@ -38,10 +38,11 @@ class OrbitSearch {
         gap_sizes_(constraint_sizes(system, environment, state)) {}
 
   std::optional<PeriodicOrbit> find() {
-    constexpr int most = 64;
+    constexpr int most = 64, most_begun = 16;
     constexpr double alternates = 1e-9;
     PeriodicDeviation orbit;
     orbit.rate = rate_;
+    bool followed = false;
     for (int h = 2; h <= most; h += std::max(2, h / 8 * 2)) {
       equations_.reset();
       equations_ = std::make_unique<const OrbitEquations>(
@@ -54,19 +55,21 @@ class OrbitSearch {
         calc_scale(orbit);
         const HarmonicResidual first = residual(orbit);
         if (first.size <= alternates) return std::nullopt;
-        follow(first, orbit);
+        followed = follow(first, orbit);
       } else {
         orbit.extend(h);
         PeriodicDeviation trial = orbit;
-        if (converge(nullptr, 1, trial)) {
+        if (followed && converge(nullptr, 1, trial)) {
           orbit = trial;
         } else {
           orbit.q.setZero();
           orbit.l.setZero();
-          follow(residual(orbit), orbit);
+          followed = follow(residual(orbit), orbit);
         }
       }
-      if (resolved(orbit)) return whole(std::move(orbit));
+      // A motion of large amplitude exists with several harmonics only.
+      if (!followed && h >= most_begun) throw_none(why_not());
+      if (followed && resolved(orbit)) return whole(std::move(orbit));
     }
     throw_none(fmt::format("{} harmonics of the rotation are not enough for it", most));
   }
@@ -79,31 +82,35 @@ class OrbitSearch {
         rate_, reason));
   }
 
-  /// Increases the alternating forces up to the whole.
-  void follow(const HarmonicResidual& first, PeriodicDeviation& orbit) {
+  /// Increases the alternating forces up to the whole. @returns whether the motion was found
+  bool follow(const HarmonicResidual& first, PeriodicDeviation& orbit) {
     constexpr double least = 1.0 / 256;
-    double made = 0, step = 1;
-    while (made < 1) {
-      const double end = std::min(1.0, made + step);
+    double step = 1;
+    made_ = 0;
+    while (made_ < 1) {
+      const double end = std::min(1.0, made_ + step);
       PeriodicDeviation trial = orbit;
       operator_.reset();
       if (converge(&first, end, trial)) {
         orbit = trial;
-        made = end;
+        made_ = end;
         step *= 2;
         continue;
       }
       step /= 2;
-      if (step < least) throw_none(why_not(made));
+      if (step < least) return false;
     }
+    return true;
   }
 
-  std::string why_not(double made) const {
-    const std::string followed = fmt::format("Newton's method follows it up to {:.3g} of these forces", made);
+  std::string why_not() const {
+    const std::string followed = fmt::format("Newton's method follows it up to {:.3g} of these forces", made_);
     return free_ ? followed +
                        "; nothing holds the rate of the joint: if damping or friction slows the part down, a "
                        "drive with a `rate` holds it"
-                 : followed;
+                 : followed +
+                       "; there may be none: blades that fall over tumble or repeat their motion after several turns, "
+                       "as a `dynamic` analysis shows";
   }
 
   /// Sets the forces relative to which residuals are small: the largest over a turn, and rounding of the stiffness.
@@ -301,6 +308,7 @@ class OrbitSearch {
   const State& state_;
   const TurningPart& part_;
   double rate_, length_;
+  double made_ = 0;  ///< fraction of the alternating forces up to which the motion was followed last
   VectorX gap_sizes_;
   ResidualScale scale_;
   bool free_ = false, held_ = false;  ///< whether nothing drives the joint, or something gives its angle

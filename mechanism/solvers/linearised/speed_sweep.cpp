@@ -41,6 +41,22 @@ bool order_changed(const SweepPoint& a, const SweepPoint& b) {
   return false;
 }
 
+/// Whether modes change their order that do not mix among themselves. @param a  at rest @param b  in motion, or
+/// reversed
+bool order_changed_beyond_mixing(const SweepPoint& a, const SweepPoint& b, const LinearisedEquations::Sparse& M) {
+  constexpr double related = 0.05;  // correlation of shapes of which one has a part of the other
+  for (std::size_t i = 0; i < a.tracks.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      SweepPoint before, after;
+      before.tracks = {a.tracks[i], a.tracks[j]};
+      after.tracks = {b.tracks[i], b.tracks[j]};
+      if (order_changed(before, after) && shape_correlation(M, a.tracks[i].u, b.tracks[j].u) < related &&
+          shape_correlation(M, a.tracks[j].u, b.tracks[i].u) < related)
+        return true;
+    }
+  return false;
+}
+
 /// Modes that were already lost are not considered.
 bool all_certain(const SweepPoint& from, const SweepPoint& to) {
   for (std::size_t i = 0; i < to.tracks.size(); ++i)
@@ -114,8 +130,19 @@ SweepPoint SpeedSweep::followed_from_rest(const SweepPoint& from, const SweepPoi
   return point;
 }
 
+/// Follows tracks from rest, or to it, where shapes change at once, however near the other value is: values between
+/// would show nothing else. @returns whether all modes were followed
+bool SpeedSweep::follow_at_once(const SweepPoint& from, const SweepPoint& to) {
+  if (!begins_or_ends_at_rest(from, to)) return false;
+  SweepPoint point = followed_from_rest(from, to);
+  if (!all_certain(from, point) || order_changed_beyond_mixing(from, point, M_)) return false;
+  accept(from, std::move(point));
+  return true;
+}
+
 void SpeedSweep::advance(const SweepPoint& from, SweepPoint to, int depth) {
   const bool certain_to = all_certain(from, to);
+  if (depth < deepest && !certain_to && follow_at_once(from, to)) return;
   if (depth >= deepest || (certain_to && !order_changed(from, to))) {
     accept(from, !certain_to && begins_or_ends_at_rest(from, to) ? followed_from_rest(from, to) : std::move(to));
     return;

@@ -76,6 +76,7 @@ class SpeedSweep {
   SweepPoint begin();
   SweepPoint followed(const SweepPoint& from, double value);
   SweepPoint followed_from_rest(const SweepPoint& from, const SweepPoint& to);
+  bool follow_at_once(const SweepPoint& from, const SweepPoint& to);
   void go_to(double value);
   void advance(const SweepPoint& from, SweepPoint to, int depth);
   void accept(const SweepPoint& from, SweepPoint to);

@@ -230,6 +230,27 @@ TEST_CASE("at rest asymmetric modes of three blades are told by the hub's tilt a
   }
 }
 
+TEST_CASE("lines of a Campbell diagram have the names of the modes at its last value, next to a veering too",
+          "[linearised]") {
+  const ModesOf model(turbine(0));
+  CampbellOptions options;
+  options.rotation = true;
+  options.joint = "shaft";
+  options.mean = true;
+  options.modes = 7;
+  for (const double last : {1.0, 0.9}) {  // the collective and the forward flap veer at 1 rad/s
+    options.values = {0.5, last};
+    const Campbell diagram = compute_campbell(model.session, options);
+    const std::map<std::string, double> found = hertz_of(model, behind_shaft(model, last, 12));
+    for (std::size_t k = 0; k < diagram.names.size(); ++k) {
+      CAPTURE(last, diagram.names[k]);
+      REQUIRE(found.count(diagram.names[k]) == 1);
+      CHECK(found.at(diagram.names[k]) ==
+            Approx(diagram.swept.points.back().tracks[k].s.imag() / two_pi).epsilon(1e-6));
+    }
+  }
+}
+
 TEST_CASE("a mode of a turbine has the name of its line in the Campbell diagram at each speed", "[linearised]") {
   const ModesOf model(turbine(0));
   CampbellOptions options;

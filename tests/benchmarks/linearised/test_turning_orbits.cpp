@@ -1,6 +1,8 @@
 // Small motions about periodic motions of rotors under gravity and out of balance (tests/references/turning_orbits.py).
+#include <algorithm>
 #include <optional>
 
+#include "mechanism/analyses/campbell.hpp"
 #include "mechanism/solvers/linearised/periodic_orbit.hpp"
 #include "tests/benchmarks/linearised/turning_models.hpp"
 #include "tests/support/reference_table.hpp"
@@ -143,6 +145,55 @@ TEST_CASE("blades under gravity have the Floquet exponents of their nonlinear eq
     REQUIRE(turning.exponents().size() == each.modes);
     check_table(turning.exponents(), table, each.name, 6, 3e-6);  // 1e-7 of the largest exponent
   }
+}
+
+TEST_CASE("slow rotors under gravity have the modes of their nonlinear equations, next to those of the mean state",
+          "[linearised]") {
+  // Gravity changes the frequency of a blade, 12.6 rad/s, by up to 0.8 rad/s over a turn: by more than the lower rates.
+  const ReferenceTable table("turning_orbits");
+  for (const double rate : {1.0, 0.3, -0.3}) {
+    CAPTURE(rate);
+    const std::string text = blades(3, 60, springs, fmt::format("rate: {}", rate));
+    const Turning turning(text, rate), mean(text, rate, true);
+    CHECK(count_rigid(turning.report) == 1);
+    const std::vector<Complex> found = turning.exponents();
+    std::vector<Complex> of_mean = mean.exponents();
+    REQUIRE(found.size() == 5);
+    REQUIRE(of_mean.size() == 5);
+    if (rate == 1) check_table(found, table, "slow_blades", rate, 3e-6);
+    // The exponent that represents a motion is no copy of it, which differs by a multiple of the rate.
+    for (const Complex s : found) {
+      const auto nearest = std::min_element(of_mean.begin(), of_mean.end(),
+                                            [&](Complex a, Complex b) { return std::abs(a - s) < std::abs(b - s); });
+      CAPTURE(s);
+      CHECK(std::abs(*nearest - s) < std::abs(rate));
+      of_mean.erase(nearest);
+    }
+  }
+}
+
+TEST_CASE("modes of a slow rotor under gravity are followed from rest, and through it", "[linearised]") {
+  const ModesOf model(blades(3, 60, springs, "rate: 1"));
+  CampbellOptions options;
+  options.rotation = true;
+  options.joint = "shaft";
+  options.values = {-1, 1};
+  options.modes = 5;
+  const Campbell found = compute_campbell(model.session, options);
+  const std::vector<SweepPoint>& points = found.swept.points;
+  REQUIRE(points.size() == 3);
+  CHECK(points[1].speed == 0);
+  CHECK(found.swept.uncertain.empty());
+  for (const SweepPoint& point : points)
+    for (const TrackedMode& track : point.tracks) CHECK(track.found);
+  std::vector<double> backwards, forwards;
+  for (std::size_t k = 0; k < points[0].tracks.size(); ++k) {
+    backwards.push_back(points[0].tracks[k].s.imag());
+    forwards.push_back(points[2].tracks[k].s.imag());
+  }
+  std::sort(backwards.begin(), backwards.end());
+  std::sort(forwards.begin(), forwards.end());
+  for (std::size_t k = 0; k < forwards.size(); ++k) CHECK(backwards[k] == Approx(forwards[k]).epsilon(1e-6));
 }
 
 TEST_CASE("a driven shaft has one free angle however far a blade behind it swings", "[linearised]") {
