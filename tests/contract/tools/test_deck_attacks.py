@@ -79,5 +79,17 @@ class Slips(Decks):
         self.refuse(self.text + "*INCLUDE, INPUT=.\n", "cannot read")
 
 
+class NastranSlips(Decks):
+    def notes(self, extra):
+        with open(self.path("deck.bdf"), "w", encoding="utf-8") as file:
+            file.write(Box(("hexahedron",) * 2).nastran().replace("ENDDATA", "") + extra)
+        return " ".join(read_foreign(self.path("deck.bdf")).notes)
+
+    def test_ties_of_few_nodes_and_masses_of_no_node(self):
+        self.assertIn("left out: RBE3 71 ties 0 nodes; an interface needs 3", self.notes("GRID,9001,,0.,0.,9.\nRBE3,71,,9001,123456,0.,123,1,2,\n,3,4\n"))
+        self.assertIn("left out: RBE2 72 ties 2 nodes; an interface needs 3", self.notes("GRID,9001,,0.,0.,9.\nRBE2,72,9001,123456,1,2\n"))
+        self.assertIn("(73: 2 at the grid point 9002, which does not exist)", self.notes("CONM2,73,9002,,2.\n"))
+
+
 if __name__ == "__main__":
     unittest.main()

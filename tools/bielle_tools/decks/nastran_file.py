@@ -26,6 +26,7 @@ OF_ANALYSES = ("PARAM", "SPC", "SPC1", "SPCD", "SPCADD", "SUPORT", "LOAD", "FORC
                "MDLPRM", "DOMAINS", "BSURF", "BCPROP")
 READ = ("GRID", "MAT1", "PSOLID", "CONM2", "RBE2", "RBE3") + LOST
 MOST_NAMED = 8
+FEWEST_TIED = 3  # nodes that hold all rotations of a node
 
 
 @dataclass
@@ -107,6 +108,9 @@ def _tell_ties(extras, cards, grids):
         if tie.refused:
             extras.notes.append(f"left out: {tie.name}: {tie.refused}")
             continue
+        if len(tie.weights) < FEWEST_TIED:
+            extras.notes.append(f"left out: {tie.name} ties {counted(len(tie.weights), 'node')}; an interface needs {FEWEST_TIED} that do not stand in one line")
+            continue
         name = tie.name.lower().replace(" ", "_")
         extras.point_sets[name] = np.array(sorted(tie.weights), np.int64)
         carriers[tie.reference] = tie.name
@@ -135,9 +139,9 @@ def _tell_masses(extras, cards, grids, carriers):
     at = []
     for card in cards[:MOST_NAMED]:
         row = grids.rows.get(card.integer(2))
-        x, y, z = (np.nan,) * 3 if row is None else grids.points[row]
+        place = f"the grid point {card.integer(2)}, which does not exist" if row is None else "({:g}, {:g}, {:g})".format(*grids.points[row])
         hangs = f", tied by {carriers[row]}" if row in carriers else ""
-        at.append(f"{card.integer(1)}: {card.number(4, 0.0):g} at ({x:g}, {y:g}, {z:g}){hangs}")
+        at.append(f"{card.integer(1)}: {card.number(4, 0.0):g} at {place}{hangs}")
     more = f"; and {len(cards) - MOST_NAMED} more" if len(cards) > MOST_NAMED else ""
     extras.notes.append(f"{counted(len(cards), 'CONM2', 'CONM2')} with a mass of {total:g} in total, in the file's units: `masses: from_file` puts "
                         f"{'it' if len(cards) == 1 else 'them'} on the body ({'; '.join(at)}{more})")
