@@ -80,13 +80,20 @@ struct CellRule {
   std::size_t size() const { return values.size(); }
 };
 
+/// Jacobian dx_i/dxi_k at point p [m]. Coefficient by coefficient, here and below: Eigen would pack factors of this
+/// size into blocks, which takes longer than their product.
+template <int N>
+Eigen::Matrix3d jacobian_at(const CellRule<N>& rule, std::size_t p, const CellPoints<N>& x) {
+  return x.lazyProduct(rule.local_gradients[p]);
+}
+
 /// Gradients dN_a/dx_j at point p [1/m] and weight times Jacobian [m^3]; a Jacobian <= 0 means that the cell is
 /// inverted.
 template <int N>
 double map_point(const CellRule<N>& rule, std::size_t p, const CellPoints<N>& x,
                  Eigen::Matrix<double, N, 3>& gradients) {
-  const Eigen::Matrix3d jacobian = x * rule.local_gradients[p];  // dx_i/dxi_k
-  gradients.noalias() = rule.local_gradients[p] * jacobian.inverse();
+  const Eigen::Matrix3d jacobian = jacobian_at<N>(rule, p, x), inverse = jacobian.inverse();
+  gradients = rule.local_gradients[p].lazyProduct(inverse);
   return rule.weights(p) * jacobian.determinant();
 }
 

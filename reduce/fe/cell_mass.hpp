@@ -1,8 +1,11 @@
 // Mass matrices of single cells and faces, consistent or lumped. Internal to reduce/fe.
 #pragma once
 
+#include <stdexcept>
+
 #include <Eigen/Core>
 
+#include "reduce/dense/blas.hpp"
 #include "reduce/fe/cell_geometry.hpp"
 #include "reduce/fe/face_points.hpp"
 
@@ -29,33 +32,63 @@ class CellMass {
       : rules_(N == 4                          ? CellDegrees{2, 2}
                : SolidCell<N>::is_second_order ? CellDegrees{4, 7}
                                                : CellDegrees{2, 4}),
-        straight_(integrate(rules_.straight, [](std::size_t) { return 1.0; })) {}
+        straight_(symmetric(products_of(rules_.straight).rowwise().sum())),
+        products_(products_of(rules_.curved)),
+        gradients_(N, 3 * products_.cols()) {
+    if (products_.cols() > most_points) throw std::logic_error("more points in a rule than the mass of cells takes");
+    for (Eigen::Index p = 0; p < products_.cols(); ++p)
+      gradients_.template middleCols<3>(3 * p) = rules_.curved.local_gradients[static_cast<std::size_t>(p)];
+  }
 
   /// @param least_jacobian  receives the least Jacobian at the points of the rule; the cell is inverted if it is <= 0
   Matrix of(const CellPoints<N>& x, double& least_jacobian) const {
-    const CellRule<N>& rule = rules_.of(x);
-    const auto jacobian = [&](std::size_t p) { return Eigen::Matrix3d(x * rule.local_gradients[p]).determinant(); };
-    least_jacobian = jacobian(0);
-    if (&rule == &rules_.straight) return jacobian(0) * straight_;
-    return integrate(rule, [&](std::size_t p) {
-      const double value = jacobian(p);
-      if (!(value >= least_jacobian)) least_jacobian = value;
-      return value;
-    });
+    if (&rules_.of(x) == &rules_.straight) {
+      least_jacobian = jacobian_at<N>(rules_.straight, 0, x).determinant();
+      return least_jacobian * straight_;
+    }
+    const Eigen::Index points = products_.cols();
+    Eigen::Matrix<double, 3, 3 * most_points> maps;
+    maps.leftCols(3 * points).setZero();
+    add_dense_product({x.data(), 3, N, 3, false}, {gradients_.data(), N, 3 * points, N, false}, maps.data(), 3);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_points, 1> jacobians(points);
+    for (Eigen::Index p = 0; p < points; ++p) jacobians(p) = maps.template middleCols<3>(3 * p).determinant();
+    // A coefficient that is no number makes a least one that is no number, and an inverted cell.
+    least_jacobian = jacobians.template minCoeff<Eigen::PropagateNaN>();
+    const Pairs pairs = products_ * jacobians;
+    return symmetric(pairs);
   }
 
  private:
-  template <class Jacobian>
-  static Matrix integrate(const CellRule<N>& rule, const Jacobian& jacobian) {
-    Matrix sum = Matrix::Zero();
+  static constexpr int most_points = 125;  // five along each coordinate
+  static constexpr int pair_count = N * (N + 1) / 2;
+  using Pairs = Eigen::Matrix<double, pair_count, 1>;
+  using Products = Eigen::Matrix<double, pair_count, Eigen::Dynamic>;
+
+  /// Weight times N_a N_b of the pairs a >= b (a runs first) at the points of a rule.
+  static Products products_of(const CellRule<N>& rule) {
+    Products products(pair_count, static_cast<Eigen::Index>(rule.size()));
     for (std::size_t p = 0; p < rule.size(); ++p) {
-      sum.noalias() += rule.weights(p) * jacobian(p) * rule.values[p] * rule.values[p].transpose();
+      const auto point = static_cast<Eigen::Index>(p);
+      int pair = 0;
+      for (int b = 0; b < N; ++b)
+        for (int a = b; a < N; ++a)
+          products(pair++, point) = rule.weights(point) * rule.values[p](a) * rule.values[p](b);
     }
-    return sum;
+    return products;
+  }
+
+  static Matrix symmetric(const Pairs& pairs) {
+    Matrix result;
+    int pair = 0;
+    for (int b = 0; b < N; ++b)
+      for (int a = b; a < N; ++a) result(a, b) = result(b, a) = pairs(pair++);
+    return result;
   }
 
   CellRules<N> rules_;
-  Matrix straight_;  // for a Jacobian of 1
+  Matrix straight_;                                     // for a Jacobian of 1
+  Products products_;                                   // for other cells
+  Eigen::Matrix<double, N, Eigen::Dynamic> gradients_;  // local ones at all points of their rule, side by side
 };
 
 /// int N_a N_b dA of a face [m^2].

@@ -55,12 +55,14 @@ void InternalModes<N>::set(const CellPoints<N>& x, const Matrix6& elasticity) {
     const double volume = map_point<N>(rule_, p, x, gradients);
     const Modes G =
         strains(rule_.points.col(static_cast<Eigen::Index>(p)), volume / rule_.weights(static_cast<Eigen::Index>(p)));
-    const Eigen::Matrix<double, count, 6> stress = volume * G.transpose() * elasticity;
-    K_aa += stress * G;
-    K_au += stress * strain_matrix<N>(gradients);
+    // Coefficient by coefficient, as in map_point.
+    const Eigen::Matrix<double, count, 6> stress = volume * G.transpose().lazyProduct(elasticity);
+    const Eigen::Matrix<double, 6, 3 * N> B = strain_matrix<N>(gradients);
+    K_aa += stress.lazyProduct(G);
+    K_au += stress.lazyProduct(B);
   }
   amplitudes_ = -K_aa.ldlt().solve(K_au);
-  condensed_.noalias() = K_au.transpose() * amplitudes_;
+  condensed_ = K_au.transpose().lazyProduct(amplitudes_);
 }
 
 template <int N>

@@ -94,7 +94,7 @@ class BlockError {
         const int number = block_.first + static_cast<int>(e);
         stress.setZero();
         if (has_linear_stress(x)) {
-          volumes = rule_.weights * Eigen::Matrix3d(x * rule_.local_gradients[0]).determinant();
+          volumes = rule_.weights * jacobian_at<N>(rule_, 0, x).determinant();
           add_dense_product({samples.of(number), size, sampled, size, false},
                             {backward.data(), sampled, points, sampled, false}, stress.data(), size);
         } else {

@@ -67,7 +67,7 @@ Moments moments(const SolidBlock& block, CellDegrees degrees, const Eigen::Vecto
       const CellRule<N>& rule = rules.of(x);
       const double density = block.material(e).density;
       for (std::size_t p = 0; p < rule.size(); ++p) {
-        const Eigen::Matrix3d jacobian = x * rule.local_gradients[p];
+        const Eigen::Matrix3d jacobian = jacobian_at<N>(rule, p, x);
         parts[k].add(rule.weights(p) * jacobian.determinant(), density, x * rule.values[p] - origin);
       }
     }

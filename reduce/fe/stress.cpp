@@ -33,7 +33,7 @@ template <int N>
 double cell_volume(const CellRule<N>& rule, const CellPoints<N>& x) {
   double volume = 0;
   for (std::size_t p = 0; p < rule.size(); ++p) {
-    volume += rule.weights(p) * Eigen::Matrix3d(x * rule.local_gradients[p]).determinant();
+    volume += rule.weights(p) * jacobian_at<N>(rule, p, x).determinant();
   }
   return volume;
 }
