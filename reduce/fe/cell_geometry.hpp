@@ -80,8 +80,8 @@ struct CellRule {
   std::size_t size() const { return values.size(); }
 };
 
-/// Jacobian dx_i/dxi_k at point p [m]. Coefficient by coefficient, here and below: Eigen would pack factors of this size
-/// into blocks, which takes longer than their product.
+/// Jacobian dx_i/dxi_k at point p [m]. Coefficient by coefficient, here and below: Eigen would pack factors of this
+/// size into blocks, which takes longer than their product.
 template <int N>
 Eigen::Matrix3d jacobian_at(const CellRule<N>& rule, std::size_t p, const CellPoints<N>& x) {
   return x.lazyProduct(rule.local_gradients[p]);
@@ -97,9 +97,8 @@ double map_point(const CellRule<N>& rule, std::size_t p, const CellPoints<N>& x,
   return rule.weights(p) * jacobian.determinant();
 }
 
-/// Returns whether the Jacobian is constant: the mid-side nodes of a tetrahedron are in the middle of their edges,
-/// another cell is the image of its reference cell under a linear map. @param x  points of the nodes (3, nodes of the
-/// type)
+/// Whether the Jacobian is constant: the mid-side nodes of a tetrahedron are in the middle of their edges, another cell
+/// is the image of its reference cell under a linear map. @param x  points of the nodes (3, nodes of the type)
 bool is_straight(CellType type, const Eigen::Ref<const Eigen::Matrix3Xd>& x);
 
 /// Degrees of the rules for straight cells and for others, see cell_quadrature.

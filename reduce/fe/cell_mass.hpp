@@ -59,7 +59,7 @@ class CellMass {
   }
 
  private:
-  static constexpr int most_points = 125;  // of a rule: five along each coordinate
+  static constexpr int most_points = 125;  // five along each coordinate
   static constexpr int pair_count = N * (N + 1) / 2;
   using Pairs = Eigen::Matrix<double, pair_count, 1>;
   using Products = Eigen::Matrix<double, pair_count, Eigen::Dynamic>;
@@ -86,8 +86,8 @@ class CellMass {
   }
 
   CellRules<N> rules_;
-  Matrix straight_;    // for a Jacobian of 1
-  Products products_;  // for other cells
+  Matrix straight_;                                     // for a Jacobian of 1
+  Products products_;                                   // for other cells
   Eigen::Matrix<double, N, Eigen::Dynamic> gradients_;  // local ones at all points of their rule, side by side
 };
 

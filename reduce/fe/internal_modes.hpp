@@ -1,9 +1,9 @@
 // Internal displacement modes of cells of order 1, without which they would lock in bending. Internal to reduce/fe.
 //
 // hex8 has the modes 1 - xi_k^2 along each coordinate, wedge6 that along its height and the products l_a l_b of its
-// triangle, in three directions each. (They cannot mend the constant strain of the triangle itself: wedge6 stays stiff
-// in bending within the plane of its triangles.) They belong to the cell alone and are condensed: their amplitudes
-// follow from the displacements u of the nodes,
+// triangle, in three directions each. (They have no mean strain. wedge6 stays stiff in bending: the mean strain within
+// its triangles, and the mean shear across them, are those of linear functions.) They belong to the cell alone and are
+// condensed: their amplitudes follow from the displacements u of the nodes,
 //     alpha = -K_aa^-1 K_au u,   strain = (B - G K_aa^-1 K_au) u.
 // The strains G of the modes are made from local gradients without mean, with the Jacobian J_0 in the middle of the
 // cell and the factor det J_0 / det J: their integral vanishes, and the patch test is passed on any mesh. Reference: R.
