@@ -217,11 +217,11 @@ bool note_events(const System& system, const std::vector<EventLocator::Noted>& c
                  KinematicsReport& report) {
   bool stops = false;
   for (const EventLocator::Noted& each : crossed) {
-    const MemberEventFunction& met = system.event_functions()[static_cast<std::size_t>(each.crossing)];
-    computation.note(Event{each.time, each.crossing, met.name});
+    const MemberEventFunction& met = system.event_functions()[static_cast<std::size_t>(each.event_function)];
+    computation.note(Event{each.time, each.event_function, met.name});
     report.last_event = met.name;
     ++report.events;
-    stops = stops || met.crossing.stops;
+    stops = stops || met.function.stops;
   }
   return stops;
 }
@@ -294,7 +294,7 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
   for (std::size_t k = 0; k < times.size() && !session.stopping() && !report.stopped_by_event;) {
     try {
       std::vector<EventLocator::Noted> jumped;
-      for (const int crossing : motion.begin(state)) jumped.push_back({state.time, crossing});
+      for (const int event : motion.begin(state)) jumped.push_back({state.time, event});
       report.stopped_by_event = note_events(system, jumped, computation, report);
       if (report.stopped_by_event) break;
       const bool jumps = contains(kinks, times[k], rounding);

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_factors.hpp"
 #include "mechanism/math/workers.hpp"
 
 namespace bielle::mechanism {
@@ -77,7 +77,7 @@ class CondensedLU {
   int determinant_sign() const;
   double reciprocal_condition() const;
   FactorCost cost() const;  ///< cost of the last successful factorisation
-  /// Whether the blocks are condensed in the last factors.
+  /// Returns whether the blocks are condensed in the last factors.
   bool condensed() const { return condensed_; }
 
  private:

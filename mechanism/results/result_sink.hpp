@@ -23,9 +23,9 @@ struct EntryNumbers {
 
 /// An event of a motion.
 struct Event {
-  double time = 0;   ///< time [s]
-  int crossing = 0;  ///< index in System::crossings
-  std::string name;  ///< name: "event 'landed'", "joint 'door': angle at its upper stop"
+  double time = 0;         ///< time [s]
+  int event_function = 0;  ///< index in System::event_functions
+  std::string name;        ///< name: "event 'landed'", "joint 'door': angle at its upper stop"
 };
 
 class ResultSink {

@@ -150,7 +150,7 @@ void ResultsFile::note(const Event& event) {
     written.create_rows(group + "/time", {}, "s", "at which crossings were met", together);
     written.link(group, "/events");  // linked now, because a run that fails does not reach the end
   }
-  const double crossing = event.crossing;
+  const double crossing = event.event_function;
   written.append_rows(group + "/crossing", {&crossing, 1});
   written.append_rows(group + "/time", {&event.time, 1});
   written.flush();

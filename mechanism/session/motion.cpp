@@ -183,10 +183,10 @@ void Motion::take_step(bool seen) {
   record_step(step, before, balance_before);
   session_.gather(state(), session_.environment());
   parts_.march->settle(step);  // the last row is recorded before, as all rows at jumps are
-  const auto& crossings = session_.system().event_functions();
+  const auto& functions = session_.system().event_functions();
   for (const Passed& passed : step.passed) {
-    last_event_ = crossings[static_cast<std::size_t>(passed.crossing)].name;
-    if (seen) computation_->note(Event{passed.time, passed.crossing, last_event_});
+    last_event_ = functions[static_cast<std::size_t>(passed.event_function)].name;
+    if (seen) computation_->note(Event{passed.time, passed.event_function, last_event_});
   }
 }
 

@@ -12,10 +12,10 @@ void Branches::add(const Declaration& declaration) {
   const std::size_t index = members_++;
   if (!declaration.memory.empty()) remembering_.push_back(index);
   for (int k = 0; k < static_cast<int>(declaration.event_functions.size()); ++k) {
-    const EventFunction& crossing = declaration.event_functions[static_cast<std::size_t>(k)];
+    const EventFunction& function = declaration.event_functions[static_cast<std::size_t>(k)];
     const std::string owner = describe(model_.members()[index]);
-    crossings_.push_back({index, k, crossing, crossing.name.empty() ? owner : owner + ": " + crossing.name});
-    crossings_read_reactions_ = crossings_read_reactions_ || crossing.reads_reaction;
+    event_functions_.push_back({index, k, function, function.name.empty() ? owner : owner + ": " + function.name});
+    event_functions_read_reactions_ = event_functions_read_reactions_ || function.reads_reaction;
   }
   if (declaration.passive) return;  // measures are evaluated by the components that use them
   reads_reactions_ = reads_reactions_ || declaration.reads_reactions;
@@ -24,10 +24,10 @@ void Branches::add(const Declaration& declaration) {
 
 void Branches::calc_event_functions(const State& state, const Environment& environment,
                                     Eigen::Ref<VectorX> values) const {
-  for (std::size_t k = 0; k < crossings_.size();) {
-    const std::size_t member = crossings_[k].member;
+  for (std::size_t k = 0; k < event_functions_.size();) {
+    const std::size_t member = event_functions_[k].member;
     std::size_t end = k;
-    while (end < crossings_.size() && crossings_[end].member == member) ++end;
+    while (end < event_functions_.size() && event_functions_[end].member == member) ++end;
     const auto count = static_cast<Eigen::Index>(end - k);
     if (unknowns_.is_active(state, member))
       model_.members()[member].component->calc_event_functions(local(state, member, environment),
@@ -38,24 +38,25 @@ void Branches::calc_event_functions(const State& state, const Environment& envir
   }
 }
 
-double Branches::calc_crossing(const State& state, const Environment& environment, int crossing) const {
-  const auto k = static_cast<std::size_t>(crossing);
-  if (!unknowns_.is_active(state, crossings_[k].member)) return 0;
-  const std::size_t member = crossings_[k].member, begin = k - static_cast<std::size_t>(crossings_[k].index);
+double Branches::calc_event_function(const State& state, const Environment& environment, int event_function) const {
+  const auto k = static_cast<std::size_t>(event_function);
+  if (!unknowns_.is_active(state, event_functions_[k].member)) return 0;
+  const std::size_t member = event_functions_[k].member,
+                    begin = k - static_cast<std::size_t>(event_functions_[k].index);
   std::size_t end = k;
-  while (end < crossings_.size() && crossings_[end].member == member) ++end;
+  while (end < event_functions_.size() && event_functions_[end].member == member) ++end;
   VectorX values(static_cast<Eigen::Index>(end - begin));
   model_.members()[member].component->calc_event_functions(local(state, member, environment), values);
-  return values[crossings_[k].index];
+  return values[event_functions_[k].index];
 }
 
 void Branches::do_actions(State& state, const Environment& environment, const std::vector<int>& ascending) const {
   std::vector<int> own;
   for (auto next = ascending.begin(); next != ascending.end();) {
-    const std::size_t m = crossings_[static_cast<std::size_t>(*next)].member;
+    const std::size_t m = event_functions_[static_cast<std::size_t>(*next)].member;
     own.clear();
-    for (; next != ascending.end() && crossings_[static_cast<std::size_t>(*next)].member == m; ++next)
-      own.push_back(crossings_[static_cast<std::size_t>(*next)].index);
+    for (; next != ascending.end() && event_functions_[static_cast<std::size_t>(*next)].member == m; ++next)
+      own.push_back(event_functions_[static_cast<std::size_t>(*next)].index);
     if (const auto* actions = dynamic_cast<const EventActions*>(model_.members()[m].component.get()))
       actions->act(local(state, m, environment), own, ReferencedMemory(state.memory, unknowns_.slots()[m]));
   }
@@ -97,9 +98,9 @@ void Branches::begin(State& state, const Environment& environment, const std::ve
   auto next = ascending.begin();
   for (const std::size_t m : remembering_) {
     own.clear();
-    for (; next != ascending.end() && crossings_[static_cast<std::size_t>(*next)].member <= m; ++next)
-      if (const MemberEventFunction& crossing = crossings_[static_cast<std::size_t>(*next)]; crossing.member == m)
-        own.push_back(crossing.index);
+    for (; next != ascending.end() && event_functions_[static_cast<std::size_t>(*next)].member <= m; ++next)
+      if (const MemberEventFunction& event = event_functions_[static_cast<std::size_t>(*next)]; event.member == m)
+        own.push_back(event.index);
     const Slots& slots = unknowns_.slots()[m];
     auto own_memory = memory.segment(slots.memory_begin, slots.memories);
     try {

@@ -12,7 +12,7 @@ namespace bielle::mechanism {
 struct MemberEventFunction {
   std::size_t member;
   int index;  ///< index among the member's own event functions
-  EventFunction crossing;
+  EventFunction function;
   std::string name;  ///< name with its owner: "joint 'door': angle at its upper stop"
 };
 
@@ -28,15 +28,15 @@ class Branches {
   void add(const Declaration& declaration);
 
   const std::vector<MemberEventFunction>& event_functions() const {
-    return crossings_;
+    return event_functions_;
   }  ///< in the order of the members
   bool reads_reactions() const { return reads_reactions_; }
   bool has_kinks() const { return kinks_; }
-  bool crossings_read_reactions() const { return crossings_read_reactions_; }
+  bool event_functions_read_reactions() const { return event_functions_read_reactions_; }
 
   // See the functions of the same names in System.
   void calc_event_functions(const State& state, const Environment& environment, Eigen::Ref<VectorX> values) const;
-  double calc_crossing(const State& state, const Environment& environment, int crossing) const;
+  double calc_event_function(const State& state, const Environment& environment, int event_function) const;
   /// Does the actions of the events that occurred, then lets components begin their branch. Those that are activated
   /// do so before.
   void begin(State& state, const Environment& environment, const std::vector<int>& crossed) const;
@@ -59,8 +59,8 @@ class Branches {
   const SharedWork& work_;
   std::size_t members_ = 0;
   std::vector<std::size_t> remembering_;  ///< members with memory
-  std::vector<MemberEventFunction> crossings_;
-  bool reads_reactions_ = false, kinks_ = false, crossings_read_reactions_ = false;
+  std::vector<MemberEventFunction> event_functions_;
+  bool reads_reactions_ = false, kinks_ = false, event_functions_read_reactions_ = false;
 };
 
 }  // namespace bielle::mechanism

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_pattern.hpp"
 #include "mechanism/system/unknowns.hpp"
 
 namespace bielle::mechanism {

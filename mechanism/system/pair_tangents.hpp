@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_pattern.hpp"
 #include "mechanism/model/coupled_pairs.hpp"
 #include "mechanism/system/member_tangent.hpp"
 

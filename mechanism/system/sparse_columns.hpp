@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_pattern.hpp"
 
 namespace bielle::mechanism {
 

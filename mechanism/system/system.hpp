@@ -56,7 +56,7 @@ class System {
   /// if the equation does not contain the rate; m or rad for constraints, m/s or rad/s for those that relate
   /// velocities.
   std::string equation_units(int equation) const { return unknowns_.equation_units(equation); }
-  /// Whether a member is in the equations at a state; otherwise its entry has been released.
+  /// Returns whether a member is in the equations at a state; otherwise its entry has been released.
   bool is_active(const State& state, std::size_t member) const { return unknowns_.is_active(state, member); }
   const Activities& activities() const { return unknowns_.activities(); }
   /// Describes the first component whose position is on a wrong branch, with the reason: "joint 'main': its axes point
@@ -79,18 +79,18 @@ class System {
       if (state.idle.empty() || state.idle[static_cast<std::size_t>(multiplier)] == Idle::redundant) act(multiplier);
     });
   }
-  /// Whether constraints can be switched off and on during a run.
+  /// Returns whether constraints can be switched off and on during a run.
   bool switches() const { return idle_.switches(); }
   /// Sets `idle` of the switched constraints from the memory of their components; the others count as active. The
   /// function does nothing if no constraint can be switched.
   void switch_constraints(State& state, const Environment& environment) const {
     idle_.switch_constraints(state, environment);
   }
-  /// Whether forces depend on reactions, or have kinks at which no step ends.
+  /// Returns whether forces depend on reactions, or have kinks at which no step ends.
   bool reads_reactions() const { return branches_.reads_reactions(); }
   bool has_kinks() const { return branches_.has_kinks(); }
-  /// Whether values of event functions depend on reactions.
-  bool crossings_read_reactions() const { return branches_.crossings_read_reactions(); }
+  /// Returns whether values of event functions depend on reactions.
+  bool event_functions_read_reactions() const { return branches_.event_functions_read_reactions(); }
 
   const std::vector<MemberEventFunction>& event_functions() const { return branches_.event_functions(); }
   /// Computes the values of all event functions (event_functions().size()).
@@ -98,8 +98,8 @@ class System {
     branches_.calc_event_functions(state, environment, values);
   }
   /// Computes the value of one event function, by number.
-  double calc_crossing(const State& state, const Environment& environment, int crossing) const {
-    return branches_.calc_crossing(state, environment, crossing);
+  double calc_event_function(const State& state, const Environment& environment, int event_function) const {
+    return branches_.calc_event_function(state, environment, event_function);
   }
   /// Components update their memory at the beginning of a branch of the motion. @param crossed  numbers of the event
   /// functions that crossed zero
@@ -135,10 +135,11 @@ class System {
                      Eigen::Ref<VectorX> r) const {
     residual_.set_part(member, state, environment, r);
   }
-  /// The pattern of the last tangent. `tangent` replaces it if bodies touch that were far apart when it was built; its
-  /// values are always in the order of the pattern after the call. References to the pattern are then invalid.
+  /// Returns the pattern of the last tangent. `tangent` replaces it if bodies touch that were far apart when it was
+  /// built; its values are always in the order of the pattern after the call. References to the pattern are then
+  /// invalid.
   const SparsePattern& pattern() const { return tangent_.pattern()->whole; }
-  /// The pattern of the tangent, with the amplitudes that are condensed before a factorisation.
+  /// Returns the pattern of the tangent, with the amplitudes that are condensed before a factorisation.
   const CondensedPattern& condensed_pattern() const { return tangent_.pattern()->condensed; }
   /// Both, for owners of values or factors in their order: the pattern was replaced if the pointer is another one.
   const std::shared_ptr<const TangentPattern>& shared_pattern() const { return tangent_.pattern(); }

@@ -4,7 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_pattern.hpp"
+#include "mechanism/math/types.hpp"
 
 namespace bielle::test {
 

@@ -17,7 +17,7 @@ int number(const System& system, int unknown) {
   return multiplier < 0 ? -1 : system.dofs() + multiplier;
 }
 
-/// Whether an entry of the system's pattern belongs to B; B^T is its transpose.
+/// Returns whether an entry of the system's pattern belongs to B; B^T is its transpose.
 bool is_constraint(const System& system, int row, int column) {
   return row >= system.dofs() + system.first_orders() && column < system.dofs();
 }
@@ -151,7 +151,7 @@ void ReactionNorm::balance(const Environment& environment, State& state) {
 
 /// Otherwise the reactions that forces read are already set: the equations of the state were solved with them.
 bool EventFunctionValues::needs(const State& state) const {
-  if (!system_.crossings_read_reactions() || !ReactionNorm::needed(system_, state)) return false;
+  if (!system_.event_functions_read_reactions() || !ReactionNorm::needed(system_, state)) return false;
   return !system_.reads_reactions() || state.reaction.size() == 0;
 }
 
@@ -172,11 +172,11 @@ void EventFunctionValues::calc(const State& state, const Environment& environmen
   system_.calc_event_functions(balanced, environment, values);
 }
 
-double EventFunctionValues::calc(const State& state, const Environment& environment, int crossing) {
-  if (!needs(state)) return system_.calc_crossing(state, environment, crossing);
+double EventFunctionValues::calc(const State& state, const Environment& environment, int event_function) {
+  if (!needs(state)) return system_.calc_event_function(state, environment, event_function);
   State balanced = state;
   balance(environment, balanced);
-  return system_.calc_crossing(balanced, environment, crossing);
+  return system_.calc_event_function(balanced, environment, event_function);
 }
 
 void ReadReactions::balance(const Environment& environment, State& state) {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "mechanism/math/sparse_factors.hpp"
 #include "mechanism/system/system.hpp"
 
 namespace bielle::mechanism {
@@ -23,7 +24,7 @@ class ReactionNorm {
  public:
   explicit ReactionNorm(const System& system);
 
-  /// Whether a state has redundant constraints.
+  /// Returns whether a state has redundant constraints.
   static bool needed(const System& system, const State& state);
   /// Sets the state's `reaction`; empties it if no constraint is redundant.
   void balance(const Environment& environment, State& state);
@@ -56,7 +57,7 @@ class EventFunctionValues {
   bool balance(const Environment& environment, State& state);
   /// @param values  (system.event_functions().size())
   void calc(const State& state, const Environment& environment, Eigen::Ref<VectorX> values);
-  double calc(const State& state, const Environment& environment, int crossing);  ///< value of one of them
+  double calc(const State& state, const Environment& environment, int event_function);  ///< value of one of them
 
  private:
   bool needs(const State& state) const;

@@ -15,7 +15,7 @@ EventLocator::EventLocator(const System& system) : system_(system), values_(syst
   for (VectorX* vector : {&sides_, &at_start_, &at_low_, &at_high_, &weight_}) vector->setZero(count);
   last_end_.assign(system.event_functions().size(), 0);
   for (Eigen::Index k = 0; k < sides_.size(); ++k)
-    sides_[k] = system.event_functions()[static_cast<std::size_t>(k)].crossing.begins_on;
+    sides_[k] = system.event_functions()[static_cast<std::size_t>(k)].function.begins_on;
   std::size_t declared = system.model().members().size();  // member whose declaration is cached; initially none
   bool kinks = false;
   for (const MemberEventFunction& each : system.event_functions()) {
@@ -26,7 +26,7 @@ EventLocator::EventLocator(const System& system) : system_(system), values_(syst
       declared = each.member;
     }
     // A force that begins continuously (contact of surfaces) ends a step as well, without a restart.
-    ends_step_.push_back(each.crossing.restarts || each.crossing.stops || kinks);
+    ends_step_.push_back(each.function.restarts || each.function.stops || kinks);
   }
 }
 
@@ -55,7 +55,7 @@ std::vector<int> EventLocator::begin(const State& state, const Environment& envi
 
 void EventLocator::let_one_go(std::vector<int>& crossed, const VectorX& values) const {
   const auto one_by_one = [&](int k) {
-    return system_.event_functions()[static_cast<std::size_t>(k)].crossing.one_by_one;
+    return system_.event_functions()[static_cast<std::size_t>(k)].function.one_by_one;
   };
   int first = -1;
   for (const int k : crossed)
@@ -65,7 +65,7 @@ void EventLocator::let_one_go(std::vector<int>& crossed, const VectorX& values) 
 
 bool EventLocator::counts(int k) const {
   using Direction = EventFunction::Direction;
-  const Direction direction = system_.event_functions()[static_cast<std::size_t>(k)].crossing.direction;
+  const Direction direction = system_.event_functions()[static_cast<std::size_t>(k)].function.direction;
   return direction == Direction::both || (direction == Direction::rising) == (sides_[k] < 0);
 }
 
@@ -99,7 +99,7 @@ bool EventLocator::found(const State& end, const Environment& environment, doubl
 double EventLocator::shortest() const {
   double share = 0;
   for (const int k : crossed_)
-    share = std::max(share, system_.event_functions()[static_cast<std::size_t>(k)].crossing.nearest);
+    share = std::max(share, system_.event_functions()[static_cast<std::size_t>(k)].function.nearest);
   return share * step_;
 }
 
@@ -182,7 +182,7 @@ std::vector<EventLocator::Noted> EventLocator::pass_noted(double begin, double e
     if (ends_step_[static_cast<std::size_t>(k)] || !has_crossed(k, at_high_[k])) continue;
     noted.push_back({locate_noted(k, begin, end, between, environment, tolerance), k});
   }
-  for (const Noted& each : noted) sides_[each.crossing] = -sides_[each.crossing];
+  for (const Noted& each : noted) sides_[each.event_function] = -sides_[each.event_function];
   return noted;
 }
 

@@ -29,15 +29,15 @@ class EventLocator {
   /// @returns the events whose functions have changed sign since the end of the last step, because of a discontinuity
   std::vector<int> begin(const State& state, const Environment& environment, const std::vector<int>& passed,
                          bool one_alone = false);
-  /// Whether a step of the size h that ends in a state contains an event that ends it, after which the motion is
-  /// restarted or stops. If it does, the search for the first one begins.
+  /// Returns whether a step of the size h that ends in a state contains an event that ends it, after which the motion
+  /// is restarted or stops. If it does, the search for the first one begins.
   /// @param tolerance  largest distance of the step's end past the zero [s]
   bool found(const State& end, const Environment& environment, double h, double tolerance);
   /// Returns the size of the next trial step [s].
   double proposal() const;
   /// Narrows the bracket by the end of a step of that size.
   void narrow(const State& end, const Environment& environment, double h);
-  /// Whether the upper end of the bracket is near enough to the zero: the step of that size ends past it.
+  /// Returns whether the upper end of the bracket is near enough to the zero: the step of that size ends past it.
   bool located() const;
   double behind() const { return high_; }  ///< size of this step [s]
   /// Completes the events of the last step, and returns their numbers; the motion is then on their other sides.
@@ -46,7 +46,7 @@ class EventLocator {
   /// An event that does not end a step.
   struct Noted {
     double time = 0;  ///< time [s]
-    int crossing = 0;
+    int event_function = 0;
   };
   /// Completes such events of an accepted step, whose start and end were evaluated last, and locates them on the
   /// interpolated motion.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -29,107 +30,21 @@ double proposed_size(double h, double error, double largest) {
 
 }  // namespace
 
-void MarchLog::exchange(Archive& archive, int equations) {
-  for (long* count :
-       {&steps, &iterations, &factorisations, &shortened, &refused_by_error, &refused_by_newton, &crossings})
-    archive.within(*count, 0, 1e15);
-  for (double* value : {&smallest, &largest, &most_iterations_at}) archive(*value);
-  archive(most_iterations);
-  archive.within(slowest_equation, -1, equations - 1);
-}
-
-MarchLog MarchLog::followed_by(const MarchLog& next) const {
-  MarchLog both = next.most_iterations > most_iterations ? next : *this;  // the hardest step of the two
-  both.steps = steps + next.steps;
-  both.iterations = iterations + next.iterations;
-  both.factorisations = factorisations + next.factorisations;
-  both.shortened = shortened + next.shortened;
-  both.refused_by_error = refused_by_error + next.refused_by_error;
-  both.refused_by_newton = refused_by_newton + next.refused_by_newton;
-  both.crossings = crossings + next.crossings;
-  both.smallest = smallest > 0 && next.smallest > 0 ? std::min(smallest, next.smallest) : smallest + next.smallest;
-  both.largest = std::max(largest, next.largest);
-  both.hardest = next.hardest.empty() ? hardest : next.hardest;
-  return both;
-}
-
-/// The times at which steps have to end: the grid of fixed steps, kinks, instants of samplers, jumps that delays bring
-/// back, and the end.
-class March::Stops {
- public:
-  Stops(double begin, double end, const StepOptions& options, std::vector<Sampler::Instants> instants)
-      : begin_(begin),
-        end_(end),
-        rounding_(0.5e-12 * options.size),
-        kinks_(options.break_points),
-        instants_(std::move(instants)) {
-    std::sort(kinks_.begin(), kinks_.end());
-    if (options.tolerance > 0) return;
-    steps_ = std::max(1L, std::lround((end - begin) / options.size));
-    size_ = (end - begin) / static_cast<double>(steps_);
-  }
-
-  /// Moves on to the first stop after the given time.
-  void advance(double time) {
-    while (kink_ < kinks_.size() && kinks_[kink_] <= time + rounding(time)) ++kink_;
-    stop_ = end_;
-    if (steps_ > 0) {
-      while (k_ <= steps_ && grid(k_) <= time + rounding(time)) ++k_;
-      stop_ = grid(k_);
-    }
-    at_kink_ = kink_ < kinks_.size() && kinks_[kink_] <= stop_ + rounding(stop_);
-    // A kink at a stop, up to rounding, is identified with that stop.
-    if (at_kink_ && kinks_[kink_] < stop_ - rounding(stop_)) stop_ = kinks_[kink_];
-    // So is an instant: equal steps that divide a period stay as they are.
-    for (const Sampler::Instants& each : instants_)
-      if (const double at = next_instant(each, time, rounding(time)); at < stop_ - rounding(stop_)) {
-        stop_ = at;
-        at_kink_ = false;
-      }
-  }
-  /// Takes account of a kink after the present time that has become known during the motion.
-  void heed(double kink) {
-    if (kink > stop_ + rounding(stop_)) return;
-    at_kink_ = true;
-    if (kink < stop_ - rounding(stop_)) stop_ = kink;
-  }
-  /// Returns the latest time that is equal to the given one.
-  double just_after(double time) const { return time + rounding(time); }
-  double time() const { return stop_; }
-  bool at_kink() const { return at_kink_; }
-  bool on_grid() const { return steps_ == 0 || stop_ == grid(k_); }
-  double step_size() const { return size_; }  ///< step size of the grid
-
- private:
-  /// Times that differ by less are equal. The distance is smaller than the one that separates both sides of a kink.
-  double rounding(double time) const { return rounding_ + 4 * std::numeric_limits<double>::epsilon() * std::abs(time); }
-  /// Times are computed from the number of steps, not summed: the last step ends exactly at the end.
-  double grid(long k) const { return k >= steps_ ? end_ : begin_ + static_cast<double>(k) * size_; }
-  double begin_, end_, rounding_, size_ = 0, stop_ = 0;
-  long steps_ = 0, k_ = 1;  ///< number of steps of the grid, and next; 0: no grid
-  std::vector<double> kinks_;
-  std::vector<Sampler::Instants> instants_;
-  std::size_t kink_ = 0;
-  bool at_kink_ = false;
-};
-
 March::March(TimeIntegration& integration, double begin, double end, StepOptions options)
     : integration_(integration),
       end_(end),
       options_(std::move(options)),
+      stops_(begin, end, options_, Samplers(integration.system()).instants()),
       norm_(integration.system(), integration.environment(), integration.state()),
       watch_(integration.system()),
       pulses_(integration.system(), begin, end - begin, norm_.length()) {
   const bool adaptive = options_.tolerance > 0;
-  stops_ = std::make_unique<Stops>(begin, end, options_, Samplers(integration.system()).instants());
-  stops_->advance(integration.state().time);
-  size_ = adaptive ? std::min(options_.size, options_.largest) : stops_->step_size();
+  stops_.advance(integration.state().time);
+  size_ = adaptive ? std::min(options_.size, options_.largest) : stops_.step_size();
   smallest_ = adaptive ? 1e-10 * (end - begin) : size_ / 1024;
   const std::vector<double>& kinks = options_.break_points;
   if (std::find(kinks.begin(), kinks.end(), begin) != kinks.end()) pending_ = Pending::branch;
 }
-
-March::~March() = default;
 
 bool March::done() const { return stopped_ || integration_.state().time >= end_; }
 
@@ -154,9 +69,9 @@ void March::exchange(Archive& archive) {
   for (int k = 0; k < static_cast<int>(crossed.size()); ++k)
     if (crossed[k] != 0) crossed_.push_back(k);
   archive(stopped_);
-  archive(last_crossing_);
-  archive.within(crossings_at_once_, 0, 1e15);
-  stops_->advance(integration_.state().time);
+  archive(last_event_);
+  archive.within(events_at_once_, 0, 1e15);
+  stops_.advance(integration_.state().time);
 }
 
 /// @param before  jump of a branch that began here just before; it is replaced by the new one
@@ -164,16 +79,16 @@ void March::begin_branch(double h, std::optional<Jump>& before) {
   if (before && jump_listener_) jump_listener_(*before);
   std::vector<int> begins;  // events that begin the branch
   for (const int k : crossed_)
-    if (integration_.system().event_functions()[static_cast<std::size_t>(k)].crossing.restarts) begins.push_back(k);
+    if (integration_.system().event_functions()[static_cast<std::size_t>(k)].function.restarts) begins.push_back(k);
   before = integration_.begin_branch(h, begins);
 }
 
 /// Ends the step at the next jump that a delay brings back.
-void March::heed_echoes() { stops_->heed(integration_.next_echo(stops_->just_after(integration_.state().time))); }
+void March::heed_echoes() { stops_.heed(integration_.next_echo(stops_.just_after(integration_.state().time))); }
 
 void March::begin_step(MarchStep& step) {
   heed_echoes();
-  double h = std::min(size_, stops_->time() - integration_.state().time);
+  double h = std::min(size_, stops_.time() - integration_.state().time);
   if (is_short(h)) h = size_;  // the scheme's own values are for the steps that follow
   if (pending_ == Pending::start) integration_.start(h);
   if (pending_ == Pending::restart) integration_.restart(h);
@@ -237,7 +152,8 @@ void March::pass_jumps(double h, std::vector<int> jumped, std::optional<Jump>& j
   }
 }
 
-/// Whether a span is too short for the scheme: the remainder after an event or a kink, not a step that was reduced.
+/// Returns whether a span is too short for the scheme: the remainder after an event or a kink, not a step that was
+/// reduced.
 bool March::is_short(double h) const {
   constexpr double share = 0.01;
   return h < share * size_ && h < integration_.longest_short_span();
@@ -286,30 +202,31 @@ double March::locate(double time, StepReport& report) {
 /// Processes the events at the end of an accepted step.
 void March::pass_events(MarchStep& step) {
   const double time = integration_.state().time;
-  crossings_at_once_ = time - last_crossing_ <= 1e-7 * size_ ? crossings_at_once_ + 1 : 0;
-  last_crossing_ = time;
+  events_at_once_ = time - last_event_ <= 1e-7 * size_ ? events_at_once_ + 1 : 0;
+  last_event_ = time;
   const std::vector<int> passed = watch_.pass();
   constexpr long most = 1000;
-  if (crossings_at_once_ > most) throw_chattering(passed.front());
+  if (events_at_once_ > most) throw_chattering(passed.front());
   note(passed, step);
 }
 
-void March::throw_chattering(int crossing) const {
+void March::throw_chattering(int event_function) const {
   throw ComputationError(fmt::format(
       "t = {:.6g} s: {} is met again and again without the motion going on; give the contact some compliance, or the "
       "switch some hysteresis",
-      integration_.state().time, integration_.system().event_functions()[static_cast<std::size_t>(crossing)].name));
+      integration_.state().time,
+      integration_.system().event_functions()[static_cast<std::size_t>(event_function)].name));
 }
 
 void March::note(const std::vector<int>& passed, MarchStep& step) {
   const double time = integration_.state().time;
   for (const int k : passed) {
-    const EventFunction& crossing = integration_.system().event_functions()[static_cast<std::size_t>(k)].crossing;
+    const EventFunction& function = integration_.system().event_functions()[static_cast<std::size_t>(k)].function;
     step.passed.push_back({time, k});
     crossed_.push_back(k);
     ++log_.crossings;
-    if (crossing.stops) stopped_ = true;
-    if (crossing.restarts) pending_ = Pending::branch;
+    if (function.stops) stopped_ = true;
+    if (function.restarts) pending_ = Pending::branch;
   }
 }
 
@@ -336,12 +253,12 @@ void March::refuse_by_error(double h, double error) {
 March::Plan March::plan() const {
   Plan plan;
   plan.begin = integration_.state().time;
-  const double left = stops_->time() - plan.begin;
+  const double left = stops_.time() - plan.begin;
   // The last two steps before a stop have the same size, so that no short step remains.
   plan.last = left <= size_ * (1 + 1e-9);
   plan.size = plan.last ? left : left < 2 * size_ ? left / 2 : size_;
-  plan.end = plan.last ? stops_->time() : plan.begin + plan.size;
-  plan.kink = plan.last && stops_->at_kink();
+  plan.end = plan.last ? stops_.time() : plan.begin + plan.size;
+  plan.kink = plan.last && stops_.at_kink();
   return plan;
 }
 
@@ -377,7 +294,7 @@ bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
       refuse_by_error(plan.size, trial.error);
       return false;
     }
-    trial.crossing = locate(plan.begin, trial.report);
+    trial.to_event = locate(plan.begin, trial.report);
   }
   if (trial.report.converged()) return true;
   trial.error = 0;
@@ -387,7 +304,7 @@ bool March::try_step(const Plan& plan, int& too_large, Trial& trial) {
 }
 
 void March::tell(Attempt::Outcome outcome, const Plan& plan, const Trial& trial) const {
-  const double size = trial.crossing > 0 ? trial.crossing : plan.size;
+  const double size = trial.to_event > 0 ? trial.to_event : plan.size;
   if (observer_) observer_({outcome, plan.begin + size, trial.report, trial.error});
 }
 
@@ -398,7 +315,7 @@ void March::count(const Plan& plan, const Trial& trial) {
     log_.most_iterations_at = integration_.state().time;
     log_.slowest_equation = trial.report.worst_equation;
   }
-  if (plan.kink || trial.crossing > 0 || integration_.is_short()) return;
+  if (plan.kink || trial.to_event > 0 || integration_.is_short()) return;
   log_.smallest = log_.smallest > 0 ? std::min(log_.smallest, plan.size) : plan.size;
   log_.largest = std::max(log_.largest, plan.size);
 }
@@ -411,8 +328,8 @@ void March::pass_noted(double begin, MarchStep& step) {
       begin, end, [this](double time) { return integration_.interpolated(time); }, integration_.environment(),
       tolerance_of(end - begin, begin));
   for (const EventLocator::Noted& each : noted) {
-    step.passed.push_back({each.time, each.crossing});
-    crossed_.push_back(each.crossing);
+    step.passed.push_back({each.time, each.event_function});
+    crossed_.push_back(each.event_function);
     ++log_.crossings;
   }
 }
@@ -435,16 +352,16 @@ MarchStep March::advance() {
   step.error = trial.error;
   if (integration_.is_short()) pending_ = Pending::restart;
   if (!pulses_.idle()) {
-    if (trial.crossing > 0)
+    if (trial.to_event > 0)
       pulses_.look(integration_.state(), integration_.environment(), planned.begin, integration_.state().time);
     pulses_.add(integration_.state().time);
   }
   pass_noted(planned.begin, step);
-  if (trial.crossing > 0) pass_events(step);
+  if (trial.to_event > 0) pass_events(step);
   std::stable_sort(step.passed.begin(), step.passed.end(),
                    [](const Passed& a, const Passed& b) { return a.time < b.time; });
   if (branch_left) pending_ = Pending::branch;
-  if (trial.crossing > 0 && integration_.state().time < planned.end) {
+  if (trial.to_event > 0 && integration_.state().time < planned.end) {
     step.on_grid = false;
     return step;
   }
@@ -453,10 +370,10 @@ MarchStep March::advance() {
     size_ = std::max(trial.error_known ? proposed_size(planned.size, trial.error, options_.largest) : planned.size,
                      planned.last ? size_ : 0);
   else
-    size_ = std::min(2 * size_, stops_->step_size());
-  step.on_grid = adaptive() || (planned.last && stops_->on_grid());
+    size_ = std::min(2 * size_, stops_.step_size());
+  step.on_grid = adaptive() || (planned.last && stops_.on_grid());
   if (planned.kink) pending_ = Pending::branch;
-  if (planned.last) stops_->advance(stops_->time());
+  if (planned.last) stops_.advance(stops_.time());
   return step;
 }
 

@@ -8,30 +8,22 @@
 #pragma once
 
 #include <functional>
-#include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "mechanism/solvers/dynamics/error_norm.hpp"
 #include "mechanism/solvers/dynamics/event_locator.hpp"
+#include "mechanism/solvers/dynamics/march_log.hpp"
 #include "mechanism/solvers/dynamics/pulse_watch.hpp"
+#include "mechanism/solvers/dynamics/step_stops.hpp"
 
 namespace bielle::mechanism {
 
-struct StepOptions {
-  double size = 0;                                           ///< fixed size, or size of the first step [s]
-  double tolerance = 0;                                      ///< tolerance of the local error; 0: fixed steps
-  double largest = std::numeric_limits<double>::infinity();  ///< largest step [s], adaptive steps only
-  /// Times at which forces or prescribed motions have kinks. Times outside the interval are ignored.
-  std::vector<double> break_points;
-};
-
 /// An event that a step has ended on, or an event within it that changes nothing.
 struct Passed {
-  double time = 0;   ///< time [s]
-  int crossing = 0;  ///< index in System::crossings
+  double time = 0;         ///< time [s]
+  int event_function = 0;  ///< index in System::event_functions
 };
 
 /// An accepted step.
@@ -50,30 +42,11 @@ struct Attempt {
   double error;  ///< error, as in MarchStep
 };
 
-/// Statistics of a march.
-struct MarchLog {
-  long steps = 0, iterations = 0;    ///< accepted steps; linear solves, including those of rejected steps
-  long factorisations = 0;           ///< factorisations of the tangent
-  long shortened = 0;                ///< iterations with a shortened step
-  long refused_by_error = 0;         ///< steps with too large a local error
-  long refused_by_newton = 0;        ///< steps in which Newton's method failed
-  long crossings = 0;                ///< number of events
-  double smallest = 0, largest = 0;  ///< range of accepted steps [s], without those shortened by kinks
-  int most_iterations = 0;           ///< largest number in an accepted step
-  double most_iterations_at = 0;     ///< time of that step [s]
-  int slowest_equation = -1;         ///< equation with the largest residual at the end of that step; -1: none
-  std::string hardest;               ///< reason of the last rejected step; empty if none was rejected
-
-  void exchange(Archive& archive, int equations);    ///< all except the text
-  MarchLog followed_by(const MarchLog& next) const;  ///< combined log of both
-};
-
 class March {
  public:
   /// @param begin  origin of the grid of fixed steps: the integration's time, or earlier if a motion is continued [s]
   /// @param end    end time [s]
   March(TimeIntegration& integration, double begin, double end, StepOptions options);
-  ~March();
 
   bool done() const;
   bool stopped() const { return stopped_; }  ///< whether an event stopped it
@@ -103,7 +76,6 @@ class March {
   void exchange(Archive& archive);  ///< for a march with the same options; the integration has its own
 
  private:
-  class Stops;
   enum class Pending { nothing, start, restart, branch };
   /// The next step to attempt.
   struct Plan {
@@ -116,7 +88,7 @@ class March {
     StepReport report;
     double error = 0;          ///< local error over tolerance
     bool error_known = false;  ///< also that of first-order unknowns
-    double crossing = 0;       ///< size of the step that ends just after its first event [s]; 0: none
+    double to_event = 0;       ///< size of the step that ends just after its first event [s]; 0: none
   };
   bool adaptive() const { return options_.tolerance > 0; }
   Plan plan() const;
@@ -136,7 +108,7 @@ class March {
   bool is_short(double h) const;
   void change_step(double h);
   StepReport attempt(double h, double end, bool kink);
-  [[noreturn]] void throw_chattering(int crossing) const;
+  [[noreturn]] void throw_chattering(int event_function) const;
   void pass_events(MarchStep& step);
   void refuse_by_error(double h, double error);
   void refuse_by_newton(double h, const StepReport& report);
@@ -144,16 +116,16 @@ class March {
   TimeIntegration& integration_;
   double end_;
   StepOptions options_;
-  std::unique_ptr<Stops> stops_;
+  StepStops stops_;
   ErrorNorm norm_;
   Pending pending_ = Pending::start;
   EventLocator watch_;
   PulseWatch pulses_;
   std::vector<int> crossed_;  ///< events at the start of the next step
   bool stopped_ = false;
-  bool begun_anew_ = false;     ///< the present step has its own start values
-  double last_crossing_ = 0;    ///< time of the last event [s]
-  long crossings_at_once_ = 0;  ///< consecutive events without progress
+  bool begun_anew_ = false;  ///< the present step has its own start values
+  double last_event_ = 0;    ///< time of the last event [s]
+  long events_at_once_ = 0;  ///< consecutive events without progress
   std::function<void(const Jump&)> jump_listener_;
   double size_ = 0, smallest_ = 0;
   MarchLog log_, before_;  ///< before_: log of the runs that this one continues

@@ -5,6 +5,7 @@
 // machine, whatever other work it does. Only their ratios matter.
 #pragma once
 
+#include "mechanism/math/sparse_factors.hpp"
 #include "mechanism/system/system.hpp"
 
 namespace bielle::mechanism {

@@ -14,7 +14,7 @@
 #include <complex>
 #include <memory>
 
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_factors.hpp"
 #include "mechanism/solvers/linearised/equations.hpp"
 
 namespace bielle::mechanism {

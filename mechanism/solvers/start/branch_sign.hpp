@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_factors.hpp"
 #include "mechanism/system/system.hpp"
 
 namespace bielle::mechanism {
@@ -17,7 +17,7 @@ namespace bielle::mechanism {
 class BranchSign {
  public:
   explicit BranchSign(const System& system) : system_(system) {}
-  /// Whether the determinants of two positions have the same sign, or cannot be compared: B is not square or is
+  /// Returns whether the determinants of two positions have the same sign, or cannot be compared: B is not square or is
   /// singular, or other constraints are switched on.
   bool same(const Environment& environment, const State& one, const State& other);
 

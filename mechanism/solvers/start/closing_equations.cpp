@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "mechanism/math/sparse_factors.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 
 namespace bielle::mechanism {

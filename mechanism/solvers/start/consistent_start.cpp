@@ -19,9 +19,9 @@ namespace {
 /// Releases overloaded holds, the most overloaded first.
 void release_overloaded(const System& system, const Environment& environment, State& state, StartReport& report,
                         KktMatrix& saddle) {
-  const auto& crossings = system.event_functions();
-  const auto count = static_cast<int>(crossings.size());
-  const bool any = std::any_of(crossings.begin(), crossings.end(), [](const auto& c) { return c.crossing.one_by_one; });
+  const auto& events = system.event_functions();
+  const auto count = static_cast<int>(events.size());
+  const bool any = std::any_of(events.begin(), events.end(), [](const auto& c) { return c.function.one_by_one; });
   if (!any) return;
   VectorX values(count);
   // Each hold is released only once; holds that engage again are left to the motion.
@@ -29,7 +29,7 @@ void release_overloaded(const System& system, const Environment& environment, St
     system.calc_event_functions(state, environment, values);
     int worst = -1;
     for (int i = 0; i < count; ++i)
-      if (crossings[static_cast<std::size_t>(i)].crossing.one_by_one && values[i] < 0 &&
+      if (events[static_cast<std::size_t>(i)].function.one_by_one && values[i] < 0 &&
           (worst < 0 || values[i] < values[worst]))
         worst = i;
     if (worst < 0) return;

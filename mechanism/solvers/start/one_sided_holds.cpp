@@ -26,15 +26,15 @@ class Exchange {
       : system_(system), environment_(environment), begun_(begun), saddle_(saddle) {
     const std::vector<MemberEventFunction>& events = system.event_functions();
     for (int k = 0; k < static_cast<int>(events.size()); ++k) {
-      const auto [member, index, crossing, name] = events[static_cast<std::size_t>(k)];
-      if (crossing.one_sided == EventFunction::OneSided::no) continue;
+      const auto [member, index, function, name] = events[static_cast<std::size_t>(k)];
+      if (function.one_sided == EventFunction::OneSided::no) continue;
       const int multiplier = system.slots()[member].multiplier_begin;
       if (holds_.empty() || holds_.back().multiplier != multiplier) holds_.push_back({multiplier, -1, -1});
-      (crossing.one_sided == EventFunction::OneSided::opens ? holds_.back().opens : holds_.back().violated) = k;
+      (function.one_sided == EventFunction::OneSided::opens ? holds_.back().opens : holds_.back().violated) = k;
     }
   }
 
-  /// Whether a one-sided constraint is set aside.
+  /// Returns whether a one-sided constraint is set aside.
   bool any_aside() const {
     return std::any_of(holds_.begin(), holds_.end(),
                        [&](const Hold& hold) { return flag(begun_.idle, hold) == Idle::redundant; });
@@ -51,7 +51,7 @@ class Exchange {
       const Hold& hold = holds_[k];
       const char idle = flag(state.idle, hold);
       const int event = idle == Idle::redundant ? hold.violated : hold.opens;
-      if (idle == Idle::switched_off || !(system_.calc_crossing(state, environment_, event) > 0)) continue;
+      if (idle == Idle::switched_off || !(system_.calc_event_function(state, environment_, event) > 0)) continue;
       (idle == Idle::redundant ? wrong.violated : wrong.pulling).push_back(k);
     }
     return wrong;

@@ -13,13 +13,13 @@ namespace {
 char& idle_of(State& state, int multiplier) { return state.idle[static_cast<std::size_t>(multiplier)]; }
 
 /// Returns the overload of a hold at a state, as its component computes it; not positive if it holds.
-double overload(const System& system, const VectorX& crossings, int hold) {
+double overload(const System& system, const VectorX& values, int hold) {
   double most = 0;
-  for (Eigen::Index k = 0; k < crossings.size(); ++k) {
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
     const MemberEventFunction& each = system.event_functions()[static_cast<std::size_t>(k)];
     const Slots& slots = system.slots()[each.member];
     const int own = hold - slots.multiplier_begin;
-    if (each.crossing.one_by_one && own >= 0 && own < slots.multipliers) most = std::max(most, -crossings[k]);
+    if (each.function.one_by_one && own >= 0 && own < slots.multipliers) most = std::max(most, -values[k]);
   }
   return most;
 }
@@ -62,7 +62,7 @@ bool holds_stop_more(const System& system, const Environment& environment, const
 
 void refuse_holds(const System& system, const Environment& environment, State& state, std::vector<int> new_holds,
                   Overloaded overloaded, KktMatrix& saddle) {
-  VectorX crossings = VectorX::Zero(static_cast<Eigen::Index>(system.event_functions().size()));
+  VectorX values = VectorX::Zero(static_cast<Eigen::Index>(system.event_functions().size()));
   while (!new_holds.empty()) {
     State trial = state;
     for (const int hold : new_holds) idle_of(trial, hold) = Idle::redundant;
@@ -74,10 +74,10 @@ void refuse_holds(const System& system, const Environment& environment, State& s
     auto refused = new_holds.end();
     try {
       make_accelerations_consistent(system, environment, trial, saddle);
-      if (overloaded == Overloaded::refused) system.calc_event_functions(trial, environment, crossings);
+      if (overloaded == Overloaded::refused) system.calc_event_functions(trial, environment, values);
       double most = 0;
       for (auto hold = new_holds.begin(); hold != new_holds.end(); ++hold)
-        if (const double each = overload(system, crossings, *hold); each > most) {
+        if (const double each = overload(system, values, *hold); each > most) {
           most = each;
           refused = hold;
         }

@@ -49,7 +49,7 @@ class Reactions(unittest.TestCase):
                          {"write_output"})
         self.assertEqual(readers("double force(const LocalState& s) const final { return -s.multiplier()[0]; }"), {"force"})
         self.assertEqual(readers("void A::add_residual(const LocalState& s, Vector r) const {\n  r += s.multiplier();\n}\n"
-                                 "void A::calc_crossings(const LocalState& s, Vector v) const {\n  v[0] = s.reaction()[0];\n}"),
+                                 "void A::calc_event_functions(const LocalState& s, Vector v) const {\n  v[0] = s.reaction()[0];\n}"),
                          {"add_residual"})
         self.assertEqual(readers("void A::add_residual(const LocalState& s) const {\n  // of s.multiplier()\n}"), set())
 

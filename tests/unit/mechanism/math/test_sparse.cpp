@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 #include <klu.h>
 
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_factors.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/sparse_values.hpp"
 

@@ -1,33 +1,16 @@
-#include "mechanism/math/sparse.hpp"
+#include "mechanism/math/sparse_factors.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <mutex>
 #include <optional>
-#include <stdexcept>
 
-#include <fmt/format.h>
-#include <klu.h>
-
+#include "mechanism/math/fill_orderings.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
 namespace {
-
-// KLU's interface takes pointers to non-const, but does not write through them.
-int* starts(const SparsePattern& pattern) { return const_cast<int*>(pattern.column_start().data()); }
-int* rows(const SparsePattern& pattern) { return const_cast<int*>(pattern.row().data()); }
-
-klu_common defaults() {
-  klu_common common;
-  klu_defaults(&common);
-  common.scale = -1;   // rows are scaled in this file
-  common.btf = 0;      // permuting constraint rows off the diagonal causes more fill than the block form saves
-  common.initmem = 2;  // factors have about as many entries as the matrix; KLU allocates more when necessary
-  return common;
-}
 
 /// KLU's functions of a scalar type. Complex numbers are pairs of doubles.
 template <class Scalar>
@@ -57,72 +40,9 @@ double* numbers(std::complex<double>* values) { return reinterpret_cast<double*>
 
 }  // namespace
 
-/// KLU's analyses of a pattern, which the factorisation only reads.
-class FillOrderings {
- public:
-  enum Method { minimum_degree = 0, column_minimum_degree = 1 };
-
-  klu_symbolic* get(const SparsePattern& pattern, Method method) const {
-    Analysis& analysis = analyses_[method];
-    std::call_once(analysis.once, [&] {
-      klu_common common = defaults();
-      common.ordering = method;
-      analysis.symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
-      if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
-      if (!analysis.symbolic)
-        throw ComputationError(fmt::format(
-            "the sparse solver could not order the equations: they are too many (KLU returned {})", common.status));
-    });
-    return analysis.symbolic;
-  }
-
-  FillOrderings() = default;
-  FillOrderings(const FillOrderings&) = delete;
-  FillOrderings& operator=(const FillOrderings&) = delete;
-  ~FillOrderings() {
-    klu_common common = defaults();
-    for (Analysis& analysis : analyses_) klu_free_symbolic(&analysis.symbolic, &common);
-  }
-
- private:
-  struct Analysis {
-    std::once_flag once;
-    klu_symbolic* symbolic = nullptr;
-  };
-  mutable Analysis analyses_[2];
-};
-
-SparsePattern::SparsePattern(std::vector<int> column_start, std::vector<int> row)
-    : size_(static_cast<int>(column_start.size()) - 1),
-      column_start_(std::move(column_start)),
-      row_(std::move(row)),
-      orderings_(std::make_shared<const FillOrderings>()) {}
-
-SparsePattern::SparsePattern(int size, std::vector<std::pair<int, int>> entries)
-    : size_(size), orderings_(std::make_shared<const FillOrderings>()) {
-  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
-    return a.second != b.second ? a.second < b.second : a.first < b.first;
-  });
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-  column_start_.assign(static_cast<std::size_t>(size) + 1, 0);
-  row_.reserve(entries.size());
-  for (const auto& [row, column] : entries) {
-    ++column_start_[static_cast<std::size_t>(column) + 1];
-    row_.push_back(row);
-  }
-  for (std::size_t c = 0; c < static_cast<std::size_t>(size); ++c) column_start_[c + 1] += column_start_[c];
-}
-
-int SparsePattern::find(int row, int column) const {
-  const auto begin = row_.begin() + column_start_[static_cast<std::size_t>(column)];
-  const auto end = row_.begin() + column_start_[static_cast<std::size_t>(column) + 1];
-  const auto place = std::lower_bound(begin, end, row);
-  return place != end && *place == row ? static_cast<int>(place - row_.begin()) : -1;
-}
-
 template <class Scalar>
 struct SparseFactors<Scalar>::Factors {
-  klu_common common = defaults();
+  klu_common common = klu_parameters();
   klu_symbolic* symbolic = nullptr;  ///< the chosen ordering, owned by the pattern
   klu_numeric* numeric = nullptr;
   double room = 0;                ///< limit of factor entries beyond which the factorisation is given up; 0: no limit
@@ -142,9 +62,9 @@ struct SparseFactors<Scalar>::Factors {
   bool factorise(const SparsePattern& pattern) {
     drop_numeric();
     // Without a limit the memory grows by the default factor; with one, KLU fails as soon as it would have to grow.
-    common.memgrow = room > 0 ? 1e30 : defaults().memgrow;
-    common.initmem_amd = room > 0 ? 0.5 * room / symbolic->lnz : defaults().initmem_amd;
-    numeric = Klu<Scalar>::factor(starts(pattern), rows(pattern), numbers(scaled.data()), symbolic, &common);
+    common.memgrow = room > 0 ? 1e30 : klu_parameters().memgrow;
+    common.initmem_amd = room > 0 ? 0.5 * room / symbolic->lnz : klu_parameters().initmem_amd;
+    numeric = Klu<Scalar>::factor(klu_starts(pattern), klu_rows(pattern), numbers(scaled.data()), symbolic, &common);
     if (numeric && common.status == KLU_OK) return true;
     drop_numeric();
     if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -194,7 +114,7 @@ bool SparseFactors<Scalar>::refactor(const std::vector<Scalar>& values) {
   if (!f.numeric) return false;
   f.left = f.row_size.cwiseInverse().cwiseProduct(f.right);
   scale_entries(used(), values, f.left, f.right, f.scaled);
-  int *start = starts(used()), *row = rows(used());
+  int *start = klu_starts(used()), *row = klu_rows(used());
   if (!Klu<Scalar>::refactor(start, row, numbers(f.scaled.data()), f.symbolic, f.numeric, &f.common) ||
       f.common.status != KLU_OK || !Klu<Scalar>::rcond(f.symbolic, f.numeric, &f.common))
     return false;
