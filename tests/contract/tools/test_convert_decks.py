@@ -112,9 +112,15 @@ class Nastran(Deck):
                           + (f"*{i}{'abc'[k]}" if k + 1 < len(parts) else "") + "\n" for k, part in enumerate(parts)])
         columns = list(zip(*cards))
         for lines in ([line for card in cards for line in card], [line for column in columns for line in column],
-                      [*columns[0], *(line for column in columns[1:] for line in column[::-1])]):
+                      [*columns[0], *(line for column in columns[1:] for line in column[::-1])],
+                      [line for column in columns[::-1] for line in column]):
             self.convert(self.deck(self.grids(), *lines))
-        self.refuse(self.deck(self.grids(), cards[0][0], "*E7     " + cards[0][1][8:]), "line", "continuation '+E7'", "ends with '+0A'")
+        self.convert(self.deck(*(line for column in columns[:0:-1] for line in column), "PSOLID,1,1\n", self.grids(), *columns[0]))
+        self.refuse(self.deck(self.grids(), cards[0][0], "*E7     " + cards[0][1][8:]), "line", "no line of the deck ends with the mark '+E7'")
+        self.refuse(self.deck("*E7     " + cards[0][1][8:], self.grids(), self.tetrahedra()), "no line of the deck ends with the mark '+E7'")
+
+    def test_lines_with_more_fields_than_ten(self):
+        self.refuse(self.deck(self.grids(), self.tetrahedra(), "SPC1,7,123,1,2,3,4,5,6,,7,8\n"), "12 fields", "a line has 10 at the most")
 
     def test_supports_and_control_are_told(self):
         self.convert(self.deck(self.grids(), self.tetrahedra(), "SPC1,7,123,1,2,3\nSPC1,7,456,4\nSPC,8,5,12,0.,6,3,0.\n"))

@@ -73,34 +73,46 @@ class Card:
         raise InputError(f"'{self.path}': line {self.line}: {self.name}: expected {expected} in field {k + 1}, found {found}")
 
 
+class _Piece:
+    """Lines of a card that stand before it, from the one with a mark on. end: field 10 of its last line"""
+
+    def __init__(self, place, fields):
+        self.place, self.fields, self.end = place, fields, ""
+
+
 def read_cards(path, before=None):
     """@param before: a list that receives the lines before BEGIN BULK, in upper case. @returns list of Card, those of included files in
     their place. @raises InputError with file and line."""
-    cards, last, end, waiting = [], None, "", {}
-    for place, number, line in _bulk_lines(path, before):
-        more, name, mark = _split(line)
+    cards, last, end = [], None, ""
+    waiting, early = {}, {}  # by mark: cards whose next line is still to come, and lines whose card is
+    for path_here, number, line in _bulk_lines(path, before):
+        place = f"'{path_here}': line {number}"
+        more, name, next_end = _split(line, place)
+        mark = name.lstrip("+*")
         if name and not name.startswith(("+", "*")):
-            last = Card(place, number, [name] + more)
+            last = Card(path_here, number, [name] + more)
             cards.append(last)
-        else:
-            last = _continued(name.lstrip("+*"), end, waiting, last, f"'{place}': line {number}")
-            if last:
-                last.fields += more
-        end = mark
+        elif mark in waiting:
+            last = waiting.pop(mark)
+            last.fields += more
+        elif mark:
+            if mark in early:
+                raise InputError(f"{place}: the mark '+{mark}' begins another line, {early[mark].place}, and no line before them ends with it")
+            last = early[mark] = _Piece(place, more)
+        elif last:
+            last.fields += more
+        end = next_end
+        while end in early and early[end] is not last:
+            piece = early.pop(end)
+            last.fields += piece.fields
+            end = piece.end
+        if isinstance(last, _Piece):
+            last.end = end
         if end:
             waiting[end] = last
+    for mark, piece in early.items():
+        raise InputError(f"{piece.place}: no line of the deck ends with the mark '+{mark}' of this continuation")
     return cards
-
-
-def _continued(mark, end, waiting, last, place):
-    """The card that a line continues: the one before it, unless its mark is that of another line's end.
-
-    @param mark: field 1 of the line @param end: field 10 of the line before @param waiting: cards by the ends of their lines that no line has continued yet"""
-    if mark in waiting:
-        return waiting.pop(mark)
-    if mark and end:
-        raise InputError(f"{place}: the continuation '+{mark}' follows a line that ends with '+{end}', and no line before it ends with '+{mark}'")
-    return last
 
 
 def _bulk_lines(path, before):
@@ -143,8 +155,10 @@ def _included(name, path, main, number):
     raise InputError(f"'{path}': line {number}: INCLUDE '{name}': there is no such file in " + " or ".join(f"'{folder}'" for folder in folders))
 
 
-def _split(line):
-    """The fields of one line after the first, always as many as its format has, the first, and field 10 without its mark of continuation."""
+def _split(line, place):
+    """The fields of one line after the first, always as many as its format has, the first, and field 10 without its mark of continuation.
+
+    @raises InputError for more fields than a line has"""
     if "," in line:
         parts = [part.strip() for part in line.split(",")]
         name = parts[0]
@@ -152,6 +166,8 @@ def _split(line):
         count = 4 if wide else 8
         fields = (parts[1:] + [""] * count)[:count]
         end = parts[count + 1] if len(parts) > count + 1 else ""
+        if any(parts[count + 2:]):
+            raise InputError(f"{place}: {len(parts)} fields; a line has {count + 2} at the most: put the rest on a line that begins with ','")
     else:
         line = line.expandtabs(8)
         name = line[:8].strip()
