@@ -102,14 +102,21 @@ class Nastran(Deck):
         self.write("parts/some.inc", "INCLUDE 'none.inc'\n")
         self.refuse(self.deck(self.grids(), "INCLUDE 'parts/some.inc'\n"), "some.inc': line 1", "no such file", "parts' or '")
 
-    def test_continuations_by_their_marks(self):
-        # Lines in large fields, [card][line]; a line ends with its own mark, with which the next one of its card begins.
+    def marked(self, own):
+        """Cards in large fields, [card][line]; a line ends with a mark, with which the next one of its card begins. @param own: each card has marks of its own"""
         cards = []
         for i, row in enumerate(self.cells):
             fields = [i + 1, 1, *(n + 1 for n in row)]
             parts = [fields[k:k + 4] for k in range(0, len(fields), 4)]
-            cards.append([("CTETRA* " if k == 0 else f"*{i}{'abc'[k - 1]:<6}"[:8].ljust(8)) + "".join(f"{n:16d}" for n in part).ljust(64)
-                          + (f"*{i}{'abc'[k]}" if k + 1 < len(parts) else "") + "\n" for k, part in enumerate(parts)])
+            marks = [f"*{i if own else ''}{letter}" for letter in "abc"]
+            cards.append([("CTETRA*" if k == 0 else marks[k - 1]).ljust(8) + "".join(f"{n:16d}" for n in part).ljust(64) + (marks[k] if k + 1 < len(parts) else "") + "\n"
+                          for k, part in enumerate(parts)])
+        return cards
+
+    def test_continuations_by_their_marks(self):
+        shared = self.marked(False)
+        self.convert(self.deck(self.grids(), *(line for column in zip(*shared) for line in column)))
+        cards = self.marked(True)
         columns = list(zip(*cards))
         for lines in ([line for card in cards for line in card], [line for column in columns for line in column],
                       [*columns[0], *(line for column in columns[1:] for line in column[::-1])],

@@ -58,6 +58,18 @@ def put(item, position, rotation):
 
 
 class Cuts(unittest.TestCase):
+    def test_a_bore_along_each_axis_leaves_the_box_where_it_is(self):
+        size, place = np.array(BOX["size"]), np.array([0.3, 0.1, 0.02])
+        for axis, rotation in ((0, ABOUT_Y), (1, ABOUT_X), (2, (1, 0, 0, 0))):
+            with self.subTest(axis=axis):
+                points = solid_mesh({**BOX, "entry": "elements/it", "position": [0, 0, 0], "rotation": [1, 0, 0, 0]},
+                                    [hole(0.1, 3, place, rotation, entry="elements/it")]).points
+                np.testing.assert_allclose([points.min(axis=0), points.max(axis=0)], [-size / 2, size / 2], atol=1e-12)
+                away = np.delete(points - place, axis, axis=1)
+                rim = np.abs(np.linalg.norm(away, axis=1) - 0.1) < 1e-9
+                self.assertGreaterEqual(np.count_nonzero(rim), 2 * ROUND)
+                self.assertTrue((np.isclose(np.abs(np.delete(points[~rim], axis, axis=1)), np.delete(size / 2, axis)).all()))
+
     def check(self, solid, cuts, left):
         """Also for a solid that stands elsewhere and is turned."""
         for position, rotation in ((np.zeros(3), np.array([1.0, 0, 0, 0])), (np.array([3.0, -1, 2]), TURNED)):

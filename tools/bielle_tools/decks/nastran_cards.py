@@ -84,7 +84,7 @@ def read_cards(path, before=None):
     """@param before: a list that receives the lines before BEGIN BULK, in upper case. @returns list of Card, those of included files in
     their place. @raises InputError with file and line."""
     cards, last, end = [], None, ""
-    waiting, early = {}, {}  # by mark: cards whose next line is still to come, and lines whose card is
+    waiting, early = {}, {}  # by mark: cards whose next line is still to come, in their order, and lines whose card is
     for path_here, number, line in _bulk_lines(path, before):
         place = f"'{path_here}': line {number}"
         more, name, next_end = _split(line, place)
@@ -92,8 +92,8 @@ def read_cards(path, before=None):
         if name and not name.startswith(("+", "*")):
             last = Card(path_here, number, [name] + more)
             cards.append(last)
-        elif mark in waiting:
-            last = waiting.pop(mark)
+        elif waiting.get(mark):
+            last = waiting[mark].pop(0)
             last.fields += more
         elif mark:
             if mark in early:
@@ -101,6 +101,8 @@ def read_cards(path, before=None):
             last = early[mark] = _Piece(place, more)
         elif last:
             last.fields += more
+        elif any(more):
+            raise InputError(f"{place}: a continuation without a card before it")
         end = next_end
         while end in early and early[end] is not last:
             piece = early.pop(end)
@@ -109,7 +111,7 @@ def read_cards(path, before=None):
         if isinstance(last, _Piece):
             last.end = end
         if end:
-            waiting[end] = last
+            waiting.setdefault(end, []).append(last)
     for mark, piece in early.items():
         raise InputError(f"{piece.place}: no line of the deck ends with the mark '+{mark}' of this continuation")
     return cards

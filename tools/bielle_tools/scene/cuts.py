@@ -26,7 +26,7 @@ def solid_mesh(item, cuts):
         pieces = [_extruded(outline, holes + own, low, high) for low, high, own in layers]
     except ValueError:  # holes of very different sizes, next to each other to the last digits
         return _whole(item)
-    turn = np.roll(np.eye(3), axis + 1, axis=1)  # columns: images of the two axes of the outline and of the axis
+    turn = np.roll(np.eye(3), -axis - 1, axis=1)  # columns: images of the two axes of the outline and of the axis
     return t.moved(t.merged(pieces), axes=turn)
 
 
