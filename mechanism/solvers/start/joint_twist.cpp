@@ -36,7 +36,7 @@ void set_rigid_velocity(NodeState& node, const RigidVelocity& motion) {
 }
 
 JointTwist::JointTwist(const System& system, const Environment& environment, const State& state)
-    : system_(system), environment_(environment), state_(state), length_(model_length(state)) {}
+    : system_(system), environment_(environment), state_(state), length_(model_extent(state)) {}
 
 void JointTwist::set_rates(const State& state) { state_.nodes = state.nodes; }
 
@@ -116,8 +116,7 @@ Vector6 least_solution(const TwistRates& rates) {
   }
   Eigen::SparseMatrix<double> columns(6, rates.A.rows());
   columns.setFromTriplets(entries.begin(), entries.end());
-  constexpr double rounding = 1e-9;
-  const std::vector<int> dependent = dependent_columns(columns, rounding);
+  const std::vector<int> dependent = dependent_columns(columns, 1e-9);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index row = 0; row < rates.A.rows(); ++row)
     if (!std::binary_search(dependent.begin(), dependent.end(), static_cast<int>(row)) && !rates.A.row(row).isZero(0))
