@@ -70,6 +70,10 @@ class Places:
         if as_recorded:
             return self.find(as_recorded)
         written = raw.replace("'", "").strip().strip("/")
+        analysis = re.split("[./]", written)[0]
+        if analysis in WITHOUT_ROWS and self.results.has(analysis):
+            shown = {"frequency_response": "bielle-table --response", "state_space": "h5py"}.get(analysis, "bielle-table --modes")
+            raise InputError(f"'{self.results.path}' has no quantity '{text}' over time: {shown} shows the results of '{analysis}'")
         raise InputError(f"'{self.results.path}' has no quantity '{text}'{self._nearest(written)}")
 
     def _of_beam(self, text):

@@ -8,7 +8,7 @@ import h5py
 
 from ..arguments import superelement_paths
 from ..messages import InputError, note
-from ..results.results_file import Results, reading
+from ..results.results_file import WITHOUT_ROWS, Results, reading
 from .quantities import Quantities
 
 
@@ -22,14 +22,15 @@ class Run:
 
 
 @contextlib.contextmanager
-def open_runs(options):
-    """The runs of options.files, a list that is not empty. @raises InputError"""
+def open_runs(options, without_rows=False):
+    """The runs of options.files, a list that is not empty. without_rows: runs of a study that recorded nothing over time count too.
+    @raises InputError"""
     with contextlib.ExitStack() as stack:
         opened = []
         for path, short in zip(options.files, _short_names(options.files)):
             study = _study_runs(path)
             for group, values in study or [("", "")]:
-                if not options.analysis and not _has_results(path, group):
+                if not options.analysis and not _has_results(path, group, without_rows):
                     note(f"{path}: {group} ({values}) has no results and is left out")
                     continue
                 results = stack.enter_context(Results(path, options.analysis, group))
@@ -69,8 +70,10 @@ def _study_runs(path):
     return [(f"runs/{k + 1}", named[k]) for k in (status == 0).nonzero()[0]]
 
 
-def _has_results(path, group):
+def _has_results(path, group, without_rows):
     if not group:
         return True
     with reading(path, group), h5py.File(path, "r") as file:
+        if without_rows and group in file and any(name in file[group] for name in WITHOUT_ROWS):
+            return True
         return group in file and "time" in file[group] and len(file[group]["time"]) > 0
