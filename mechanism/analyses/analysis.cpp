@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 namespace bielle::mechanism {
 
 AnalysisSummary Analysis::run(Session& session) const {
@@ -21,6 +23,8 @@ AnalysisSummary Analysis::go_on(Session& session, const std::vector<double>& che
   summary.text += session.gathered();
   return summary;
 }
+
+std::string Analysis::place(const Session& session) const { return fmt::format("t = {:.6g} s", session.time()); }
 
 void Analysis::solve_rest(Session&, const std::vector<double>&, ResultSink&, AnalysisSummary&) const {
   throw std::logic_error("the analysis '" + type_ + "' cannot go on from a checkpoint");

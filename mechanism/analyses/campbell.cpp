@@ -7,6 +7,7 @@
 
 #include "mechanism/analyses/mode_names.hpp"
 #include "mechanism/analyses/modes.hpp"
+#include "mechanism/session/interrupted.hpp"
 #include "mechanism/solvers/linearised/whirl.hpp"
 #include "reduce/common/error.hpp"
 #include "reduce/common/formula/expression.hpp"
@@ -242,12 +243,18 @@ Campbell compute_campbell(Session& session, const CampbellOptions& options) {
       [&](double value, int count) {
         const double done = (value - options.values.front()) / (options.values.back() - options.values.front());
         if (Notes* notes = session.notes()) notes->progress(done, fmt::format("{:.4g}", value));
-        session.call_back();
+        try {
+          session.call_back();
+        } catch (const Interrupted&) {
+          found.interrupted = true;
+          throw SweepEnded();
+        }
         return states.sample(value, count);
       },
       options.values, options.modes, options.orders);
   session.forget_stop();
   found.swept = sweep.run([&] { return session.stopping(); });
+  if (found.swept.points.empty()) return found;
   states.name_modes();
   if (!found.unsteady.empty()) found.swept.critical.clear();  // frequencies of a moment are no frequencies of forces
   return found;

@@ -38,11 +38,12 @@ struct Campbell : LinearisedSetting {
   /// Name of each mode (mode_names.hpp): that of the mode at the last value, among all modes there; if it is lost
   /// there, that at the first value with the word "lost".
   std::vector<std::string> names;
-  std::string gathered;  ///< summary of the step recorders of another model, for the last value
+  bool interrupted = false;  ///< whether a callback threw Interrupted: the points are those before it, perhaps none
+  std::string gathered;      ///< summary of the step recorders of another model, for the last value
 };
 
 /// Computes the modes over a speed, tracked, with critical speeds; the present state of the session is kept. If the
-/// analysis is stopped, it returns the values computed so far.
+/// analysis is stopped or interrupted, it returns the values computed so far.
 /// @throws InputError if nothing rotates, or the model cannot be created with another parameter; ComputationError
 Campbell compute_campbell(Session& session, const CampbellOptions& options);
 

@@ -11,6 +11,7 @@
 #include "mechanism/analyses/rotation_reader.hpp"
 #include "mechanism/analyses/summary_text.hpp"
 #include "mechanism/reading/names.hpp"
+#include "mechanism/session/interrupted.hpp"
 #include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
@@ -232,15 +233,20 @@ std::unique_ptr<Analysis> read_campbell(const YamlValue& entry, const Model& mod
 void CampbellAnalysis::solve(Session& session, AnalysisSummary& summary) const {
   const Campbell found = compute_campbell(session, options_);
   const SweptModes& swept = found.swept;
-  write_campbell(session, found, options_.parameter);
+  const auto given =
+      std::count_if(swept.points.begin(), swept.points.end(), [](const SweepPoint& point) { return point.given; });
+  const bool empty = swept.points.empty() || swept.points.front().tracks.empty();
+  if (!empty) write_campbell(session, found, options_.parameter);
+  if (found.interrupted)
+    throw Interrupted(fmt::format("interrupted after {} of {} {}{}", given, options_.values.size(),
+                                  options_.parameter.empty() ? "speeds" : "values",
+                                  empty ? "" : "; the results file holds these, and nothing of the others"));
   for (const CriticalSpeed& each : swept.critical) {
     summary.numbers["critical_speed"].push_back(each.speed);
     summary.numbers["critical_frequency"].push_back(each.frequency);
     summary.numbers["critical_mode"].push_back(each.mode + 1);
     summary.numbers["critical_order"].push_back(each.order);
   }
-  const auto given =
-      std::count_if(swept.points.begin(), swept.points.end(), [](const SweepPoint& point) { return point.given; });
   summary.text =
       fmt::format("campbell, {} from {} to {}, {} ({} computed)\n", counted(swept.points.front().tracks.size(), "mode"),
                   at(swept.points.front().value, swept.points.front().speed),

@@ -98,7 +98,7 @@ std::string format_stability(const StaticsLog& log, bool path, bool hint) {
   if (!log.fell.empty()) text += fmt::format("  let go until it rested elsewhere: {}\n", log.fell);
   if (!log.loose.empty()) text += format_loose(log.loose);
   if (!log.unstable && log.critical.empty() && !path)
-    text += "  stability is not known: the stiffness is not symmetric, or forces depend on controllers or fluids\n";
+    text += fmt::format("  stability is not known: {}\n", log.why_not_known);
   return text;
 }
 
@@ -138,6 +138,10 @@ std::unique_ptr<Analysis> read_static(const YamlValue& entry, const Model& model
   }
   options.newton = read_newton(entry);
   return std::make_unique<StaticAnalysis>(std::move(options));
+}
+
+std::string StaticAnalysis::place(const Session& session) const {
+  return fmt::format("load factor {:.6g}", session.loaded().factor);
 }
 
 void StaticAnalysis::solve(Session& session, AnalysisSummary& summary) const {

@@ -11,6 +11,7 @@ class StaticAnalysis : public Analysis {
  public:
   explicit StaticAnalysis(StaticsOptions options) : Analysis("static"), options_(std::move(options)) {}
   const StaticsOptions& options() const { return options_; }
+  std::string place(const Session& session) const override;
   std::size_t expected_rows(const Recording&) const override {
     return options_.steps == 0 || options_.path ? 0 : static_cast<std::size_t>(options_.steps) + 1;
   }

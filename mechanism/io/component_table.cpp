@@ -35,6 +35,7 @@
 #include "mechanism/joints/pairs/wheel.hpp"
 #include "mechanism/joints/tyres/tyre.hpp"
 #include "mechanism/reading/read_activity.hpp"
+#include "reduce/common/input/foreign_words.hpp"
 
 namespace bielle::mechanism {
 
@@ -107,34 +108,15 @@ namespace {
 
 /// Returns a clause that names the type by which other programs' name for it goes here, or nothing.
 std::optional<std::string> own_name(Section section, const std::string& wanted) {
-  static const std::vector<std::pair<std::string, std::string>> names = {{"revolute", "hinge"},
-                                                                         {"pin", "hinge"},
-                                                                         {"translational", "prismatic"},
-                                                                         {"fixed", "rigid"},
-                                                                         {"weld", "rigid"},
-                                                                         {"clamp", "rigid"},
-                                                                         {"ball", "spherical"},
-                                                                         {"hooke", "universal"},
-                                                                         {"cardan", "universal"},
-                                                                         {"inplane", "planar"},
-                                                                         {"rod", "distance"},
-                                                                         {"rope", "cable"},
-                                                                         {"spring", "spring_damper"},
-                                                                         {"damper", "spring_damper"},
-                                                                         {"mass", "point_mass"},
-                                                                         {"body", "rigid_body"},
-                                                                         {"flexible_body", "superelement"},
-                                                                         {"cylinder", "hydraulic_actuator"},
-                                                                         {"tire", "tyre"},
-                                                                         {"bush", "bushing"}};
-  for (const auto& [foreign, own] : names)
-    if (wanted == foreign)
-      for (const ComponentType& type : component_table())
-        if (own == type.name)
-          return type.section == section
-                     ? fmt::format("; here it is called '{}'", own)
-                     : fmt::format("; here it is called '{}', one of the {}", own, section_name(type.section));
-  return {};
+  std::vector<std::string> types;
+  for (const ComponentType& type : component_table()) types.emplace_back(type.name);
+  const std::vector<std::string> own = names_here(wanted, types);
+  if (own.empty()) return {};
+  const std::string clause = called_here_clause(own);
+  for (const ComponentType& type : component_table())
+    if (own.front() == type.name && type.section != section)
+      return fmt::format("{}, one of the {}", clause, section_name(type.section));
+  return clause;
 }
 
 /// Returns a clause that names the section of a type from another section, or nothing.

@@ -29,10 +29,10 @@ InterruptGuard::~InterruptGuard() {
   std::signal(SIGHUP, previous_hup_);
 }
 
-void InterruptGuard::check(double time, const std::string& advice) const {
-  if (interrupted)
-    throw Interrupted(
-        fmt::format("interrupted at t = {:.6g} s; the results file holds all steps up to there{}", time, advice));
+bool InterruptGuard::asked() const { return interrupted != 0; }
+
+void InterruptGuard::end_run(const std::string& place, const std::string& advice) const {
+  throw Interrupted(fmt::format("interrupted {}; the results file holds all steps up to there{}", place, advice));
 }
 
 }  // namespace bielle::mechanism

@@ -13,10 +13,11 @@ class InterruptGuard {
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
-  /// @param time    present time of the run [s]
+  bool asked() const;  ///< whether the run was asked to end
+  /// @param place   place of the run, for the message: "at t = 0.3 s", "before analysis 2"
   /// @param advice  instruction how to continue, for the message
-  /// @throws Interrupted after an interrupt
-  void check(double time, const std::string& advice = "") const;
+  /// @throws Interrupted
+  [[noreturn]] void end_run(const std::string& place, const std::string& advice = "") const;
 
  private:
   using Handler = void (*)(int);

@@ -137,12 +137,15 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
     session->on_attempt([&](const Attempt& attempt) { log->write(attempt); });
   }
   std::optional<InterruptGuard> guard;
+  const Analysis* present = nullptr;
   std::string advice;  // instruction how to continue after an interruption
   if (listener.on_step) {
     session->on_step(listener.on_step);
   } else {
     guard.emplace();
-    session->on_step([&](Session& at) { guard->check(at.time(), advice); });
+    session->on_step([&](Session& at) {
+      if (guard->asked()) guard->end_run("at " + present->place(at), advice);
+    });
   }
 
   std::vector<AnalysisSummary> summaries;
@@ -150,6 +153,9 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
     const Analysis& analysis = *file.analyses[k];
     const int number = static_cast<int>(k) + 1;
     if (checkpoint && number < checkpoint->analysis) continue;
+    // Analyses that do not call back (eigen, frequency_response) run to their end.
+    if (guard && guard->asked()) guard->end_run(fmt::format("before analysis {}", number));
+    present = &analysis;
     progress.start(analysis.type());
     advice = !analysis.can_go_on() ? ""
                                    : fmt::format("; `bielle-mechanism {} --restart {}` goes on from there",

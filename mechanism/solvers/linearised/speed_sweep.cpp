@@ -352,8 +352,12 @@ void SpeedSweep::go_to(double value) {
 
 SweptModes SpeedSweep::run(const std::function<bool()>& stops) {
   result_ = {};
-  result_.points.push_back(begin());
-  for (std::size_t k = 1; k < values_.size() && !(stops && stops()); ++k) go_to(values_[k]);
+  try {
+    result_.points.push_back(begin());
+    for (std::size_t k = 1; k < values_.size() && !(stops && stops()); ++k) go_to(values_[k]);
+  } catch (const SweepEnded&) {
+    if (result_.points.empty()) return std::move(result_);
+  }
   find_meetings();
   std::stable_sort(result_.critical.begin(), result_.critical.end(),
                    [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.value < b.value; });

@@ -60,6 +60,9 @@ struct SweptModes {
   int solved = 0;  ///< number of states at which modes were computed
 };
 
+/// It is thrown by a solution to end the sweep before it.
+struct SweepEnded {};
+
 class SpeedSweep {
  public:
   /// Computes modes at a value of the swept parameter: at least `count` of the slowest, of any kind, or all.
@@ -68,6 +71,7 @@ class SpeedSweep {
   ///                speed
   SpeedSweep(Solve solve, std::vector<double> values, int modes, std::vector<double> orders)
       : solve_(std::move(solve)), values_(std::move(values)), modes_(modes), orders_(std::move(orders)) {}
+  /// If a solution throws SweepEnded, the points before it are returned; there are none if it is the first.
   /// @param stops  called after each value; true ends the sweep there
   SweptModes run(const std::function<bool()>& stops = {});
 

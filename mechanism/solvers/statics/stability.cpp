@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "mechanism/math/negative_directions.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/statics/load_ramp.hpp"
@@ -73,7 +75,7 @@ Stability::Stability(const System& system, const VectorX* held)
       held_(held ? *held : VectorX()) {}
 
 /// Extracts the parts of the tangent. @returns no value if forces depend on first-order unknowns
-std::optional<Stability::Parts> Stability::parts() const {
+std::optional<Stability::Parts> Stability::parts() {
   const std::vector<double>& values = linear_.values();
   const SparsePattern& pattern = linear_.pattern()->whole;
   const int dofs = system_.dofs(), first = system_.size() - system_.multipliers();
@@ -85,12 +87,12 @@ std::optional<Stability::Parts> Stability::parts() const {
     if (!out) number[static_cast<std::size_t>(k)] = constraints++;
   }
   std::vector<Eigen::Triplet<double>> stiffness, rows, columns;
-  bool known = true;
+  int read = -1;  // a first-order unknown on which forces depend
   pattern.for_each([&](int place, int row, int column) {
     const double value = values[static_cast<std::size_t>(place)];
     if (value == 0 || (row >= dofs && row < first)) return;  // effects of first-order unknowns are no stiffness
     if (column >= dofs && column < first) {
-      known = false;
+      read = column;
     } else if (row < dofs && column < dofs) {
       stiffness.emplace_back(row, column, value);
     } else if (row < dofs) {
@@ -99,7 +101,11 @@ std::optional<Stability::Parts> Stability::parts() const {
       if (const int k = number[static_cast<std::size_t>(row - first)]; k >= 0) rows.emplace_back(k, column, value);
     }
   });
-  if (!known) return {};
+  if (read >= 0) {
+    why_not_known_ = fmt::format("forces depend on {} of a controller, a differential equation or a fluid",
+                                 system_.unknown_name(read));
+    return {};
+  }
   Parts parts{Sparse(dofs, dofs), Sparse(constraints, dofs), Sparse(constraints, dofs)};
   parts.K.setFromTriplets(stiffness.begin(), stiffness.end());
   parts.B.setFromTriplets(rows.begin(), rows.end());
@@ -109,8 +115,13 @@ std::optional<Stability::Parts> Stability::parts() const {
 
 /// Returns whether forces have a potential. Rotations of a node commute only if its moments balance: the residual
 /// moments of an equilibrium are not counted as an asymmetry.
-bool Stability::is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over) const {
+bool Stability::is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over) {
   constexpr double asymmetry = 1e-7;  // relative to the sizes
+  const auto differs_at = [this](Eigen::Index unknown) {
+    why_not_known_ =
+        fmt::format("the stiffness is not symmetric at {}", system_.unknown_name(static_cast<int>(unknown)));
+    return false;
+  };
   const Sparse difference = parts.K - Sparse(parts.K.transpose());
   for (int j = 0; j < difference.outerSize(); ++j)
     for (Sparse::InnerIterator it(difference, j); it; ++it) {
@@ -118,7 +129,7 @@ bool Stability::is_symmetric(const Parts& parts, const VectorX& sizes, const Vec
       double most = asymmetry * std::sqrt(sizes[i] * sizes[j]);
       if (system_.kind(i) == Kind::rotation && system_.kind(j) == Kind::rotation)
         most += std::max(left_over[i], left_over[j]);
-      if (std::abs(it.value()) > most) return false;
+      if (std::abs(it.value()) > most) return differs_at(i);
     }
   VectorX row_sizes = VectorX::Zero(parts.B.rows());
   for (int j = 0; j < parts.B.outerSize(); ++j)
@@ -126,7 +137,7 @@ bool Stability::is_symmetric(const Parts& parts, const VectorX& sizes, const Vec
   const Sparse of_rows = parts.B - parts.B_of_forces;
   for (int j = 0; j < of_rows.outerSize(); ++j)
     for (Sparse::InnerIterator it(of_rows, j); it; ++it)
-      if (std::abs(it.value()) > asymmetry * std::sqrt(row_sizes[it.row()] * sizes[j])) return false;
+      if (std::abs(it.value()) > asymmetry * std::sqrt(row_sizes[it.row()] * sizes[j])) return differs_at(j);
   return true;
 }
 

@@ -30,6 +30,8 @@ class Stability {
   /// known.
   /// @param environment  environment of the equilibrium
   std::optional<int> count(const State& state, const Environment& environment);
+  /// Returns the reason why the last count is not known, as a clause that names an unknown.
+  const std::string& why_not_known() const { return why_not_known_; }
 
   /// The motion with the smallest stiffness, of either sign.
   struct Mode {
@@ -48,13 +50,14 @@ class Stability {
     Eigen::SparseMatrix<double> K;               ///< (dofs, dofs)
     Eigen::SparseMatrix<double> B, B_of_forces;  ///< (constraints, dofs): rows of constraints, and columns of reactions
   };
-  std::optional<Parts> parts() const;
-  bool is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over) const;
+  std::optional<Parts> parts();
+  bool is_symmetric(const Parts& parts, const VectorX& sizes, const VectorX& left_over);
   const VectorX* held() const { return held_.size() > 0 ? &held_ : nullptr; }
   const System& system_;
   NewtonMatrix linear_;
   std::vector<int> group_;  ///< (dofs) groups of equal units
   VectorX held_;
+  std::string why_not_known_;
 };
 
 }  // namespace bielle::mechanism

@@ -57,6 +57,7 @@ void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
     remember(above_->first, above_->second, point.after);  // continues from just above it
   }
   log.unstable = now;
+  log.why_not_known = now ? "" : stability_.why_not_known();
   remember(factor, state, now);
 }
 

@@ -9,6 +9,7 @@ namespace bielle::mechanism {
 namespace {
 
 const TangentWeights tangent_at_rest{1, 0, 0, 0, 1, true};
+constexpr double indifference = 1e-9;  // e
 
 /// Returns the mean stiffness of each kind of unknown (dofs); a kind without stiffness takes that of the others by the
 /// model's length.
@@ -38,9 +39,8 @@ VectorX mean_stiffness(const System& system, const NewtonMatrix& linear, const S
 }  // namespace
 
 void StaticTangent::look_for_loose(const State& state, const Environment& environment) {
-  constexpr double e = 1e-9;
   if (linear_.try_factor(state, environment, tangent_at_rest, nullptr) && !linear_.nearly_singular()) return;
-  held_ = e * mean_stiffness(system_, linear_, state);
+  held_ = indifference * mean_stiffness(system_, linear_, state);
 }
 
 void StaticTangent::factor(const State& state, const Environment& environment, double inertia, const VectorX* dq) {
@@ -81,12 +81,23 @@ std::string loose_unknown(const System& system, const Environment& environment, 
   NewtonMatrix linear(system);
   TangentWeights weights;
   weights.acceleration_level = true;
-  if (!linear.try_factor(state, environment, weights, nullptr))
-    return linear.singular_unknown() >= 0 ? system.unknown_name(linear.singular_unknown()) : "an unknown";
-  if (!linear.nearly_singular()) return {};
-  // A solution for arbitrary forces is along indifferent motions.
-  VectorX motion(system.size());
-  linear.solve(VectorX::LinSpaced(system.size(), 1, 2), motion);
+  const bool singular = !linear.try_factor(state, environment, weights, nullptr);
+  if (!singular && !linear.nearly_singular()) return {};
+  const int without_pivot = singular ? linear.singular_unknown() : -1;
+  // The unknown without a pivot may be held: elimination in another order finds none at another unknown. The motion is
+  // found by inverse iteration with K + e D, which lengthens indifferent motions by 1/e and others by about D/K; the
+  // constraints are satisfied.
+  const VectorX D = mean_stiffness(system, linear, state), held = indifference * D;
+  linear.choose_pivots_anew();
+  if (!linear.try_factor(state, environment, weights, nullptr, &held))
+    return without_pivot >= 0 ? system.unknown_name(without_pivot) : "an unknown";
+  constexpr int iterations = 3;
+  VectorX load = VectorX::Zero(system.size()), motion = VectorX::Zero(system.size());
+  motion.head(system.dofs()).setLinSpaced(1, 2);
+  for (int k = 0; k < iterations; ++k) {
+    load.head(system.dofs()) = D.cwiseProduct(motion.head(system.dofs())) / motion.head(system.dofs()).norm();
+    linear.solve(load, motion);
+  }
   return moves_most(system, motion, state);
 }
 

@@ -40,6 +40,7 @@ struct LoadJump {
 struct StaticsLog {
   std::vector<CriticalPoint> critical;
   std::optional<int> unstable;  ///< number of motions of negative stiffness at the end; no value: not known
+  std::string why_not_known;    ///< reason as a clause, if the stability at the end is not known
   std::vector<LoadJump> jumps;
   std::string fell;         ///< part without support against its load that moved to another rest position; empty: none
   std::string loose;        ///< unknown without support or load at the end, which keeps its initial value; empty: none

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "reduce/common/error.hpp"
+#include "reduce/common/input/foreign_words.hpp"
 
 namespace bielle {
 namespace {
@@ -103,6 +104,13 @@ void visit_forms(const KeyForms& forms, const std::function<void(const KeyTable&
   }
 }
 
+/// Returns the name by which a table is asked for: "hinge" of "a hinge", "eigen" of "the analysis 'eigen'".
+std::string asked_name(const std::string& of) {
+  const std::string thing = thing_named(of);
+  const std::size_t quote = thing.find('\'');
+  return quote != std::string::npos && thing.back() == '\'' ? thing.substr(quote + 1, thing.size() - quote - 2) : thing;
+}
+
 /// Returns a name with blanks in place of underscores.
 std::string in_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -166,8 +174,13 @@ std::string keys_of_named(const KeyTable& root, const std::string& name) {
   };
   const std::vector<const KeyTable*> tables = tables_below(root);
   for (const KeyTable* table : tables) {
-    names.push_back(thing_named(table->of));
-    if (name == "all" || in_words(names.back()) == in_words(name)) add(*table);
+    names.push_back(asked_name(table->of));
+    if (name == "all" || in_words(names.back()) == in_words(name) || thing_named(table->of) == name) add(*table);
+  }
+  if (const std::vector<std::string> here = names_here(name, names); text.empty() && !here.empty()) {
+    text = fmt::format("'{}'{}\n", name, called_here_clause(here));
+    for (const KeyTable* table : tables)
+      if (std::find(here.begin(), here.end(), asked_name(table->of)) != here.end()) add(*table);
   }
   if (text.empty())
     for (std::size_t k = 0; k < tables.size(); ++k)

@@ -9,6 +9,7 @@
 
 #include "reduce/common/counted.hpp"
 #include "reduce/common/files/file_checks.hpp"
+#include "reduce/common/input/foreign_words.hpp"
 #include "reduce/common/input/place.hpp"
 #include "reduce/common/input/unit.hpp"
 #include "reduce/common/input/yaml_node.hpp"
@@ -32,6 +33,19 @@ std::string hint_at_comma(const std::string& key) {
 
 /// Expectation of a reader that takes keys out of a value that is no map.
 constexpr const char* keys_with_values = "keys with values (`key: value`)";
+
+/// Returns the expectation of a map of a table. It has an example with the number that is given, if this fits the only
+/// required key of the table.
+std::string map_of(const KeyTable& table, const YamlNode& given, const std::string& path) {
+  const auto is_required = [](const Key& key) { return key.presence.required; };
+  const auto key = std::find_if(table.keys.begin(), table.keys.end(), is_required);
+  const std::string name = path.substr(path.find_last_of('.') + 1);
+  const bool fits = key != table.keys.end() && std::none_of(key + 1, table.keys.end(), is_required) &&
+                    numeric_form(key->forms) && given.kind == YamlNode::Kind::scalar && plain_number(given.scalar) &&
+                    name.find('[') == std::string::npos;
+  return fits ? fmt::format("{} as keys with values (`{}: {{{}: {}}}`)", table.of, name, key->name, given.scalar)
+              : fmt::format("{} as {}", table.of, keys_with_values);
+}
 
 }  // namespace
 
@@ -130,8 +144,7 @@ YamlValue YamlValue::child(const YamlNode& key, std::shared_ptr<const YamlNode> 
 void YamlValue::check_map(const std::string& expected) const {
   if (is_map() || is_null()) return;
   const KeyForm* form = form_of(forms(), KeyForm::Kind::table);
-  if (form && expected == keys_with_values) fail(fmt::format("expected {} as {}", form->table().of, expected));
-  fail("expected " + expected);
+  fail("expected " + (form && expected == keys_with_values ? map_of(form->table(), *node_, path_) : expected));
 }
 
 void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::string& of) const {
@@ -143,12 +156,12 @@ void YamlValue::check_keys(const std::vector<std::string>& allowed, const std::s
     const std::string comma = hint_at_comma(key);
     throw InputError(located_at(entry.key->file ? *entry.key->file : document_->file, entry.key->line, path_,
                                 fmt::format("'{}' is not a key of {}{}", shortened(key), of,
-                                            comma.empty() ? did_you_mean(key, allowed) : comma)));
+                                            comma.empty() ? called_here(key, allowed) : comma)));
   }
 }
 
 YamlValue YamlValue::keyed(const KeyTable& table) const {
-  check_map(table.of + " as " + keys_with_values);
+  if (!is_map() && !is_null()) fail("expected " + map_of(table, *node_, path_));
   YamlValue bound = *this;
   bound.table_ = &table.of_map(*node_);
   const bool known = std::all_of(node_->pairs.begin(), node_->pairs.end(), [&](const YamlNode::Pair& pair) {
@@ -277,7 +290,7 @@ std::string YamlValue::word(const std::vector<std::string>& allowed, const std::
   std::string found = is_scalar() ? text() : "";
   if (std::find(allowed.begin(), allowed.end(), found) != allowed.end()) return found;
   if (!is_scalar()) fail(fmt::format("expected {} as one word{}", what, did_you_mean("", allowed)));
-  fail(fmt::format("'{}' is not {}{}", shortened(found), what, did_you_mean(found, allowed)));
+  fail(fmt::format("'{}' is not {}{}", shortened(found), what, called_here(found, allowed)));
 }
 
 std::string YamlValue::word() const {

@@ -8,6 +8,7 @@
 #include "mechanism/io/describe_model.hpp"
 #include "mechanism/io/run_analyses.hpp"
 #include "mechanism/results/memory_sink.hpp"
+#include "mechanism/session/interrupted.hpp"
 #include "reduce/common/files/hdf5_file.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -253,6 +254,61 @@ TEST_CASE(
     CHECK(b.read_integer_attribute("/", "complete") == 1);
     CHECK(b.read("/time").back() == Approx(0.6));
   }
+}
+
+TEST_CASE("a Campbell diagram that is interrupted keeps the speeds that were computed") {
+  const std::string text = R"yaml(
+nodes: {rotor: {}, bob: {position: [1, 0, 0]}}
+elements:
+  rotor: {type: rigid_body, node: rotor, mass: 1, inertia: [0.1, 0.1, 0.2]}
+  bob: {type: rigid_body, node: bob, mass: 1, inertia: [0.01, 0.01, 0.02]}
+joints:
+  axle: {type: hinge, nodes: [ground, rotor], axis: [0, 0, 1]}
+  blade: {type: hinge, nodes: [rotor, bob], axis: [0, 1, 0], position: [0.1, 0, 0], stiffness: 100}
+analysis: [{type: campbell, rotation: {joint: axle}, speeds: {from: 1, to: 10, count: 10}, modes: 1}]
+)yaml";
+  const test::TemporaryFolder folder;
+  const MechanismFile file = read_mechanism_text(text, "rotor.yaml");
+  Progress progress(true);
+  const auto run_until = [&](int calls, const std::string& path) {
+    RunListener listener;
+    listener.on_step = [&calls](Session&) {
+      if (calls-- == 0) throw Interrupted("interrupted");
+    };
+    run_analyses(file, path, progress, "", 1, listener);
+  };
+  const std::string whole = folder / "whole.h5", part = folder / "part.h5", none = folder / "none.h5";
+  run_until(-1, whole);
+  const std::vector<double> speeds = Hdf5File::open(whole).read("/analysis_1/campbell/speed"),
+                            frequencies = Hdf5File::open(whole).read("/analysis_1/campbell/frequency");
+  REQUIRE(speeds.size() == 10);
+  CHECK(test::message_of<Interrupted>([&] { run_until(4, part); }) ==
+        "interrupted after 4 of 10 speeds; the results file holds these, and nothing of the others");
+  const Hdf5File results = Hdf5File::open(part);
+  CHECK(results.read_integer_attribute("/", "complete") == 0);
+  CHECK(results.read("/analysis_1/campbell/speed") == std::vector<double>(speeds.begin(), speeds.begin() + 4));
+  CHECK(results.read("/analysis_1/campbell/frequency") ==
+        std::vector<double>(frequencies.begin(), frequencies.begin() + 4));
+  CHECK(test::message_of<Interrupted>([&] { run_until(0, none); }) == "interrupted after 0 of 10 speeds");
+}
+
+TEST_CASE("an analysis names the place that it has reached") {
+  const MechanismFile file = read_mechanism_text(R"yaml(
+nodes: {a: {fixed: [y, z, rx, ry, rz]}}
+elements:
+  a: {type: point_mass, node: a, mass: 1}
+  spring: {type: spring_damper, nodes: [ground, a], at: [[-1, 0, 0], [0, 0, 0]], stiffness: 10}
+loads: {push: {node: a, force: [1, 0, 0]}}
+analysis: [{type: static, steps: 4}, {type: dynamic, duration: 0.2, step: 0.1}]
+)yaml",
+                                                 "spring.yaml");
+  std::vector<std::string> places;
+  std::size_t present = 0;
+  Session session(file.model, 1);
+  session.on_step([&](Session& at) { places.push_back(file.analyses[present]->place(at)); });
+  for (; present < file.analyses.size(); ++present) file.analyses[present]->run(session);
+  CHECK(places == std::vector<std::string>{"load factor 0.25", "load factor 0.5", "load factor 0.75", "load factor 1",
+                                           "t = 0.1 s", "t = 0.2 s"});
 }
 
 TEST_CASE("a finished motion goes on in its own file when its duration has grown") {

@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "reduce/common/error.hpp"
+#include "reduce/common/input/foreign_words.hpp"
 #include "reduce/common/input/key_table.hpp"
 #include "reduce/common/input/key_words.hpp"
 #include "reduce/common/input/yaml_file.hpp"
@@ -104,6 +106,20 @@ TEST_CASE("An unknown key is refused with the nearest name") {
   CHECK_THAT(why("zzzzzz: 1", nothing), Contains("'zzzzzz' is not a key of a hinge; expected one of "));
   CHECK_THAT(message_of<InputError>([] { YamlValue::parse("a: 1", "a.yaml").at("a").keyed(hinge_keys()); }),
              Contains("a: expected a hinge as keys with values"));
+}
+
+TEST_CASE("Words of other programs are refused with the words here, where these are expected") {
+  const auto nothing = [](const YamlValue&) {};
+  CHECK(why("c: 1", nothing) == "a.yaml:1: hinge: 'c' is not a key of a hinge; here it is called 'damping'");
+  CHECK(why("modes: 1", nothing) == "a.yaml:1: hinge: 'modes' is not a key of a hinge; here it is called 'count'");
+  CHECK(why("i: a", nothing) ==
+        "a.yaml:1: hinge: 'i' is not a key of a hinge; here both nodes are in one list: `nodes: [first, second]`");
+  CHECK_THAT(why("k: 1", nothing), Contains("'k' is not a key of a hinge; expected one of "));  // it has no stiffness
+  const std::vector<std::string> both = {"speed", "rate"}, types = {"eigen", "dynamic"};
+  CHECK(called_here("velocity", both) == "; here it is called 'rate' or 'speed'");
+  CHECK(called_here("velocity", types) == did_you_mean("velocity", types));
+  CHECK(called_here("transient", types) == "; here it is called 'dynamic'");
+  CHECK(called_here("dynamc", types) == "; did you mean 'dynamic'?");
 }
 
 TEST_CASE("A key that is not given has its default, with the unit and the form of the key") {
@@ -209,9 +225,22 @@ TEST_CASE("A nested table is bound when its map is taken") {
   CHECK(why("friction: {radius: 0}", [](const YamlValue& e) { e.at("friction").at("radius").number(); }) ==
         "a.yaml:1: hinge.friction.radius: expected a number greater than 0, found 0");
   CHECK(why("friction: 5", [](const YamlValue& entry) { entry.at("friction").find("radius"); }) ==
-        "a.yaml:1: hinge.friction: expected the friction as keys with values (`key: value`)");
+        "a.yaml:1: hinge.friction: expected the friction as keys with values (`friction: {radius: 5}`)");
   CHECK(why("friction: 5", [](const YamlValue& entry) { entry.at("friction").has("radius"); }) ==
+        "a.yaml:1: hinge.friction: expected the friction as keys with values (`friction: {radius: 5}`)");
+}
+
+TEST_CASE("A number in place of a map is shown as the only required key that it fits") {
+  const auto find = [](const YamlValue& entry) { entry.at("friction").find("radius"); };
+  CHECK(why("friction: 0.5", find) ==
+        "a.yaml:1: hinge.friction: expected the friction as keys with values (`friction: {radius: 0.5}`)");
+  CHECK(why("friction: dry", find) ==
         "a.yaml:1: hinge.friction: expected the friction as keys with values (`key: value`)");
+  CHECK(why("friction: [0.5]", find) ==
+        "a.yaml:1: hinge.friction: expected the friction as keys with values (`key: value`)");
+  // A cylinder has two required keys.
+  CHECK_THAT(message_of<InputError>([] { YamlValue::parse("a: 1", "a.yaml").at("a").keyed(cylinder_keys()); }),
+             Contains("expected a cylinder as keys with values (`key: value`)"));
 }
 
 TEST_CASE("A number or a table: each has its own form") {
@@ -369,6 +398,7 @@ TEST_CASE("Keys of a thing are found by its name, with blanks or underscores, or
              Contains("; expected one of 'delayed state', 'sampled state'"));
   CHECK_THAT(message_of<InputError>([&] { keys_of_named(root, "pont_mass"); }),
              Contains("; did you mean 'point_mass'?"));
+  CHECK(keys_of_named(root, "mass").starts_with("'mass'; here it is called 'point_mass'\n\npoint_mass\n"));
   CHECK(message_of<InputError>([&] { keys_of_named(root, "frobnicate"); }) ==
         "--keys frobnicate: nothing has this name; `--keys all` prints all names with their keys");
 }
