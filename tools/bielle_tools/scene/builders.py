@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..messages import counted
 from ..results.quaternions import conjugate, from_z, rotated
 from . import symbols
 from . import templates as t
@@ -24,6 +25,7 @@ class Builder:
         self.motion, self.drawing, self.palette, self.flexible = motion, drawing, palette, flexible
         self.symbol, self.extent, self.centre = 1.0, 1.0, np.zeros(3)
         self.planes = []  # DrawnPlanes
+        self.notes = []  # [(entry, what of it is not drawn)]
         self.around = 24  # corners of symbols around an axis
         self.attached = {}  # node -> positions in its axes of what is attached to it
         self.covered = {}  # node -> (entry, type, low (3), high (3)): boxes of its shapes in its axes
@@ -214,7 +216,10 @@ def _mesh(b, item):
 
 
 def _solid(b, item):
-    return [b.rigid(item, solid_mesh(item, b.drawing.cuts.get(item["entry"], [])))]
+    mesh, left_out = solid_mesh(item, b.drawing.cuts.get(item["entry"], []))
+    if left_out:
+        b.notes.append((item["entry"], f"{counted(left_out, 'cut')} across its axis, over its edge, or of another shape than a hole or a pocket"))
+    return [b.rigid(item, mesh)]
 
 
 def _ellipsoid(b, item):

@@ -16,18 +16,18 @@ PARALLEL, NEAR, ROUND = 1e-6, 1e-6, 36  # directions; ends of cuts, relative to 
 
 
 def solid_mesh(item, cuts):
-    """The mesh of a solid without those of `cuts`, items of the same entry, that can be drawn."""
+    """The mesh of a solid without those of `cuts`, items of the same entry, that can be drawn, and how many cannot."""
     found = [(axis, *_layers(item, axis, cuts)) for axis in ALONG[item["shape"]]] if cuts else []
     axis, count, layers = max(found, key=lambda each: each[1], default=(2, 0, []))
     if not count:
-        return _whole(item)
+        return _whole(item), len(cuts)
     outline, holes, _ = _outline(item, axis)
     try:
         pieces = [_extruded(outline, holes + own, low, high) for low, high, own in layers]
     except ValueError:  # holes of very different sizes, next to each other to the last digits
-        return _whole(item)
+        return _whole(item), len(cuts)
     turn = np.roll(np.eye(3), -axis - 1, axis=1)  # columns: images of the two axes of the outline and of the axis
-    return t.moved(t.merged(pieces), axes=turn)
+    return t.moved(t.merged(pieces), axes=turn), len(cuts) - count
 
 
 def _whole(item):

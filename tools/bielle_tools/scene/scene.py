@@ -46,6 +46,7 @@ class Scene:
         for item in self.items:
             self._add(builder, item)
         self.parts += arms_of(builder, self.items)
+        self.notes += builder.notes
         self.notes += [("/drawing", f"items of the shape '{shape}' are not known here: {count}") for shape, count in self._unknown.items()]
         self.low, self.high = low, high = self.bounds(self._samples())
         self.size = float(np.linalg.norm(high - low)) or 1.0
