@@ -121,6 +121,11 @@ class ModalTables(InFolder):
         with h5py.File(self.path("whirl.h5"), "r+") as file:
             file["eigen/damped_frequency"] = np.zeros(3)
         self.refuse(("whirl.h5", "--modes"), "'eigen' is damaged")
+        for wrong, part in ((3.0, "'eigen' is damaged"), (["x", "y"], "it holds no numbers")):
+            with h5py.File(self.path("whirl.h5"), "r+") as file:
+                del file["eigen/frequency"]
+                file["eigen/frequency"] = wrong
+            self.refuse(("whirl.h5", "--modes"), part)
         self.compute("oscillator", OSCILLATOR)
         self.compute("disc", DISC)
         for arguments, part in ((("whirl.h5", "--response"), "holds no frequency response"), (("oscillator.h5", "--modes", "--peaks"), "say one of"),

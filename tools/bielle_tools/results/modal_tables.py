@@ -28,13 +28,13 @@ def response_table(results):
     """Table of a frequency response; the phase is between -pi and pi. @raises InputError if there is none"""
     if not results.has("frequency_response/response"):
         raise InputError(f"'{results.path}' holds no frequency response: an analysis 'frequency_response' computes it")
-    frequency = results.array("frequency_response/frequency")
+    frequency = _numbers(results, "frequency_response/frequency")
     outputs, inputs = (_texts(results, f"frequency_response/{name}") for name in ("outputs", "inputs"))
-    parts = results.array("frequency_response/response")
-    if parts.shape != (len(frequency), len(outputs), len(inputs), 2):
+    parts = _numbers(results, "frequency_response/response")
+    if frequency.ndim != 1 or parts.shape != (len(frequency), len(outputs), len(inputs), 2):
         raise _damaged(results, "frequency_response")
     response = parts[..., 0] + 1j * parts[..., 1]
-    return RESPONSE, [[float(frequency[k]), output, given, *map(_cell, (abs(H), np.angle(H), H.real, H.imag))]
+    return RESPONSE, [[_cell(frequency[k]), output, given, *map(_cell, (abs(H), np.angle(H), H.real, H.imag))]
                       for k in range(len(frequency)) for i, output in enumerate(outputs) for j, given in enumerate(inputs)
                       for H in (response[k, i, j],)]
 
@@ -50,23 +50,30 @@ def listed_datasets(results):
 
 
 def _eigen(results):
-    numbers = [results.array(f"eigen/{name}") for name in NUMBERS_OF_MODES]
-    count = len(numbers[0])
-    names, kinds = (_texts(results, f"eigen/{name}", count) for name in ("name", "kind"))
+    numbers = [_numbers(results, f"eigen/{name}") for name in NUMBERS_OF_MODES]
+    count = numbers[0].size
     if any(values.shape != (count,) for values in numbers):
         raise _damaged(results, "eigen")
+    names, kinds = (_texts(results, f"eigen/{name}", count) for name in ("name", "kind"))
     return EIGEN, [[k + 1, names[k], kinds[k], *(_cell(values[k]) for values in numbers)] for k in range(count)]
 
 
 def _campbell(results):
-    speed, value = (results.array(f"campbell/{name}") for name in ("speed", "value"))
-    numbers = [results.array(f"campbell/{name}") for name in (*NUMBERS_OF_MODES, "whirl")]
+    speed, value = (_numbers(results, f"campbell/{name}") for name in ("speed", "value"))
+    numbers = [_numbers(results, f"campbell/{name}") for name in (*NUMBERS_OF_MODES, "whirl")]
     shape = numbers[0].shape
     if len(shape) != 2 or speed.shape != shape[:1] or value.shape != shape[:1] or any(values.shape != shape for values in numbers):
         raise _damaged(results, "campbell")
     names, parameter = _texts(results, "campbell/name", shape[1]), _texts(results, "campbell/parameter", 1)
-    return CAMPBELL, [[*parameter, float(value[v]), float(speed[v]), k + 1, names[k], *(_cell(values[v, k]) for values in numbers)]
+    return CAMPBELL, [[*parameter, _cell(value[v]), _cell(speed[v]), k + 1, names[k], *(_cell(values[v, k]) for values in numbers)]
                       for v in range(shape[0]) for k in range(shape[1])]
+
+
+def _numbers(results, place):
+    found = results.array(place)
+    if found.dtype.kind not in "fiu":
+        raise _damaged(results, place, "it holds no numbers")
+    return found
 
 
 def _cell(number):
@@ -78,11 +85,11 @@ def _texts(results, place, count=None):
     if count is not None and not results.has(place):
         return [""] * count
     with reading(results.path, place):
-        found = results.root[place].asstr()[:].tolist()
-    if count is not None and len(found) != count:
+        found = results.root[place].asstr()[:]
+    if found.ndim != 1 or count is not None and len(found) != count:
         raise _damaged(results, place)
-    return found
+    return found.tolist()
 
 
-def _damaged(results, place):
-    return InputError(f"'{results.path}': '{place}' is damaged: the sizes of its datasets do not fit together")
+def _damaged(results, place, reason="the sizes of its datasets do not fit together"):
+    return InputError(f"'{results.path}': '{place}' is damaged: {reason}")
