@@ -144,6 +144,33 @@ class Files(CommandTest):
         self.write("model.yaml", PENDULUM + 'loads: {l: {node: bob, force: [0, 0, "frobnicate + t"]}}\n')
         self.expect_refusal(1, "model.yaml", says=["unknown name 'frobnicate'", "'t'", "pi", "sqrt, ", "spline"])
 
+    def test_words_of_other_programs_are_refused_with_the_words_here(self):
+        bodies = "nodes: {a: {}, b: {position: [1, 0, 0]}}\nelements: {a: {type: point_mass, node: a, mass: 1}, b: {type: point_mass, node: b, mass: 1}}\n"
+        hinge = "joints: {h: {type: hinge, nodes: [a, b], axis: [0, 0, 1]}}\n"
+        contact = "joints: {c: {type: contact, shapes: [{node: a, sphere: 0.1}, {node: b, SHAPE}], stiffness: 1e5}}\n"
+        for text, says in (
+                ("markers: {m: {}}\n", "'markers' is not a key of a mechanism file; here it is called 'nodes'"),
+                ("sensors: {m: t}\n", "here it is called 'measures'"), ("requests: {m: t}\n", "here it is called 'measures'"),
+                ("analysis: [{type: transient, end: 1, step: 0.1}]\n", "'transient' is not a type of analysis; here it is called 'dynamic'"),
+                ("analysis: [{type: dynamic, end: 1, step: 0.1}]\n", "here it is called 'duration'"),
+                ("analysis: [{type: eigen, modes: 3}]\n", "'modes' is not a key of the analysis 'eigen'; here it is called 'count'"),
+                (hinge + "drives: {d: {joint: h, velocity: 1}}\n", "here it is called 'rate' or 'speed'"),
+                (hinge.replace("nodes: [a, b]", "i: a, j: b"), "'i' is not a key of a hinge; here both nodes are in one list: `nodes: [first, second]`"),
+                ("joints: {b: {type: bushing, nodes: [a, b], k: 3}}\n", "'k' is not a key of a bushing; here it is called 'stiffness'"),
+                (contact.replace("SHAPE", "sphere: 0.1, position: [0, 0, 1]"), "here it is called 'at'"),
+                (contact.replace("SHAPE", "shape: cylinder, radius: 0.1"), "here the name of the shape is the key: `cylinder: [radius, length]`"),
+                (contact.replace("SHAPE", "sphere: 0.1").replace("1e5", "1e5, friction: 0.5"),
+                 "expected the friction of a contact as keys with values (`friction: {coefficient: 0.5}`)")):
+            self.write("model.yaml", bodies + text)
+            self.expect_refusal(1, "model.yaml", "--check", says=[says])
+
+    def test_keys_are_asked_for_in_words_of_other_programs(self):
+        for word, says in (("revolute", "'revolute'; here it is called 'hinge'\n\nhinge\n"), ("marker", "\n\nnode\n"), ("sensor", "\n\nmeasure\n"),
+                           ("transient", "\n\nanalysis 'dynamic'\n"), ("campbell", "analysis 'campbell'\n"), ("analysis 'campbell'", "analysis 'campbell'\n")):
+            done = subprocess.run([os.path.join(PROGRAMS, "bielle-mechanism"), "--keys", word], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(says, done.stdout)
+
     def test_names_under_which_no_results_can_stand(self):
         for name in (".", "/", "", "a//b", "a/./b"):
             self.write("model.yaml", PENDULUM.replace("nodes:\n", f'nodes:\n  "{name}": {{position: [0, 0, 0], fixed: true}}\n'))
