@@ -301,7 +301,7 @@ class Files(Pictures):
             self.succeed("boxes.h5", "-o", "run." + ending, "--frames", "4", "--size", "300x200")
             self.assertGreater(os.path.getsize(self.path("run." + ending)), 1000)
         with Image.open(self.path("run.png")) as sheet:
-            self.assertEqual(sheet.size[0], 900)
+            self.assertEqual(sheet.size[0], 600)  # two by two
         with open(self.path("run.pdf"), "rb") as file:
             self.assertEqual(file.read(5), b"%PDF-")
         with open(self.path("run.svg"), encoding="utf-8") as file:
