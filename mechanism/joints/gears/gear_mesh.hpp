@@ -62,6 +62,11 @@ class GearMesh : public Component {
   /// Normal forces of the flanks n_+, n_- [N].
   virtual std::array<double, 2> flank_forces(const LocalState& state) const = 0;
   const MeshFunction& errors() const { return errors_; }
+  /// Computes e. The order is 1 or 2.
+  template <int order>
+  MeshMeasureOf<order> error(const LocalState& state) const {
+    return errors().calc<order>(contact(), state);
+  }
 
  private:
   std::array<int, 3> nodes_;
@@ -139,10 +144,6 @@ class ElasticGearMesh final : public GearMesh {
     double pressed = 0;  ///< p as far as it stores energy [m]
   };
   bool plays() const { return spring_.backlash > 0; }
-  template <int order>
-  MeshMeasureOf<order> error(const LocalState& state) const {
-    return errors().calc<order>(contact(), state);
-  }
   template <int order>
   MeshMeasureOf<order> penetration(int side, const MeshMeasureOf<order>& error, const LocalState& state) const;
   /// @param stiffness,error  k and e at the state

@@ -14,7 +14,7 @@ template <int order>
 MeshMeasureOf<order> RigidGearMesh::gap(const LocalState& state) const {
   const ToothGeometry& g = contact().geometry();
   auto gap = contact().approach<order>(g.t, state);
-  if (!errors().is_zero()) gap += 1 / std::cos(g.pressure_angle) * errors().calc<order>(contact(), state);
+  if (!errors().is_zero()) gap += 1 / std::cos(g.pressure_angle) * error<order>(state);
   return gap;
 }
 
