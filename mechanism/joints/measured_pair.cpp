@@ -22,12 +22,6 @@ std::span<const PairMeasure> MeasuredPair::calc(const LocalState& state, Rows& m
   return declared;
 }
 
-void MeasuredPair::calc_row_slopes(const LocalState& state, std::span<PairSlope> rows) const {
-  Rows memory;
-  const std::span<const PairMeasure> whole = calc(state, memory);
-  for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = {whole[k].value, whole[k].gradient};
-}
-
 void MeasuredPair::add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const {
   const auto lambda = state.multiplier();
   const Vector12 v = pair_rate(state.node(0), state.node(1));

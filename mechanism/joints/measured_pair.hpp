@@ -1,7 +1,7 @@
 // Joints whose constraints are scalar measures of their two nodes.
 //
 // A type computes its rows as numbers with derivatives (reduce/common/autodiff.hpp); residual, tangent and rates of the
-// rows follow from them. Most types derive from MeasuredRows, and write their rows once for both orders of derivatives.
+// rows follow from them. Types derive from MeasuredRows, and write their rows once for both orders of derivatives.
 // Rows are holonomic, m = 0, or non-holonomic, w . v = 0: for the latter the gradient is w and the second derivatives
 // are dw, and the value is not used.
 #pragma once
@@ -33,8 +33,8 @@ class MeasuredPair : public Joint {
  protected:
   /// @param rows  as many rows as declared
   virtual void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const = 0;
-  /// Computes the same with gradients alone, for residuals. By default the second derivatives are dropped.
-  virtual void calc_row_slopes(const LocalState& state, std::span<PairSlope> rows) const;
+  /// Computes the same with gradients alone, for residuals.
+  virtual void calc_row_slopes(const LocalState& state, std::span<PairSlope> rows) const = 0;
 
   // Terms of rows, in addition to positions.
   /// The product d . d, with the vector d from the origin of J_A to that of J_B.

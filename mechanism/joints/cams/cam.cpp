@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 // -- flat follower
 
 FlatFollower::FlatFollower(std::string name, JointFrames frames, Interpolation support, const Model& model)
-    : MeasuredPair("cam", std::move(name), std::move(frames),
+    : MeasuredRows("cam", std::move(name), std::move(frames),
                    {{"angle", JointCoordinate::Kind::angle, JointCoordinate::by_type},
                     {"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}},
                    {{"push", "N"}}, model),
@@ -21,32 +21,35 @@ FlatFollower::FlatFollower(std::string name, JointFrames frames, Interpolation s
   s_drawn_ = B.R.col(0).dot(B.x - A.x) + support_.integral(psi_drawn_);
 }
 
-PairMeasure FlatFollower::calc_turn(const LocalState& state) const {
+template <int order>
+PairMeasureOf<order> FlatFollower::calc_turn(const LocalState& state) const {
   // The axes are x and y of J_A, rotated to the initial direction of the face.
   const Matrix3 axes = frames().on_first.R * Eigen::AngleAxisd(psi_drawn_, Vector3::UnitZ());
   const auto along = [&](int axis) {
-    return measure_alignment(state.node(0), state.node(1), axes.col(axis), frames().on_second.R.col(2));
+    return measure_alignment<order>(state.node(0), state.node(1), axes.col(axis), frames().on_second.R.col(2));
   };
   return atan2(along(1), along(0));
 }
 
-PairMeasure FlatFollower::calc_way_to_cam(int axis, const LocalState& state) const {
+template <int order>
+PairMeasureOf<order> FlatFollower::calc_way_to_cam(int axis, const LocalState& state) const {
   const Frame &A = frames().on_first, &B = frames().on_second;
-  return exchanged(measure_position(state.node(1), state.node(0), B.R.col(axis), B.x, A.x));
+  return exchanged<order>(measure_position<order>(state.node(1), state.node(0), B.R.col(axis), B.x, A.x));
 }
 
-void FlatFollower::calc_rows(const LocalState& state, std::span<PairMeasure> rows) const {
-  const PairMeasure turned = calc_turn(state);
+template <int order>
+void FlatFollower::rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const {
+  const auto turned = calc_turn<order>(state);
   const Interpolation::Values H = support_(psi_drawn_ + turned.value);
-  rows[0] = compose(turned, H.value, H.slope, H.curvature) + calc_way_to_cam(2, state);
+  rows[0] = compose(turned, H.value, H.slope, H.curvature) + calc_way_to_cam<order>(2, state);
 }
 
 PairMeasure FlatFollower::calc_own_coordinate(std::size_t index, const LocalState& state) const {
-  const PairMeasure turned = calc_turn(state);
+  const PairMeasure turned = calc_turn<2>(state);
   if (index == turn) return turned;
   const double psi = psi_drawn_ + coordinate(turn, state).value;
   const Interpolation::Values H = support_(psi);
-  return compose(turned, support_.integral(psi) - s_drawn_, H.value, H.slope) - calc_way_to_cam(0, state);
+  return compose(turned, support_.integral(psi) - s_drawn_, H.value, H.slope) - calc_way_to_cam<2>(0, state);
 }
 
 void FlatFollower::declare(Declaration& declaration) const {

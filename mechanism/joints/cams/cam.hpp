@@ -18,7 +18,7 @@
 
 namespace bielle::mechanism {
 
-class FlatFollower final : public MeasuredPair {
+class FlatFollower final : public MeasuredRows<FlatFollower> {
  public:
   /// @param frames  J_A: on the cam; J_B: origin on the face, z from the face away from the cam, y along the cam's axis
   FlatFollower(std::string name, JointFrames frames, Interpolation support, const Model& model);
@@ -30,12 +30,16 @@ class FlatFollower final : public MeasuredPair {
  private:
   /// psi, counted over turns, and s, both initially zero.
   enum Coordinate : std::size_t { turn, slide };
-  void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const override;
+  friend MeasuredRows;
+  template <int order>
+  void rows(const LocalState& state, std::span<PairMeasureOf<order>> rows) const;
   PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const override;
   /// psi relative to its initial value, in (-pi, pi].
-  PairMeasure calc_turn(const LocalState& state) const;
+  template <int order>
+  PairMeasureOf<order> calc_turn(const LocalState& state) const;
   /// x_A - p_F along an axis of J_B.
-  PairMeasure calc_way_to_cam(int axis, const LocalState& state) const;
+  template <int order>
+  PairMeasureOf<order> calc_way_to_cam(int axis, const LocalState& state) const;
   Interpolation support_;
   double psi_drawn_, s_drawn_;
 };
