@@ -6,13 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/start_coordinates.hpp"
 #include "mechanism/reading/names.hpp"
 
 namespace bielle::mechanism {
 
 std::vector<std::string> names_of_coordinates(const Component& component) {
   std::vector<std::string> names;
-  for (const StartCoordinate& each : component.start_coordinates()) names.push_back(each.name);
+  for (const StartCoordinate& each : start_coordinates_of(component)) names.push_back(each.name);
   return names;
 }
 
@@ -70,7 +71,7 @@ void read_held(const YamlValue& item, const Model& model, std::vector<AssemblyOp
       return;
     }
   const Component& joint = component_named_by(Section::joints, item, model);
-  const std::size_t count = joint.start_coordinates().size();
+  const std::size_t count = start_coordinates_of(joint).size();
   if (count == 0) item.fail(fmt::format("joint '{}' ({}) has no coordinate to hold", joint.name(), joint.type()));
   for (std::size_t k = 0; k < count; ++k) held.push_back({&joint, k});
 }

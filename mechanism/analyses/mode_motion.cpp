@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/start_coordinates.hpp"
 #include "mechanism/solvers/linearised/mode_parts.hpp"
 #include "mechanism/solvers/linearised/whirl.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
@@ -256,7 +257,7 @@ std::string MotionWords::about_joint(const ModeGroup& group, const Amplitudes& a
       for (const std::size_t end : {0U, 1U}) {
         const int own = slots.nodes[end], other = slots.nodes[1 - end];
         if (std::find(nodes.begin(), nodes.end(), own) == nodes.end() || motion(other) > rests * motion(own)) continue;
-        const std::vector<StartCoordinate> coordinates = member.component->start_coordinates();
+        const std::vector<StartCoordinate> coordinates = start_coordinates_of(*member.component);
         if (coordinates.size() != 1) continue;
         const std::string& joint = member.entry.name;
         found = fmt::format("{} {}", coordinates[0].units == "rad" ? "about" : "along",

@@ -14,6 +14,7 @@
 #include "mechanism/measures/coordinate.hpp"
 #include "mechanism/measures/pair_measure.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/start_coordinates.hpp"
 
 namespace bielle::mechanism {
 
@@ -27,7 +28,7 @@ struct SlidingSurface {
   double roller = 0;
 };
 
-class Joint : public Component {
+class Joint : public Component, public StartCoordinates {
  public:
   Joint(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
         const Model& model);

@@ -33,11 +33,6 @@ std::unique_ptr<Measure> Component::make_measure(const std::string& /*name*/, co
   throw std::logic_error("component type '" + type_ + "' has no measure '" + measure + "'");
 }
 
-StartCoordinateValue Component::calc_start_coordinate(std::size_t /*index*/, const LocalState& /*state*/,
-                                                      MeasureGradient& /*gradient*/) const {
-  throw std::logic_error("component type '" + type_ + "' has no coordinates for a start");
-}
-
 void Component::add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX>, Eigen::Ref<VectorX>) const {
   if (state.slots().multipliers > 0)
     throw std::logic_error("component type '" + type_ + "' has constraints but gives no rates of them");

@@ -155,6 +155,8 @@ class Component {
   const std::string& type() const { return type_; }  ///< type as in the input file: "hinge"
   const std::string& name() const { return name_; }  ///< name as in the input file: "main"
 
+  // The following functions form the equations.
+
   virtual void declare(Declaration& declaration) const = 0;
 
   /// Adds the residual r at the state: inertia + internal - external forces, B^T lambda, and constraint rows Phi (for a
@@ -178,9 +180,20 @@ class Component {
   virtual void add_constraint_rates(const LocalState& state, Eigen::Ref<VectorX> velocity,
                                     Eigen::Ref<VectorX> acceleration) const;
 
+  /// Returns whether a switched constraint row is in the equations, according to the component's memory.
+  virtual bool is_on(const LocalState& /*state*/, int /*row*/) const { return true; }
+
   /// Upper bound on the angular velocity of the directions of its constraints [rad/s]: by default that of the fastest
   /// of its nodes; a component may override it (a rod between two points turns with the line between them).
   virtual double turning_rate(const LocalState& state) const;
+
+  /// Adds the component's part of the norm of reactions, a quadratic form of its own multipliers: the square of the
+  /// force [N^2], and of the moment divided by the arm. If reactions are not unique, those of smallest norm are
+  /// reported. By default each multiplier is taken separately, as a moment if it is declared in N m.
+  /// @param H  matrix of the quadratic form (multipliers, multipliers)
+  virtual void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const;
+
+  // The following functions begin a motion, keep the memory from step to step, and find events.
 
   /// At the beginning of an analysis, with positions and velocities known, a component adds the changes that the start
   /// values of first-order unknowns need, its own or those of components that it refers to (a filter begins at its
@@ -190,28 +203,65 @@ class Component {
   /// @param change  change of the start values, in the component's local layout
   virtual void add_start_values(const LocalState& /*state*/, Eigen::Ref<VectorX> /*change*/) const {}
 
-  /// Describes in a clause what is wrong with an assembled position although its constraint rows vanish (axes that
-  /// point in opposite directions); empty if nothing is wrong.
-  virtual std::string wrong_branch(const LocalState& /*state*/) const { return {}; }
-  /// Returns the rotation of the second node relative to the first that would align the directions compared by the
-  /// constraints: the smallest rotation vector (inertial components), up to half a turn [rad]. Zero if the constraints
-  /// compare no directions.
-  virtual Vector3 misalignment(const LocalState& /*state*/) const { return Vector3::Zero(); }
+  /// Computes new values of the component's memory at the beginning of a motion or a static analysis, as far as they
+  /// follow from rates. Before rates are consistent, `known` is false: parts that hold depending on their rates are
+  /// released. The function is called again with the rates at which the motion begins.
+  virtual void begin_motion(const LocalState& /*state*/, bool /*known*/, Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Computes new values of the component's memory at the start of a motion and after every discontinuity (an event
+  /// that restarts, a break point, an accepted step that requests it). The state is the one just after it; its rates
+  /// may still be those before it.
+  /// @param crossed  numbers of the component's own event functions that crossed zero there
+  virtual void begin_branch(const LocalState& /*state*/, std::span<const int> /*crossed*/,
+                            Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Values of the declared event functions at a state. Each should be smooth on either side of its zero.
+  virtual void calc_event_functions(const LocalState& /*state*/, Eigen::Ref<VectorX> /*values*/) const {}
+
+  /// Computes new values of the component's memory after a converged step, from the state (whose memory is still the
+  /// old one).
+  virtual void accept(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Returns whether the motion continues after an accepted step on another branch than that of the step, although no
+  /// event was detected: the motion is then restarted there.
+  virtual bool leaves_branch(const LocalState& /*state*/) const { return false; }
+
+  /// Computes new values of the component's memory when an event activates its entry, before `begin_branch`. The memory
+  /// is that of the release. After the state has been made consistent, `accept` follows.
+  virtual void activate(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
+
+  /// Returns whether the memory of a state from outside (a file, a user) is valid for this component: every number or
+  /// index that it refers to exists. Its numbers are known to be finite, except those that have no initial value.
+  virtual bool knows_memory(const LocalState& /*state*/) const { return true; }
+
+  /// Adds the times at which the component's forces or prescribed motions have kinks: steps end there.
+  virtual void add_break_points(std::vector<double>& /*times*/) const {}
+
+  // The following functions give energies, results and measures.
 
   virtual void add_energy(const LocalState& /*state*/, Energy& /*energy*/) const {}
 
   /// Returns the quantities that the component can record, and their values one after the other in the same order.
   virtual std::vector<OutputField> output_fields() const { return {}; }
   virtual void write_output(const LocalState& /*state*/, double* /*values*/) const {}
+
+  /// Attributes of the component's group in the results file (e.g. {"file", "conrod.h5"}).
+  virtual std::vector<std::pair<std::string, std::string>> attributes() const { return {}; }
+
   /// Quantities of the component's mesh. @returns nullptr if it has none
   virtual MeshFields* mesh_fields() { return nullptr; }
   const MeshFields* mesh_fields() const { return const_cast<Component*>(this)->mesh_fields(); }
-  /// Creates an object that gathers data over all steps of an analysis, if the component needs one. @returns nullptr if
-  /// it needs none.
-  /// The component must outlive it
+
+  /// Creates an object that gathers data over all steps of an analysis; the component must outlive it.
+  /// @returns nullptr if the component needs none
   virtual std::unique_ptr<StepRecorder> make_step_recorder() const;
-  /// Attributes of the component's group in the results file (e.g. {"file", "conrod.h5"}).
-  virtual std::vector<std::pair<std::string, std::string>> attributes() const { return {}; }
+
+  /// Names of the measures that formulas may use: "angle", "angle.rate", "reaction.x".
+  virtual std::vector<std::string> measure_names() const { return {}; }
+  /// Creates one of these measures. @param name  as in the formula: "main.angle" @param measure  one of measure_names
+  virtual std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const;
+
+  // The following functions describe the component to users.
 
   /// Describes the component in the user's terms, for users who check a model: the given data, and the resulting
   /// properties (mass, stiffness, frames). Components that are made of one entry describe it one after the other.
@@ -222,64 +272,8 @@ class Component {
   /// with nodes. A component that cannot be seen adds none.
   virtual void draw(Drawing& /*drawing*/) const {}
 
-  /// Computes new values of the component's memory after a converged step, from the state (whose memory is still the
-  /// old one).
-  virtual void accept(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
-
-  /// Values of the declared event functions at a state. Each should be smooth on either side of its zero.
-  virtual void calc_event_functions(const LocalState& /*state*/, Eigen::Ref<VectorX> /*values*/) const {}
-
-  /// Computes new values of the component's memory at the start of a motion and after every discontinuity (an event
-  /// that restarts, a break point, an accepted step that requests it). The state is the one just after it; its rates
-  /// may still be those before it.
-  /// @param crossed  numbers of the component's own event functions that crossed zero there
-  virtual void begin_branch(const LocalState& /*state*/, std::span<const int> /*crossed*/,
-                            Eigen::Ref<VectorX> /*memory*/) const {}
-
-  /// Returns whether the memory of a state from outside (a file, a user) is valid for this component: every number or
-  /// index that it refers to exists. Its numbers are known to be finite, except those that have no initial value.
-  virtual bool knows_memory(const LocalState& /*state*/) const { return true; }
-
-  /// Computes new values of the component's memory at the beginning of a motion or a static analysis, as far as they
-  /// follow from rates. Before rates are consistent, `known` is false: parts that hold depending on their rates are
-  /// released. The function is called again with the rates at which the motion begins.
-  virtual void begin_motion(const LocalState& /*state*/, bool /*known*/, Eigen::Ref<VectorX> /*memory*/) const {}
-
-  /// Computes new values of the component's memory when an event activates its entry, before `begin_branch`. The memory
-  /// is that of the release. After the state has been made consistent, `accept` follows.
-  virtual void activate(const LocalState& /*state*/, Eigen::Ref<VectorX> /*memory*/) const {}
-
-  /// Returns whether the motion continues after an accepted step on another branch than that of the step, although no
-  /// event was detected: the motion is then restarted there.
-  virtual bool leaves_branch(const LocalState& /*state*/) const { return false; }
-
-  /// Adds the component's part of the norm of reactions, a quadratic form of its own multipliers: the square of the
-  /// force [N^2], and of the moment divided by the arm. If reactions are not unique, those of smallest norm are
-  /// reported. By default each multiplier is taken separately, as a moment if it is declared in N m.
-  /// @param H  matrix of the quadratic form (multipliers, multipliers)
-  virtual void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const;
-
-  /// Names of the measures that formulas may use: "angle", "angle.rate", "reaction.x".
-  virtual std::vector<std::string> measure_names() const { return {}; }
-  /// Creates one of these measures. @param name  as in the formula: "main.angle" @param measure  one of measure_names
-  virtual std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const;
-
-  /// Coordinates by which the start of a motion can be described.
-  virtual std::vector<StartCoordinate> start_coordinates() const { return {}; }
-  /// Computes one of these coordinates, with gradients of its value by positions and of its rate by velocities over the
-  /// local layout.
-  /// @param gradient  resized and zeroed by this function
-  virtual StartCoordinateValue calc_start_coordinate(std::size_t index, const LocalState& state,
-                                                     MeasureGradient& gradient) const;
-
   /// Returns a warning about an unusual but valid input: a clause for summaries, or empty.
   virtual std::string remark() const { return {}; }
-
-  /// Returns whether a switched constraint row is in the equations, according to the component's memory.
-  virtual bool is_on(const LocalState& /*state*/, int /*row*/) const { return true; }
-
-  /// Adds the times at which the component's forces or prescribed motions have kinks: steps end there.
-  virtual void add_break_points(std::vector<double>& /*times*/) const {}
 
  private:
   std::string type_, name_;

@@ -2,7 +2,7 @@
 // of components (of joints).
 //
 // They hold at the start of the first analysis, and are no constraints after that. Solvers identify a coordinate by its
-// component and index only (Component::start_coordinates, Component::calc_start_coordinate).
+// component and index only (mechanism/model/start_coordinates.hpp).
 #pragma once
 
 #include <cstddef>

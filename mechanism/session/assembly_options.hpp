@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 
 /// Nodes and coordinates that keep their values during the assembly.
 struct AssemblyOptions {
-  /// A coordinate of a component (Component::start_coordinates).
+  /// A coordinate of a component (StartCoordinates).
   struct Coordinate {
     const Component* component = nullptr;
     std::size_t coordinate = 0;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/assembly_branch.hpp"
 #include "reduce/common/error.hpp"
 
 namespace bielle::mechanism {
@@ -55,8 +56,9 @@ std::string System::wrong_branch(const State& state, const Environment& environm
   for (std::size_t m = 0; m < slots().size(); ++m) {
     if (slots()[m].multipliers == 0 || !is_active(state, m)) continue;
     const Member& member = model_.members()[m];
-    if (const std::string what = member.component->wrong_branch(LocalState(state, slots()[m], environment));
-        !what.empty())
+    const auto* branch = dynamic_cast<const AssemblyBranch*>(member.component.get());
+    if (!branch) continue;
+    if (const std::string what = branch->wrong_branch(LocalState(state, slots()[m], environment)); !what.empty())
       return fmt::format("{}: {}", describe(member), what);
   }
   return {};

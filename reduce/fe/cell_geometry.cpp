@@ -1,5 +1,9 @@
 #include "reduce/fe/cell_geometry.hpp"
 
+#include <map>
+
+#include "reduce/mesh/cell_type.hpp"
+
 namespace bielle::reduce {
 namespace {
 
@@ -40,27 +44,15 @@ struct LinearFit {
   }
 };
 
+/// Returns the fit of a type of solid cells.
 const LinearFit& linear_fit(CellType type) {
-  static const LinearFit hex8(CellType::hex8), hex20(CellType::hex20), hex27(CellType::hex27), wedge6(CellType::wedge6),
-      wedge15(CellType::wedge15), pyramid5(CellType::pyramid5), pyramid13(CellType::pyramid13);
-  switch (type) {
-    case CellType::hex8:
-      return hex8;
-    case CellType::hex20:
-      return hex20;
-    case CellType::hex27:
-      return hex27;
-    case CellType::wedge6:
-      return wedge6;
-    case CellType::wedge15:
-      return wedge15;
-    case CellType::pyramid5:
-      return pyramid5;
-    case CellType::pyramid13:
-      return pyramid13;
-    default:
-      throw std::logic_error("no linear map is sought for this type of cells");
-  }
+  static const std::map<CellType, LinearFit> fits = [] {
+    std::map<CellType, LinearFit> all;
+    for (const CellInfo& info : cell_table())
+      if (info.dimension == 3) all.emplace(info.type, info.type);
+    return all;
+  }();
+  return fits.at(type);
 }
 
 }  // namespace

@@ -19,11 +19,12 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/model/assembly_branch.hpp"
 #include "mechanism/model/model.hpp"
 
 namespace bielle::mechanism {
 
-class HeldDirections final : public Component {
+class HeldDirections final : public Component, public AssemblyBranch {
  public:
   /// @param node    node as it is drawn, with its index in the model
   /// @param axes    columns q_k, inertial components

@@ -17,6 +17,7 @@
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
+#include "mechanism/model/assembly_branch.hpp"
 #include "reduce/common/input/yaml_file.hpp"
 
 namespace bielle::mechanism {
@@ -27,7 +28,7 @@ struct LockedMotions {
   enum class Rotation { none, tilt, all } rotation = Rotation::none;  ///< tilt: about x and y
 };
 
-class LowerPair final : public Joint {
+class LowerPair final : public Joint, public AssemblyBranch {
  public:
   LowerPair(std::string type, std::string name, JointFrames frames, std::vector<JointCoordinate> coordinates,
             const LockedMotions& locked, const Model& model);

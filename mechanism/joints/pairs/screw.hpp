@@ -6,10 +6,11 @@
 #pragma once
 
 #include "mechanism/joints/measured_pair.hpp"
+#include "mechanism/model/assembly_branch.hpp"
 
 namespace bielle::mechanism {
 
-class ScrewJoint final : public MeasuredRows<ScrewJoint> {
+class ScrewJoint final : public MeasuredRows<ScrewJoint>, public AssemblyBranch {
  public:
   ScrewJoint(std::string name, JointFrames frames, double pitch, const Model& model);
   void start_at(std::size_t coordinate, double value, bool by_motion = true) override;

@@ -25,6 +25,7 @@
 #pragma once
 
 #include "mechanism/joints/measured_pair.hpp"
+#include "mechanism/model/assembly_branch.hpp"
 
 namespace bielle::mechanism {
 
@@ -46,7 +47,7 @@ class UniversalJoint final : public MeasuredRows<UniversalJoint> {
   PairMeasureOf<order> own_angle(std::size_t index, const LocalState& state) const;
 };
 
-class ConstantVelocityJoint final : public MeasuredRows<ConstantVelocityJoint> {
+class ConstantVelocityJoint final : public MeasuredRows<ConstantVelocityJoint>, public AssemblyBranch {
  public:
   ConstantVelocityJoint(std::string name, JointFrames frames, const Model& model);
   std::string wrong_branch(const LocalState& state) const override;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/math/so3.hpp"
+#include "mechanism/model/start_coordinates.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/joint_twist.hpp"
 #include "mechanism/solvers/start/part_behind.hpp"
@@ -18,7 +19,7 @@ constexpr double no_screw = 1e-9;  // relative to the mechanism's size
 /// Returns the coordinates of a joint that are angles.
 std::vector<std::size_t> angles_of(const Member& joint) {
   std::vector<std::size_t> angles;
-  const std::vector<StartCoordinate> coordinates = joint.component->start_coordinates();
+  const std::vector<StartCoordinate> coordinates = start_coordinates_of(*joint.component);
   for (std::size_t k = 0; k < coordinates.size(); ++k)
     if (coordinates[k].units == "rad") angles.push_back(k);
   return angles;

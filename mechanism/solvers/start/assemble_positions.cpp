@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/assembly_branch.hpp"
 #include "mechanism/solvers/constraints/redundancy.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/closing_newton.hpp"
@@ -57,7 +58,9 @@ std::optional<State> turned_right(const System& system, const Environment& envir
   for (std::size_t m = 0; m < system.slots().size(); ++m) {
     const Slots& slots = system.slots()[m];
     if (slots.multipliers == 0 || !system.is_active(drawn, m)) continue;
-    const Vector3 turn = system.model().members()[m].component->misalignment(LocalState(drawn, slots, environment));
+    const auto* branch = dynamic_cast<const AssemblyBranch*>(system.model().members()[m].component.get());
+    if (!branch) continue;
+    const Vector3 turn = branch->misalignment(LocalState(drawn, slots, environment));
     if (turn.norm() < quarter) continue;
     // The second node is rotated if it is free, otherwise the first one, in the opposite direction.
     for (const std::size_t k : {1U, 0U}) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/math/rank.hpp"
+#include "mechanism/model/start_coordinates.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "reduce/dense/dense_solves.hpp"
 
@@ -146,7 +147,7 @@ VectorX JointTwist::all_rates(std::size_t joint, const std::vector<std::size_t>&
   append_constraints(joint, rates);
   for (const std::size_t drive : drives) append_constraints(drive, rates);
   const Eigen::Index constraints = rates.size();
-  const std::size_t count = system_.model().members()[joint].component->start_coordinates().size();
+  const std::size_t count = start_coordinates_of(*system_.model().members()[joint].component).size();
   rates.conservativeResize(constraints + static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k)
     rates[constraints + static_cast<Eigen::Index>(k)] = coordinate_row(system_, environment_, state_, joint, k).rate;
@@ -159,7 +160,7 @@ RigidVelocity JointTwist::of(std::size_t joint, int moving, int base, const Star
   RigidVelocity carried = rigid_velocity(state_.nodes[static_cast<std::size_t>(base)]);
   carried = {place, carried.at(place), carried.omega};
   const std::vector<std::size_t> drives = acting_in(joint);
-  const std::vector<StartCoordinate> coordinates = system_.model().members()[joint].component->start_coordinates();
+  const std::vector<StartCoordinate> coordinates = start_coordinates_of(*system_.model().members()[joint].component);
   const VectorX rest = all_rates(joint, drives, moving, carried);
   TwistRates all{MatrixX(rest.size(), 6), -rest};
   for (int k = 0; k < 6; ++k)
@@ -206,7 +207,7 @@ RigidVelocity JointTwist::of_unit_rate(std::size_t joint, int moving, int base, 
   const RigidVelocity still{place, Vector3::Zero(), Vector3::Zero()};
   set_rigid_velocity(state_.nodes[static_cast<std::size_t>(base)], still);
   const VectorX rest = all_rates(joint, {}, moving, still);
-  const std::size_t count = system_.model().members()[joint].component->start_coordinates().size();
+  const std::size_t count = start_coordinates_of(*system_.model().members()[joint].component).size();
   TwistRates all{MatrixX(rest.size(), 6), -rest};
   for (int k = 0; k < 6; ++k) all.A.col(k) = all_rates(joint, {}, moving, unit_motion(k, place, length_)) - rest;
   all.b[rest.size() - static_cast<Eigen::Index>(count - coordinate)] += 1;

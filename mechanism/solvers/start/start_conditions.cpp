@@ -7,6 +7,7 @@
 
 #include "mechanism/model/carried_start.hpp"
 #include "mechanism/model/measure.hpp"
+#include "mechanism/model/start_coordinates.hpp"
 #include "mechanism/system/node_relation.hpp"
 
 namespace bielle::mechanism {
@@ -64,8 +65,9 @@ CoordinateRow coordinate_row(const System& system, const Environment& environmen
                              std::size_t member, std::size_t coordinate) {
   const Slots& slots = system.slots()[member];
   thread_local MeasureGradient gradient;
-  const StartCoordinateValue at = system.model().members()[member].component->calc_start_coordinate(
-      coordinate, LocalState(state, slots, environment), gradient);
+  const auto& coordinates = dynamic_cast<const StartCoordinates&>(*system.model().members()[member].component);
+  const StartCoordinateValue at =
+      coordinates.calc_start_coordinate(coordinate, LocalState(state, slots, environment), gradient);
   CoordinateRow row{at.value, at.rate, {}, {}};
   add_dof_entries(system, state, slots, gradient.position(), 0, row.by_position);
   add_dof_entries(system, state, slots, gradient.rate(), 0, row.by_rate);
@@ -77,7 +79,7 @@ double coordinate_distance(const StartCoordinate& coordinate, double value, doub
 }
 
 StartCoordinate start_coordinate(const System& system, const CoordinateCondition& condition) {
-  return system.model().members()[condition.member].component->start_coordinates()[condition.coordinate];
+  return start_coordinates_of(*system.model().members()[condition.member].component)[condition.coordinate];
 }
 
 std::string coordinate_name(const System& system, std::size_t member, const StartCoordinate& coordinate) {

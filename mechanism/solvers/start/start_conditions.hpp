@@ -11,7 +11,7 @@
 
 namespace bielle::mechanism {
 
-/// A condition for a coordinate of a member (Component::start_coordinates).
+/// A condition for a coordinate of a member (StartCoordinates).
 struct CoordinateCondition {
   std::size_t member = 0, coordinate = 0;
   std::optional<double> value, rate;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mechanism/model/start_coordinates.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
 
@@ -85,7 +86,7 @@ void note_moved(const System& system, const Environment& environment, const Stat
 
   std::vector<std::pair<double, MovedCoordinate>> coordinates;
   for (std::size_t m = 0; m < system.slots().size(); ++m) {
-    const std::vector<StartCoordinate> all = system.model().members()[m].component->start_coordinates();
+    const std::vector<StartCoordinate> all = start_coordinates_of(*system.model().members()[m].component);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double before = coordinate_row(system, environment, from, m, k).value,
                    change = coordinate_distance(all[k], coordinate_row(system, environment, to, m, k).value, before);

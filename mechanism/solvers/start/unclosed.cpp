@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "mechanism/model/assembly_branch.hpp"
 #include "mechanism/solvers/start/closing_newton.hpp"
 
 namespace bielle::mechanism {
@@ -62,9 +63,8 @@ std::string gap_text(const ClosingEquations& equations, const Owner& owner, cons
   distance = std::sqrt(distance);
   angle = std::sqrt(angle);
   const std::size_t m = static_cast<std::size_t>(owner.member - system.model().members().data());
-  if (angle > 0)
-    if (const double turn =
-            owner.member->component->misalignment(LocalState(state, system.slots()[m], equations.environment())).norm();
+  if (const auto* branch = dynamic_cast<const AssemblyBranch*>(owner.member->component.get()); branch && angle > 0)
+    if (const double turn = branch->misalignment(LocalState(state, system.slots()[m], equations.environment())).norm();
         turn > 0)
       angle = turn;
   std::vector<std::string> parts;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "mechanism/model/start_coordinates.hpp"
 #include "mechanism/solvers/constraints/kkt_matrix.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
 #include "mechanism/solvers/start/start_conditions.hpp"
@@ -53,7 +54,7 @@ Candidates of_joints(const System& system, const Environment& environment, const
                      double length) {
   Candidates result;
   for (std::size_t m = 0; m < system.slots().size(); ++m) {
-    const std::vector<StartCoordinate> all = system.model().members()[m].component->start_coordinates();
+    const std::vector<StartCoordinate> all = start_coordinates_of(*system.model().members()[m].component);
     for (std::size_t k = 0; k < all.size(); ++k) {
       VectorX change = VectorX::Zero(basis.cols());
       for (const auto& [dof, derivative] : coordinate_row(system, environment, state, m, k).by_position)
