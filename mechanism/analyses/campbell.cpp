@@ -242,7 +242,7 @@ Campbell compute_campbell(Session& session, const CampbellOptions& options) {
   SpeedSweep sweep(
       [&](double value, int count) {
         const double done = (value - options.values.front()) / (options.values.back() - options.values.front());
-        if (Notes* notes = session.notes()) notes->progress(done, fmt::format("{:.4g}", value));
+        if (Notes* notes = session.notes()) notes->progress(done, [=] { return fmt::format("{:.4g}", value); });
         try {
           session.call_back();
         } catch (const Interrupted&) {

@@ -286,7 +286,7 @@ KinematicsReport compute_kinematics(Session& session, const KinematicsOptions& o
     if (elastic) elastic->note_left_out(state);
     ++report.points;
     if (Notes* notes = session.notes())
-      notes->progress((state.time - begin) / options.duration, fmt::format("t = {:.6g} s", state.time));
+      notes->progress((state.time - begin) / options.duration, [&] { return fmt::format("t = {:.6g} s", state.time); });
     if (state.time > begin) session.call_back();
   };
   point(0, true);

@@ -113,7 +113,8 @@ StaticsReport compute_statics(Session& session, const StaticsOptions& options) {
       ++report.points;
       report.iterations += point.iterations;
       report.load_factor = point.factor;
-      if (Notes* notes = session.notes()) notes->progress(point.done, fmt::format("load factor {:.4g}", point.factor));
+      if (Notes* notes = session.notes())
+        notes->progress(point.done, [&] { return fmt::format("load factor {:.4g}", point.factor); });
       session.call_back();
       if (session.stopping()) throw Stopped();
     });

@@ -11,7 +11,14 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-void note(int) { interrupted = 1; }
+/// A second interruption ends the program at once, as without a guard.
+void note(int signal) {
+  if (interrupted) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  interrupted = 1;
+}
 
 }  // namespace
 

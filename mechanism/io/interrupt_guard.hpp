@@ -1,4 +1,4 @@
-// Interrupted runs end after the current step.
+// Interrupted runs end after the current step, or at once if they are interrupted again.
 #pragma once
 
 #include <string>
@@ -6,7 +6,8 @@
 namespace bielle::mechanism {
 
 /// During the lifetime of this object, an interrupt (Ctrl-C), a termination request or the end of the terminal lets the
-/// current step finish; then the run stops.
+/// current step finish; then the run stops. A second one ends the program at once: an analysis without steps (eigen,
+/// frequency_response) takes as long as it takes.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -21,9 +21,8 @@ namespace {
 class ShownNotes : public Notes {
  public:
   ShownNotes(Progress& progress, Notes* others) : progress_(progress), others_(others) {}
-  void progress(double done, const std::string& where) override {
-    progress_.update(done, where);
-    if (others_) others_->progress(done, where);
+  void progress(double done, const std::function<std::string()>& at) override {
+    if (progress_.due()) progress_.update(done, at());
   }
   void note(const std::string& sentence) override {
     progress_.note(sentence);
@@ -153,7 +152,7 @@ std::vector<AnalysisSummary> run_analyses(const MechanismFile& file, const std::
     const Analysis& analysis = *file.analyses[k];
     const int number = static_cast<int>(k) + 1;
     if (checkpoint && number < checkpoint->analysis) continue;
-    // Analyses that do not call back (eigen, frequency_response) run to their end.
+    // Analyses that do not call back (eigen, frequency_response) run to their end, unless they are interrupted again.
     if (guard && guard->asked()) guard->end_run(fmt::format("before analysis {}", number));
     present = &analysis;
     progress.start(analysis.type());

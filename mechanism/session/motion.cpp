@@ -157,7 +157,8 @@ bool Motion::step() {
   if (const int every = session.recording().checkpoint; every > 0 && last_on_grid_ && parts_.grid_steps % every == 0)
     save_for_sinks();
   if (session.notes())
-    session.notes()->progress((time() - begin()) / (end() - begin()), fmt::format("t = {:.4g} s", time()));
+    session.notes()->progress((time() - begin()) / (end() - begin()),
+                              [&] { return fmt::format("t = {:.4g} s", time()); });
   session.call_back();
   return true;
 }

@@ -56,10 +56,14 @@ void Progress::start(const std::string& phase) {
     say(phase_ + " ...\n");
 }
 
+bool Progress::due() const {
+  return running_ && !quiet_ &&
+         seconds_since(last_draw_) >= (terminal_ ? seconds_between_frames : seconds_between_lines);
+}
+
 void Progress::update(double fraction, const std::string& detail) {
-  if (!running_ || quiet_) return;
+  if (!due()) return;
   fraction_ = std::clamp(fraction, 0.0, 1.0);
-  if (seconds_since(last_draw_) < (terminal_ ? seconds_between_frames : seconds_between_lines)) return;
   detail_ = detail;
   last_draw_ = Clock::now();
   draw(false);

@@ -34,6 +34,8 @@ class Progress {
   /// Returns the report of a part of the work, which shows no phases and no notes, and warnings with the part's name.
   Progress of_part(const std::string& name) const;
   void start(const std::string& phase);  ///< ends the running phase, if any
+  /// Returns whether `update` would show something now.
+  bool due() const;
   /// @param fraction  done of this phase, 0..1; @param detail  shown after it ("t = 0.013 s")
   void update(double fraction, const std::string& detail = "");
   void finish();  ///< ends the running phase

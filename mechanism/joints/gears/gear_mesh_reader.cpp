@@ -57,9 +57,10 @@ Vector3 read_pitch_point(const YamlValue& entry, const DrawnWheels& wheels, bool
                             : entry.at("position").vector3();
 }
 
-double read_angle_below_quarter(const YamlValue& given) {
+/// @param range  words of the message for the angles that are allowed; the form of the key refuses negative ones
+double read_angle_below_quarter(const YamlValue& given, const char* range) {
   const double angle = given.number();
-  if (std::abs(angle) >= M_PI / 2) given.fail("expected an angle between -pi/2 and pi/2 [rad]");
+  if (std::abs(angle) >= M_PI / 2) given.fail(fmt::format("expected an angle {} [rad]", range));
   return angle;
 }
 
@@ -78,8 +79,8 @@ ToothGeometry read_geometry(const YamlValue& entry, const std::array<int, 3>& no
     radius[k] = wheels.axis[k].cross(P - wheels.centre[k]).norm();
   }
   geometry.P = seen(P);
-  geometry.pressure_angle = read_angle_below_quarter(entry.at("pressure_angle"));
-  const double helix = read_angle_below_quarter(entry.at("helix_angle"));
+  geometry.pressure_angle = read_angle_below_quarter(entry.at("pressure_angle"), "of at least 0 and less than pi/2");
+  const double helix = read_angle_below_quarter(entry.at("helix_angle"), "between -pi/2 and pi/2");
   try {
     set_tooth_directions(geometry, helix, internal && radius[0] > radius[1]);
   } catch (const std::domain_error& error) {

@@ -31,6 +31,9 @@ class View:
 def view(*results: str | os.PathLike, height: int = 640, frames: int = 500) -> View:
     """The page of results files; more than one are drawn over each other. height: in a notebook [pixels]; frames: largest number of
     times. Raises Error if a file cannot be shown."""
+    for name, number in (("height", height), ("frames", frames)):
+        if number < 1:
+            raise _core.InputError(f"view: {name}: expected a number from 1 on, found {number}")
     try:
         from bielle_tools.messages import InputError
         from bielle_tools.view import build_page

@@ -220,6 +220,22 @@ class Streams(CommandTest):
         self.assertIn("interrupted at t = ", run.communicate(timeout=60)[1])
         self.assertEqual(run.returncode, 2)
 
+    def test_a_second_interruption_ends_an_analysis_without_steps(self):
+        links = range(6000)
+        parts = ["nodes:", *(f"  b{k}: {{position: [{k + 0.5}, 0, 0]}}" for k in links), "elements:"]
+        parts += [f"  m{k}: {{type: rigid_body, node: b{k}, mass: 1, inertia: [0.001, 0.08, 0.08]}}" for k in links]
+        parts += ["joints:", *(f"  j{k}: {{type: hinge, nodes: [{f'b{k - 1}' if k else 'ground'}, b{k}], position: [{k}, 0, 0], axis: [0, 1, 0], stiffness: 9}}" for k in links)]
+        self.write("chain.yaml", "\n".join(parts) + "\nanalysis: [{type: eigen, count: 300}]\n")
+        run = self.start("chain.yaml", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not os.path.exists(self.path("chain.h5")) and run.poll() is None:
+            time.sleep(0.02)
+        time.sleep(1)
+        run.send_signal(signal.SIGINT)
+        time.sleep(0.3)
+        self.assertIsNone(run.poll(), "the first one waits for the end of a step")
+        run.send_signal(signal.SIGINT)
+        self.assertEqual(run.wait(timeout=60), -signal.SIGINT)
+
     def test_too_little_address_space_ends_at_once(self):
         self.write("model.yaml", PENDULUM)
         for megabytes in (150, 200, 250):

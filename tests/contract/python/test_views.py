@@ -46,6 +46,10 @@ class Views(InFolder):
             bielle.run(bielle.read(PENDULUM)).show()
         with self.assertRaisesRegex(bielle.InputError, "does not exist"):
             bielle.view(self.path("absent.h5"))
+        run = bielle.run(bielle.read(PENDULUM), self.path("run.h5"))
+        for wrong in ({"frames": -1}, {"frames": 0}, {"height": 0}):
+            with self.assertRaisesRegex(bielle.InputError, f"{next(iter(wrong))}: expected a number from 1 on, found"):
+                run.show(**wrong)
 
 
 if __name__ == "__main__":

@@ -29,7 +29,6 @@ joints: {main: {type: hinge, nodes: [ground, arm], position: [0, 0, 0], axis: [0
 struct Told final : Notes {
   std::string all;
   void note(const std::string& sentence) override { all += sentence + "\n"; }
-  void progress(double, const std::string&) override {}
 };
 
 const std::string integral_control = R"yaml(
