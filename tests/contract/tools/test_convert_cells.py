@@ -182,6 +182,21 @@ class EachType(CellConverter):
         self.assertIn(f"not read: 2 CWEIRD (the first at line {lines})", self.notes)
         self.assertIn(f"left out: 1 CBAR (903), the first at line {lines + 2}, which", self.notes)
 
+    def test_sets_without_cells_and_long_names(self):
+        box = Box(across=1)
+        self.convert("box.inp", box.abaqus("*ELSET, ELSET=EMPTY\n*ELEMENT, TYPE=MASS, ELSET=M\n201, 1\n"))
+        for name in ("EMPTY", "M"):
+            self.assertIn(f"the set '{name}' holds no solid or surface cells and is left out", self.notes)
+        mesh = self.convert("box.inp", box.abaqus().replace("BODY", "N" * 250))
+        self.assertIn((3, "N" * 250), mesh.groups)
+        self.refuse("box.inp", box.abaqus().replace("BODY", "N" * 251), "has 251 bytes: at most 250")
+        self.refuse("box.inp", box.abaqus().replace("BODY", "\u00e4" * 126), "has 252 bytes: at most 250")
+
+    def test_flat_cells_are_named(self):
+        box = Box(across=1)
+        box.points = [x * [1, 1, 0] for x in box.points]
+        self.refuse("box.inp", box.abaqus(), "holds 3 hexahedra of no volume (the first: element 1, near ")
+
     def test_cells_keep_their_numbers(self):
         """bielle-reduce names cells by the numbers of the deck: gmsh's element numbers are theirs."""
         for numbers in ([7, 3, 2**31 - 2], [11, 11 + 10**6, 12]):

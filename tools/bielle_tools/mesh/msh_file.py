@@ -12,6 +12,8 @@ import numpy as np
 from ..messages import InputError
 from .cells import CELLS, SOLIDS
 
+LONGEST_NAME = 250  # bytes; gmsh cuts longer ones off
+
 
 def write_msh(mesh, path):
     """Writes a SolidMesh next to `path` and renames it. @raises InputError if the file cannot be written"""
@@ -28,6 +30,9 @@ def _write(mesh, file):
     tags = {}  # (dimension, name) -> physical tag
     for dimension, groups in ((2, mesh.surfaces), (3, mesh.volumes)):
         for name in groups:
+            if len(name.encode()) > LONGEST_NAME or '"' in name:
+                raise InputError(f"the name of the group '{name[:40]}{'...' if len(name) > 40 else ''}' has {len(name.encode())} bytes: at most {LONGEST_NAME}, "
+                                 "and no quotation marks, are possible")
             tags[dimension, name] = len(tags) + 1
     entities = _entities(mesh, tags)  # (dimension, entity tag, physical tags, [(type, cells, labels)])
 

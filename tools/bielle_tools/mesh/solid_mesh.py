@@ -79,6 +79,8 @@ def solid_mesh(raw):
             volumes[name] = solid
         if flat:
             _add_surface(surfaces, volumes, name, flat, notes)
+        if not members:
+            notes.append(f"the set '{name}' holds no solid or surface cells and is left out")
     for name, corners in raw.face_sets.items():
         members = faces.of_corners(corners, name)
         if members:
@@ -203,10 +205,14 @@ def _orient(points, kind, cells, labels, notes):
     cell, volumes = CELLS[kind], six_volumes(points, kind, cells)
     scale = np.ptp(points[np.unique(cells)], axis=0).max() ** 3
     flat = np.abs(volumes) <= 1e-15 * scale
+
+    def told(row):
+        return f"element {labels[row]}, " if labels[row] >= 0 else ""
+
     if flat.any():
         first = int(np.argmax(flat))
         raise InputError(f"holds {counted(int(flat.sum()), cell.singular, cell.plural)} of no volume "
-                         f"(the first near {place(points[cells[first, 0]])})")
+                         f"(the first: {told(first)}near {place(points[cells[first, 0]])})")
     negative = volumes < 0
     if negative.any():
         cells = cells.copy()
@@ -215,10 +221,9 @@ def _orient(points, kind, cells, labels, notes):
     turned = has_turned_corner(points, kind, cells) if cell.shape != "tetra" else np.zeros(0, bool)
     if turned.any():
         first = int(np.argmax(turned))
-        told = f"element {labels[first]}, " if labels[first] >= 0 else ""
         notes.append(f"{int(turned.sum())} of {len(cells)} {cell.plural} {'is' if turned.sum() == 1 else 'are'} turned inside out at a "
                      "corner "
-                     f"(the first: {told}near {place(points[cells[first, 0]])})")
+                     f"(the first: {told(first)}near {place(points[cells[first, 0]])})")
     return cells
 
 
