@@ -142,12 +142,17 @@ void check_connected(const Mesh& mesh, const std::vector<std::size_t>& cell_tags
       fmt::format("the body is in {} pieces that share no nodes: {}; {}", pieces.size(), piece_names(pieces), advice));
 }
 
-std::string loose_joints(const Mesh& mesh, const FaceTable& faces) {
+std::string loose_joints(const Mesh& mesh, const FaceTable& faces, const std::vector<std::size_t>& cell_tags) {
   DisjointSets cells(static_cast<int>(mesh.solid_count()));
   for (int face = 0; face < faces.size(); ++face)
     if (!faces.on_boundary(face)) cells.join(faces.cell(face), faces.other_cell(face));
   const std::vector<Piece> pieces = pieces_of(mesh, [&](int cell) { return cells.of(cell); });
   if (pieces.size() == 1) return "";
+  std::vector<int> piece_of(static_cast<std::size_t>(mesh.solid_count()));
+  for (int e = 0; e < static_cast<int>(piece_of.size()); ++e) piece_of[static_cast<std::size_t>(e)] = cells.of(e);
+  if (const std::string overlap = overlap_of_pieces(mesh, piece_of, {}, cell_tags); !overlap.empty())
+    throw InputError(fmt::format("the body is in {} pieces that share no faces: {}; {}", pieces.size(),
+                                 piece_names(pieces), overlap));
   return fmt::format("{} parts of the body hang together by single nodes or edges only, about which they can turn: {}",
                      pieces.size(), piece_names(pieces));
 }

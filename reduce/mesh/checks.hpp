@@ -21,8 +21,9 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
 void check_connected(const Mesh& mesh, const std::vector<std::size_t>& cell_tags = {});
 
 /// Returns a sentence if parts of the body are connected by single nodes or edges only, about which they can turn; else
-/// empty.
-std::string loose_joints(const Mesh& mesh, const FaceTable& faces);
+/// empty. @param cell_tags  as above
+/// @throws InputError if such parts overlap
+std::string loose_joints(const Mesh& mesh, const FaceTable& faces, const std::vector<std::size_t>& cell_tags = {});
 
 /// Pairs of boundary nodes at one place, nearer than 1e-6 of the shortest edge: a crack, or an unmerged mesh.
 struct CoincidentNodes {

@@ -49,7 +49,8 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const s
         "{}: {} at the same place, the first at {}: the body is cracked there; merge the nodes if it "
         "should not be",
         request.path, counted(coincident.pairs, "pair of nodes", "pairs of nodes"), place_name(coincident.place)));
-  for (const std::string& warning : {implausible_size(mesh), loose_joints(mesh, faces), stiff_wedges(mesh, faces)})
+  for (const std::string& warning :
+       {implausible_size(mesh), loose_joints(mesh, faces, tags), stiff_wedges(mesh, faces)})
     if (!warning.empty()) progress.warn(request.subject, warning);
   if (const MeshQuality quality = mesh_quality(mesh); quality.least_scaled_jacobian < 1e-3)
     progress.warn(request.subject, fmt::format("an element at {} is nearly flat (scaled Jacobian {:.1g}): stresses "

@@ -21,7 +21,7 @@ void check_sides_of_faces(const Mesh& mesh, const FaceTable& faces, const std::v
 
 /// Returns a sentence if cells lie on those of another piece, which has nodes of its own at the same places, or if the
 /// centroid of a cell lies inside a cell of another piece (at most 1000 centroids are looked up); else empty.
-/// @param piece_of  number of each cell's piece; pieces share no nodes
+/// @param piece_of  number of each cell's piece
 /// @param node_pairs  pairs of nodes at the same place
 /// @param cell_tags  as above
 std::string overlap_of_pieces(const Mesh& mesh, const std::vector<int>& piece_of,

@@ -175,6 +175,13 @@ TEST_CASE("cells that overlap with common nodes are refused") {
              Contains("three or more cells share the face at (") && Contains("m: cells overlap"));
 }
 
+TEST_CASE("a tetrahedron on the nodes of a hexahedron is refused, though they share no face") {
+  const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
+  CHECK_THAT(
+      message_for(msh(cube, {"5 2 1 1 1 2 3 4 5 6 7 8", "4 2 1 1 1 2 3 6"})),
+      Contains("the body is in 2 pieces that share no faces") && Contains("the pieces overlap, elements 1 and 2 at"));
+}
+
 TEST_CASE("pieces on one another are told as such") {
   const std::vector<std::string> twice = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 0", "1 0 0", "0 1 0", "0 0 1"};
   CHECK_THAT(
