@@ -2,8 +2,11 @@
 //
 // hex8 has the modes 1 - xi_k^2 along each coordinate, wedge6 that along its height and the products l_a l_b of its
 // triangle, in three directions each. (They have no mean strain. wedge6 stays stiff in bending: the mean strain within
-// its triangles, and the mean shear across them, are those of linear functions.) They belong to the cell alone and are
-// condensed: their amplitudes follow from the displacements u of the nodes,
+// its triangles, and the mean shear across them, are those of linear functions. Patch tests next to cells of other
+// types require that: they prescribe the nodal forces of a constant stress, hence at least the energy of that mean
+// strain. Shear tied at the middles of edges, as in MITC3, removes the stiffness across the triangles, but changes
+// these forces: sums over the wedges around a node vanish in layers with parallel triangles alone.) They belong to the
+// cell alone and are condensed: their amplitudes follow from the displacements u of the nodes,
 //     alpha = -K_aa^-1 K_au u,   strain = (B - G K_aa^-1 K_au) u.
 // The strains G of the modes are made from local gradients without mean, with the Jacobian J_0 in the middle of the
 // cell and the factor det J_0 / det J: their integral vanishes, and the patch test is passed on any mesh. Reference: R.

@@ -13,6 +13,7 @@
 #include "reduce/common/error.hpp"
 #include "reduce/mesh/disjoint_sets.hpp"
 #include "reduce/mesh/jacobian.hpp"
+#include "reduce/mesh/overlaps.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/mesh/solid_cells.hpp"
 #include "reduce/mesh/sorted_points.hpp"
@@ -117,32 +118,41 @@ void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags)
                                  named(first_flat)));
 }
 
-void check_connected(const Mesh& mesh) {
+void check_connected(const Mesh& mesh, const std::vector<std::size_t>& cell_tags) {
   const SolidCells cells(mesh);
   DisjointSets nodes(static_cast<int>(mesh.point_count()));
   for (int e = 0; e < cells.size(); ++e)
     for (const int node : cells.nodes(e)) nodes.join(cells.nodes(e)(0), node);
-  const std::vector<Piece> pieces = pieces_of(mesh, [&](int cell) { return nodes.of(cells.nodes(cell)(0)); });
+  std::vector<int> piece_of(static_cast<std::size_t>(cells.size()));
+  for (int e = 0; e < cells.size(); ++e) piece_of[static_cast<std::size_t>(e)] = nodes.of(cells.nodes(e)(0));
+  const std::vector<Piece> pieces = pieces_of(mesh, [&](int cell) { return piece_of[static_cast<std::size_t>(cell)]; });
   if (pieces.size() == 1) return;
 
   std::vector<int> all(mesh.point_count());
   std::iota(all.begin(), all.end(), 0);
-  int touching = 0;
-  for (const auto& [a, b] : near_pairs(mesh.points, all, 1e-6 * mesh_quality(mesh).shortest_edge))
-    touching += nodes.of(a) != nodes.of(b);
-  throw InputError(fmt::format(
-      "the body is in {} pieces that share no nodes: {}{}", pieces.size(), piece_names(pieces),
-      touching > 0
-          ? fmt::format("; {} at the same place: merge the nodes", counted(touching, "pair of nodes", "pairs of nodes"))
-          : "; join them in the geometry (a fragment or union), or reduce each by itself"));
+  const std::vector<std::pair<int, int>> pairs = near_pairs(mesh.points, all, 1e-6 * mesh_quality(mesh).shortest_edge);
+  const auto touching = std::count_if(pairs.begin(), pairs.end(),
+                                      [&](const auto& pair) { return nodes.of(pair.first) != nodes.of(pair.second); });
+  std::string advice = overlap_of_pieces(mesh, piece_of, pairs, cell_tags);
+  if (advice.empty())
+    advice = touching > 0 ? fmt::format("{} at the same place: merge the nodes",
+                                        counted(touching, "pair of nodes", "pairs of nodes"))
+                          : "join them in the geometry (a fragment or union), or reduce each by itself";
+  throw InputError(
+      fmt::format("the body is in {} pieces that share no nodes: {}; {}", pieces.size(), piece_names(pieces), advice));
 }
 
-std::string loose_joints(const Mesh& mesh, const FaceTable& faces) {
+std::string loose_joints(const Mesh& mesh, const FaceTable& faces, const std::vector<std::size_t>& cell_tags) {
   DisjointSets cells(static_cast<int>(mesh.solid_count()));
   for (int face = 0; face < faces.size(); ++face)
     if (!faces.on_boundary(face)) cells.join(faces.cell(face), faces.other_cell(face));
   const std::vector<Piece> pieces = pieces_of(mesh, [&](int cell) { return cells.of(cell); });
   if (pieces.size() == 1) return "";
+  std::vector<int> piece_of(static_cast<std::size_t>(mesh.solid_count()));
+  for (int e = 0; e < static_cast<int>(piece_of.size()); ++e) piece_of[static_cast<std::size_t>(e)] = cells.of(e);
+  if (const std::string overlap = overlap_of_pieces(mesh, piece_of, {}, cell_tags); !overlap.empty())
+    throw InputError(fmt::format("the body is in {} pieces that share no faces: {}; {}", pieces.size(),
+                                 piece_names(pieces), overlap));
   return fmt::format("{} parts of the body hang together by single nodes or edges only, about which they can turn: {}",
                      pieces.size(), piece_names(pieces));
 }
@@ -159,6 +169,23 @@ CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces) {
   result.pairs = static_cast<int>(pairs.size());
   if (!pairs.empty()) result.place = mesh.points.col(pairs.front().first);
   return result;
+}
+
+std::string stiff_wedges(const Mesh& mesh, const FaceTable& faces) {
+  const SolidCells cells(mesh);
+  std::map<int, int> free_triangles;  // wedge -> its triangles on the surface
+  for (const int face : faces.boundary())
+    if (const int cell = faces.cell(face); cells.type(cell) == CellType::wedge6 && faces.type(face) == CellType::tri3)
+      ++free_triangles[cell];
+  const auto single =
+      std::count_if(free_triangles.begin(), free_triangles.end(), [](const auto& wedge) { return wedge.second == 2; });
+  for (const SolidCells::Range& range : cells.ranges())
+    if (range.type == CellType::wedge6)
+      return fmt::format("{} of {} elements {} wedge6{}, which {} far too stiff in bending: use wedge15, or hexahedra",
+                         range.count, cells.size(), range.count == 1 ? "is a" : "are",
+                         single > 0 ? fmt::format(" ({} as the only layer between two surfaces)", single) : "",
+                         range.count == 1 ? "is" : "are");
+  return "";
 }
 
 std::string implausible_size(const Mesh& mesh) {

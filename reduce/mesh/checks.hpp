@@ -16,12 +16,14 @@ namespace bielle::reduce {
 void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags);
 
 /// The solid must be one piece: its cells connected by common nodes.
-/// @throws InputError: number, size and place of the pieces, and whether they touch without sharing nodes
-void check_connected(const Mesh& mesh);
+/// @param cell_tags  as above
+/// @throws InputError: number, size and place of the pieces, and whether they overlap or touch without sharing nodes
+void check_connected(const Mesh& mesh, const std::vector<std::size_t>& cell_tags = {});
 
 /// Returns a sentence if parts of the body are connected by single nodes or edges only, about which they can turn; else
-/// empty.
-std::string loose_joints(const Mesh& mesh, const FaceTable& faces);
+/// empty. @param cell_tags  as above
+/// @throws InputError if such parts overlap
+std::string loose_joints(const Mesh& mesh, const FaceTable& faces, const std::vector<std::size_t>& cell_tags = {});
 
 /// Pairs of boundary nodes at one place, nearer than 1e-6 of the shortest edge: a crack, or an unmerged mesh.
 struct CoincidentNodes {
@@ -29,6 +31,10 @@ struct CoincidentNodes {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< place of the first pair [m]
 };
 CoincidentNodes coincident_nodes(const Mesh& mesh, const FaceTable& faces);
+
+/// Returns a sentence if the mesh has wedges of order 1, with the number of those that are a layer of their own between
+/// two surfaces, where bending is falsified most; else empty.
+std::string stiff_wedges(const Mesh& mesh, const FaceTable& faces);
 
 /// Returns a sentence if the body is longer than 150 m or smaller than 1 mm, probably because of a wrong unit of
 /// length; else empty.

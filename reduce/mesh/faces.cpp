@@ -27,7 +27,7 @@ FaceTable::FaceTable(const Mesh& mesh) : cells_(mesh) {
       faces_.back().other = face.cell;
       faces_.back().other_side = face.side;
     } else {
-      throw InputError(fmt::format("three or more cells share the face at {}: cells overlap or stand twice",
+      throw InputError(fmt::format("three or more cells share the face at {}: cells overlap",
                                    place_name(mesh.points.col(face.key[0]))));
     }
   }
@@ -46,6 +46,13 @@ bool FaceTable::same_on_both_sides(int face) const {
   return std::all_of(one.begin(), one.end(), [&](int a) {
     return std::any_of(other.begin(), other.end(), [&](int b) { return nodes(a) == of_other(b); });
   });
+}
+
+bool FaceTable::on_one_side(int face) const {
+  const Face& of = faces_[face];
+  const Corners one = corners_in(of.cell, of.side), other = corners_in(of.other, of.other_side);
+  const int at = static_cast<int>(std::find(other.begin(), other.end(), one[0]) - other.begin());
+  return other[(at + 1) % other.size()] == one[1];
 }
 
 Corners FaceTable::corners(int face) const { return corners_in(faces_[face].cell, faces_[face].side); }

@@ -25,6 +25,7 @@ class FaceTable {
   int size() const { return static_cast<int>(faces_.size()); }
   bool on_boundary(int face) const { return faces_[face].other < 0; }
   bool same_on_both_sides(int face) const;  ///< whether both cells have all its nodes, not only its corners
+  bool on_one_side(int face) const;         ///< whether both cells, which are not inverted, lie on one side of it
   int cell(int face) const { return faces_[face].cell; }         ///< its (first) solid cell
   int other_cell(int face) const { return faces_[face].other; }  ///< its second one; -1 on the boundary
   CellType type(int face) const { return side_of(faces_[face].cell, faces_[face].side).type; }  ///< tri3, quad8, ...

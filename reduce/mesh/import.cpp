@@ -22,6 +22,7 @@
 #include "reduce/mesh/measures.hpp"
 #include "reduce/mesh/mesh_geometry.hpp"
 #include "reduce/mesh/mesh_packing.hpp"
+#include "reduce/mesh/overlaps.hpp"
 #include "reduce/mesh/place.hpp"
 #include "reduce/mesh/source_file.hpp"
 #include "reduce/mesh/straighten.hpp"
@@ -31,9 +32,9 @@ namespace bielle::reduce {
 namespace {
 
 // Second-order elements are repaired; all other faults are errors.
-void check_mesh(const MeshRequest& request, const ExtractedModel& model, const FaceTable& faces, Mesh& mesh,
-                Progress& progress) {
-  check_connected(mesh);
+void check_mesh(const MeshRequest& request, const ExtractedModel& model, const std::vector<std::size_t>& tags,
+                const FaceTable& faces, Mesh& mesh, Progress& progress) {
+  check_connected(mesh, tags);
   const Straightening repaired = straighten_elements(mesh);
   if (repaired.nodes > 0)
     progress.note(
@@ -48,7 +49,8 @@ void check_mesh(const MeshRequest& request, const ExtractedModel& model, const F
         "{}: {} at the same place, the first at {}: the body is cracked there; merge the nodes if it "
         "should not be",
         request.path, counted(coincident.pairs, "pair of nodes", "pairs of nodes"), place_name(coincident.place)));
-  for (const std::string& warning : {implausible_size(mesh), loose_joints(mesh, faces)})
+  for (const std::string& warning :
+       {implausible_size(mesh), loose_joints(mesh, faces, tags), stiff_wedges(mesh, faces)})
     if (!warning.empty()) progress.warn(request.subject, warning);
   if (const MeshQuality quality = mesh_quality(mesh); quality.least_scaled_jacobian < 1e-3)
     progress.warn(request.subject, fmt::format("an element at {} is nearly flat (scaled Jacobian {:.1g}): stresses "
@@ -113,17 +115,20 @@ Mesh import_source(const MeshRequest& request, const SourceFile& source, Progres
   Mesh mesh;
   mesh.points = std::move(model.points);
   mesh.blocks = std::move(model.solids);
+  const std::vector<std::size_t> tags = geometry ? std::vector<std::size_t>{} : model.cell_tags;
+  about(request.subject, [&] { check_repeated_cells(mesh, tags); });
   about(request.subject, [&] {
     try {
-      check_elements(mesh, geometry ? std::vector<std::size_t>{} : model.cell_tags);
+      check_elements(mesh, tags);
     } catch (const InputError& error) {
       if (!request.hexahedra.value_or(false)) throw;
       throw InputError(fmt::format("{}; a smaller mesh.size, or tetrahedra, avoid it", error.what()));
     }
   });
   const FaceTable faces = about(request.subject, [&] { return FaceTable(mesh); });
+  about(request.subject, [&] { check_sides_of_faces(mesh, faces, tags); });
   about(request.subject, [&] { check_conforming(mesh, faces); });
-  about(request.subject, [&] { check_mesh(request, model, faces, mesh, progress); });
+  about(request.subject, [&] { check_mesh(request, model, tags, faces, mesh, progress); });
   if (geometry) warn_of_lost_volume(session, request, source, mesh, progress);
   add_volume_groups(model, mesh);
   add_surface_groups(request, model, geometry, faces, mesh);

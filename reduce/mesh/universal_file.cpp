@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -23,9 +24,20 @@ constexpr long property_beyond = 1000000;
 constexpr int units = 164, nodes = 2411, elements = 2412, systems = 2420, groups = 2467, groups_of_gmsh = 2477;
 
 /// Solid cells that gmsh reads: descriptor and nodes. It drops others of the range below without a word.
-const std::map<int, int> solids = {{111, 4}, {118, 10}, {112, 6}, {113, 15}, {115, 8}, {116, 20}};
+const std::map<int, int> solids = {{101, 6},  {102, 15}, {104, 8},  {111, 4}, {112, 6},
+                                   {113, 15}, {115, 8},  {116, 20}, {118, 10}};
+/// Surface cells that gmsh reads. It drops those of order 3, and fails on some lines and points.
+const std::map<int, int> surfaces = {{41, 3}, {42, 6}, {44, 4}, {45, 8}, {51, 3}, {52, 6}, {54, 4}, {55, 8},
+                                     {61, 3}, {62, 6}, {64, 4}, {65, 8}, {71, 4}, {72, 6}, {74, 3}, {75, 8},
+                                     {81, 3}, {82, 6}, {84, 4}, {85, 8}, {91, 3}, {92, 6}, {94, 4}, {95, 8}};
 bool is_solid(int descriptor) {
-  return (descriptor >= 111 && descriptor <= 119) || descriptor == 312 || descriptor == 313;
+  return (descriptor >= 101 && descriptor <= 119) || descriptor == 312 || descriptor == 313;
+}
+/// Nodes of a cell that is read, or none.
+std::optional<int> nodes_of_type(int descriptor) {
+  for (const std::map<int, int>* cells : {&solids, &surfaces})
+    if (const auto found = cells->find(descriptor); found != cells->end()) return found->second;
+  return {};
 }
 bool is_beam(int descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
 
@@ -51,6 +63,7 @@ class Datasets {
     return true;
   }
   int dataset() const { return dataset_; }  ///< 0 between datasets
+  long number() const { return number_; }   ///< of the line
   int record() const { return record_; }    ///< record of the dataset, from 0 on; -1: its number; less: no dataset
   /// Reads the numbers of a line; Fortran's exponent D is accepted. @throws InputError if an entry is no number or is
   /// missing
@@ -143,6 +156,29 @@ class Heads {
   long more_ = 0;
 };
 
+/// Numbers of elements by descriptor, with the line of the first of each.
+class CountedTypes {
+ public:
+  void add(int descriptor, long line) { ++counts_.emplace(descriptor, std::pair(0L, line)).first->second.first; }
+  bool empty() const { return counts_.empty(); }
+  long first_line() const {
+    long line = counts_.begin()->second.second;
+    for (const auto& [descriptor, count] : counts_) line = std::min(line, count.second);
+    return line;
+  }
+  /// "2 of type 21 (the first at line 33), 1 of type 161 (line 40)"
+  std::string text() const {
+    std::string text;
+    for (const auto& [descriptor, count] : counts_)
+      text += fmt::format("{}{} of type {} ({}line {})", text.empty() ? "" : ", ", count.first, descriptor,
+                          text.empty() ? "the first at " : "", count.second);
+    return text;
+  }
+
+ private:
+  std::map<int, std::pair<long, long>> counts_;  // number, line
+};
+
 long lines_of_element(const std::vector<long>& head) {
   return (head[5] + 7) / 8 + (is_beam(static_cast<int>(head[1])) ? 1 : 0);
 }
@@ -169,28 +205,27 @@ std::optional<double> universal_length_unit(const std::string& path) {
 
 std::string check_universal_elements(const std::string& path) {
   Datasets file(path);
-  std::map<int, long> left_out;  // elements by descriptor
+  CountedTypes left_out, unknown;
   Heads heads;
   for (std::string line; file.next(line);) {
     if (file.dataset() != elements || !heads.is_head(file)) continue;
     const std::vector<long> head = file.numbers<long>(line, 6);
     const int descriptor = static_cast<int>(head[1]);
-    const auto solid = solids.find(descriptor);
-    if (is_solid(descriptor) && solid == solids.end())
-      file.fail(
-          fmt::format("element {} is of type {}; solid cells of types 111 and 118 (tetrahedra), 112 and 113 "
-                      "(wedges), 115 and 116 (hexahedra) are read",
-                      head[0], descriptor));
-    if (head[5] < 1 || (solid != solids.end() && head[5] != solid->second))
+    const std::optional<int> count = nodes_of_type(descriptor);
+    if (head[5] < 1 || (count && head[5] != *count))
       file.fail(fmt::format("element {} of type {} has {} nodes{}", head[0], descriptor, head[5],
-                            solid == solids.end() ? "" : fmt::format(", expected {}", solid->second)));
+                            count ? fmt::format(", expected {}", *count) : ""));
     heads.count_more(lines_of_element(head));
-    if (descriptor > 119) ++left_out[descriptor];
+    if (!count) (is_solid(descriptor) ? unknown : left_out).add(descriptor, file.number());
   }
-  std::string counts;
-  for (const auto& [descriptor, count] : left_out)
-    counts += fmt::format("{}{} of type {}", counts.empty() ? "" : ", ", count, descriptor);
-  return counts.empty() ? "" : "left out: elements that have neither volume nor surface: " + counts;
+  if (!unknown.empty())
+    throw InputError(
+        fmt::format("'{}': line {}: solid cells of types that are not read: {}; types 111 and 118 (tetrahedra), 112 "
+                    "and 113 (wedges), 115 and 116 (hexahedra) are read",
+                    path, unknown.first_line(), unknown.text()));
+  return left_out.empty()
+             ? ""
+             : "left out: elements that are neither solid cells nor faces of order 1 or 2: " + left_out.text();
 }
 
 bool adapt_universal_file(const std::string& source, const std::string& target) {
@@ -200,18 +235,22 @@ bool adapt_universal_file(const std::string& source, const std::string& target) 
   Datasets file(source);
   std::ofstream out(target);
   bool changed = false;
+  bool dropped = false;            // the line belongs to an element that is left out
   const System* system = nullptr;  // coordinate system of the node whose coordinates come next
-  for (std::string line; file.next(line); out << line << '\n') {
+  for (std::string line; file.next(line); dropped ? out : out << line << '\n') {
+    if (file.dataset() != elements || file.record() < 0) dropped = false;
     if (file.dataset() == groups && file.record() == -1) {
       line = fmt::format("{:6d}", groups_of_gmsh);  // its records are the same
       changed = true;
     }
-    if (grouped && file.dataset() == elements && heads.is_head(file)) {
+    if (file.dataset() == elements && heads.is_head(file)) {
       const std::vector<long> head = file.numbers<long>(line, 6);
       heads.count_more(lines_of_element(head));
-      line = fmt::format("{:10d}{:10d}{:10d}{:10d}{:10d}{:10d}", head[0], head[1], head[2] + property_beyond, head[3],
-                         head[4], head[5]);
-      changed = true;
+      dropped = !nodes_of_type(static_cast<int>(head[1]));
+      changed |= dropped || grouped;
+      if (grouped)
+        line = fmt::format("{:10d}{:10d}{:10d}{:10d}{:10d}{:10d}", head[0], head[1], head[2] + property_beyond, head[3],
+                           head[4], head[5]);
     }
     if (file.dataset() != nodes || file.record() < 0) continue;
     if (file.record() % 2 == 0) {

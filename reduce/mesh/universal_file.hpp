@@ -12,12 +12,14 @@ namespace bielle::reduce {
 std::optional<double> universal_length_unit(const std::string& path);
 
 /// Checks the elements of dataset 2412. @returns a sentence about those that are left out, such as springs and masses,
-/// or nothing
-/// @throws InputError naming the line of solid cells that gmsh would drop, or whose number of nodes is wrong
+/// with numbers and the first line of each type, or nothing
+/// @throws InputError naming the first line and the number of solid cells that gmsh would drop, or an element whose
+/// number of nodes is wrong
 std::string check_universal_elements(const std::string& path);
 
-/// Writes a copy in which all nodes stand in the global Cartesian system and groups are in a dataset that gmsh reads,
-/// under numbers that no physical property of elements has: gmsh would add the elements of the property to the group.
+/// Writes a copy in which all nodes stand in the global Cartesian system, elements that are left out are missing, as
+/// gmsh fails on some of them, and groups are in a dataset that gmsh reads, under numbers that no physical property of
+/// elements has: gmsh would add the elements of the property to the group.
 /// @returns false if no change was necessary; the copy is then to be ignored
 /// @throws InputError naming the line, ComputationError if the copy cannot be written
 bool adapt_universal_file(const std::string& source, const std::string& target);

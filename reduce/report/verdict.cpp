@@ -21,6 +21,7 @@ constexpr double good_stress = 0.15;                   // relative, energy norm,
 constexpr double small_stiffening = 0.02, good_cuts = 0.02;
 constexpr double thin = 0.2;           // share of the surface
 constexpr double badly_shaped = 0.05;  // scaled Jacobian
+constexpr const char* second_order = "mesh: {order: 2}, or elements of order 2 in the file if it is a mesh";
 constexpr double beyond_wanted = 2.2;  // modes up to twice a frequency keep its error below 1 %
 
 struct Findings {
@@ -164,10 +165,10 @@ void judge_mesh(const Adequacy& found, Findings& findings) {
                     found.least_jacobian));
   if (coarse_for_modes || coarse_for_stress) {
     findings.faults.emplace_back(coarse_for_modes ? "a mesh that is too stiff" : "a mesh too coarse for stress");
-    findings.changes.emplace_back(found.order == 1 ? "mesh: {order: 2}" : "mesh: {size: ..}, half of what it is");
+    findings.changes.emplace_back(found.order == 1 ? second_order : "mesh: {size: ..}, half of what it is");
   } else if (found.order == 1) {
     findings.faults.emplace_back("elements of order 1");
-    findings.changes.emplace_back("mesh: {order: 2}");
+    findings.changes.emplace_back(second_order);
   }
 }
 

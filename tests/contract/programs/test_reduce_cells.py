@@ -167,6 +167,31 @@ class Cells(WithQuickTools, CommandTest):
             self.write("tets.yaml", f"integration: {integration}\n" + BODY.format(name="tets", kept="all"))
             self.expect_refusal(1, "tets.yaml", "-o", "tets.h5", says=("tets.yaml:1: integration", f"'{integration}'", "the mesh has none"))
 
+    def test_cells_that_stand_twice_are_named_by_the_numbers_of_the_deck(self):
+        """With the nodes of the first ones, and with nodes of their own: the advice to merge nodes would be wrong there."""
+        text = cell_decks.Box(("hexahedron",) * 3, 1).abaqus()
+        head, rows = text.split("*ELEMENT, TYPE=C3D8, ELSET=BODY\n")
+        count = len(rows.strip().split("\n"))
+
+        def again(raised):
+            return "*ELEMENT, TYPE=C3D8\n" + "".join(f"{900 + k}, " + ", ".join(str(int(word) + raised) for word in row.split(",")[1:] if word.strip()) + "\n"
+                                                     for k, row in enumerate(rows.strip().split("\n"), 1))
+
+        nodes = [line for line in head.split("\n") if line and line[0].isdigit()]
+        moved = "*NODE\n" + "".join(f"{int(line.split(',')[0]) + 1000},{line.split(',', 1)[1]}\n" for line in nodes)
+        self.write("bar.yaml", BODY.format(name="bar", kept="all").replace("bar.msh", "bar.inp"))
+        for extra, says in ((again(0), f"{count} of {2 * count} elements have the same corners as another one (the first: elements 1 and 901 at "),
+                            (moved + again(1000), f"{count} of {2 * count} elements lie on another one with nodes of their own (the first: elements 1 and 901 ")):
+            self.write("bar.inp", text.rstrip("\n") + "\n" + extra)
+            self.expect_refusal(1, "bar.yaml", "-o", "bar.h5", says=("bar.yaml:2: geometry: ", says))
+
+    def test_wedges_of_first_order_get_a_warning(self):
+        self.mesh("wedge1", ("wedge",) * 3, 1)
+        self.write("wedge1.yaml", BODY.format(name="wedge1", kept="all"))
+        done = self.run_program("wedge1.yaml", "-o", "wedge1.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("warning: wedge1.yaml:2: geometry: 24 of 24 elements are wedge6, which are far too stiff in bending: use wedge15", done.stderr)
+
     def test_inverted_cells_are_named(self):
         box = cell_decks.Box(("hexahedron",) * 2, 1)
         middle = next(k for k, x in enumerate(box.points) if np.allclose(x, [0.3, 0, 0.05]))

@@ -11,7 +11,8 @@ _NAMES = {2: "triangle", 3: "quad", 4: "tetra", 5: "hexahedron", 6: "wedge", 7: 
 
 
 class GmshFile:
-    """points (p,3); cells {type: (n,k) rows of points}; groups {(dimension, name): {type: (m,k)}}; reference {type: (k,d)}: gmsh's
+    """points (p,3); cells {type: (n,k) rows of points}; numbers {type: (n)} of gmsh's elements;
+    groups {(dimension, name): {type: (m,k)}}; reference {type: (k,d)}: gmsh's
     own places of the nodes in its reference cell; volumes {type: (n)}: gmsh's integrals, of the sign of its determinants."""
 
     def __init__(self, path):
@@ -42,7 +43,9 @@ class GmshFile:
         labels = np.array(tags[:n.value])
         self.points = np.array(coordinates[:m.value]).reshape(-1, 3)
         self.rows = dict(zip(labels.tolist(), range(len(labels))))
+        self.numbers = {}
         self.cells = self._elements(-1, -1)
+        numbers = dict(self.numbers)
         self.groups = {}
         pairs, count = POINTER(c_int)(), c_size_t()
         self._call("ModelGetPhysicalGroups", byref(pairs), byref(count), c_int(-1))
@@ -56,6 +59,7 @@ class GmshFile:
                 for kind, cells in self._elements(dimension, entity).items():
                     group[kind] = np.concatenate([group[kind], cells]) if kind in group else cells
             self.groups[dimension, name.value.decode()] = group
+        self.numbers = numbers
 
     def _elements(self, dimension, entity):
         types, n_types = POINTER(c_int)(), c_size_t()
@@ -67,6 +71,7 @@ class GmshFile:
         for index in range(n_types.value):
             kind = _NAMES[types[index]]
             labels = nodes[index][:n_nodes[index]]
+            self.numbers[kind] = np.array(tags[index][:n_tags[index]])
             cells[kind] = np.array([self.rows[label] for label in labels]).reshape(n_tags[index], -1)
         return cells
 

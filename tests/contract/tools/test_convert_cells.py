@@ -161,7 +161,54 @@ class EachType(CellConverter):
             self.convert("box.inp", text[0] + "".join(f"*ELEMENT, TYPE={label}\n{row}\n" for label, row in zip(labels, rows)))
             for label in set(labels):
                 self.assertIn(f"{labels.count(label)} {label}", self.notes)
-        self.refuse("box.inp", box.abaqus(types={"hexahedron": "COH3D8"}), "box.inp:40", "COH3D8")
+        self.refuse("box.inp", box.abaqus(types={"hexahedron": "COH3D8"}), "12 COH3D8 (the first at ", "box.inp:40)")
+
+    def test_types_that_are_not_read_are_counted(self):
+        """With the place of the first: those of several blocks together, in included elements and in lines that go on."""
+        box = Box(order=1)
+        strange = "*ELEMENT, TYPE=U12\n201, 1, 2,\n3, 4\n202, 1, 2,\n3, 5\n*ELEMENT, TYPE=COH3D8\n301, 1, 2, 3, 4, 5, 6, 7, 8\n*ELEMENT, TYPE=u12\n203, 1,\n2, 3, 4\n"
+        text = box.abaqus(strange)
+        line = text.split("\n").index("*ELEMENT, TYPE=U12") + 1
+        self.refuse("box.inp", text, f"3 U12 (the first at {self.path('box.inp')}:{line}), 1 COH3D8 (at {self.path('box.inp')}:{line + 5})")
+        self.refuse("box.inp", box.abaqus("*ELEMENT, ELSET=X\n201, 1, 2\n"), "*ELEMENT: no type (TYPE=...)")
+        self.convert("box.inp", box.abaqus("*ELEMENT, TYPE=MASS, ELSET=M\n201, 1\n202, 2\n*ELEMENT, TYPE=SPRINGA, ELSET=S\n203, 1, 2\n"))
+        self.assertIn(f"left out: elements that have neither volume nor surface: 2 MASS (the first at {self.path('box.inp')}:", self.notes)
+        self.assertIn(", 1 SPRINGA (at ", self.notes)
+        nastran = box.nastran(form="free")
+        self.refuse("box.bdf", nastran.replace("ENDDATA", "") + "CIHEX1,901,1,1,2,3,4,5,6\n,7,8\nCIHEX1,902,1,1,2,3,4,5,6\n,7,8\n",
+                    "solid cells of types that Bielle does not read: 2 CIHEX1 (the first at line ")
+        self.convert("box.bdf", nastran.replace("ENDDATA", "") + "CWEIRD,901,1,1,2\nCWEIRD,902,1,1,2\nCBAR,903,1,1,2\n", 1e-8)
+        lines = len(nastran.replace("ENDDATA", "").split("\n"))
+        self.assertIn(f"not read: 2 CWEIRD (the first at line {lines})", self.notes)
+        self.assertIn(f"left out: 1 CBAR (903), the first at line {lines + 2}, which", self.notes)
+
+    def test_sets_without_cells_and_long_names(self):
+        box = Box(across=1)
+        self.convert("box.inp", box.abaqus("*ELSET, ELSET=EMPTY\n*ELEMENT, TYPE=MASS, ELSET=M\n201, 1\n"))
+        for name in ("EMPTY", "M"):
+            self.assertIn(f"the set '{name}' holds no solid or surface cells and is left out", self.notes)
+        mesh = self.convert("box.inp", box.abaqus().replace("BODY", "N" * 250))
+        self.assertIn((3, "N" * 250), mesh.groups)
+        self.refuse("box.inp", box.abaqus().replace("BODY", "N" * 251), "has 251 bytes: at most 250")
+        self.refuse("box.inp", box.abaqus().replace("BODY", "\u00e4" * 126), "has 252 bytes: at most 250")
+
+    def test_flat_cells_are_named(self):
+        box = Box(across=1)
+        box.points = [x * [1, 1, 0] for x in box.points]
+        self.refuse("box.inp", box.abaqus(), "holds 3 hexahedra of no volume (the first: element 1, near ")
+
+    def test_cells_keep_their_numbers(self):
+        """bielle-reduce names cells by the numbers of the deck: gmsh's element numbers are theirs."""
+        for numbers in ([7, 3, 2**31 - 2], [11, 11 + 10**6, 12]):
+            box = Box(across=1)
+            rows = box.abaqus().split("ELSET=BODY\n")
+            lines = rows[1].split("\n")
+            for k, number in enumerate(numbers):
+                lines[k] = f"{number}," + lines[k].split(",", 1)[1]
+            self.write("box.inp", rows[0] + "ELSET=BODY\n" + "\n".join(lines))
+            done = self.run_tool("box.inp")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(GmshFile(self.path("out.msh")).numbers["hexahedron"].tolist()[:3], numbers)
 
     def test_left_handed_cells_are_turned_over(self):
         mirrored = {"hexahedron": [0, 3, 2, 1, 4, 7, 6, 5], "wedge": [0, 2, 1, 3, 5, 4], "pyramid": [0, 3, 2, 1, 4], "tetra": [0, 2, 1, 3]}

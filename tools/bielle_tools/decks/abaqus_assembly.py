@@ -191,9 +191,10 @@ class Assembly:
         for key, (name, kind, entries, where) in source.surfaces.items():
             target.surfaces[prefix.upper() + key] = (shown(name, target.surfaces), kind, [(entry(each), side) for each, side in entries], where)
         target.ties += [Tie(each.name, each.where, [[prefix + name for name in names] for names in each.pairs]) for each in source.ties]
-        for counts, others in ((target.skipped, source.skipped), (target.formulations, source.formulations)):
-            for name, count in others.items():
-                counts[name] = counts.get(name, 0) + count
+        target.skipped.join(source.skipped)
+        target.unknown.join(source.unknown)
+        for name, count in source.formulations.items():
+            target.formulations[name] = target.formulations.get(name, 0) + count
         target.single_nodes.update((label + raised, (kind, node + raised)) for label, (kind, node) in source.single_nodes.items())
         target.constraints.join(source.constraints, lambda _: Scope(prefix, raised, instance.turn, prefix if several else ""))
         target.notes += [note for note in source.notes if note not in target.notes]

@@ -13,6 +13,7 @@ from ..messages import InputError, counted, did_you_mean
 from .abaqus_constraints import Constraints
 from .abaqus_extras import Extras
 from .abaqus_tied_surfaces import join_ties
+from .left_out import LeftOut
 
 LABELS = 2**31       # numbers of nodes and elements are less
 STRIDE = LABELS      # numbers of the k-th instance are raised by k times this; those of an assembly's own nodes are lowered by it
@@ -32,7 +33,8 @@ class Contents:
         self.unsorted = set()  # upper-case names of node sets in the order of the file
         self.surfaces = {}  # upper-case name -> (name, kind, entries, where)
         self.ties = []  # Tie
-        self.skipped = {}  # element type -> count
+        self.skipped = LeftOut()  # elements that have neither volume nor surface
+        self.unknown = LeftOut()  # elements of types that are not read
         self.formulations = {}  # element type with a letter for its formulation -> count
         self.system = None  # origin and axes (columns) that *NODE is given in
         self.assembly = None  # the one that names entries of sets and surfaces, where several instances stand
@@ -78,7 +80,7 @@ class Contents:
     def element(self, where, label):
         """Type and nodes, in VTK's order. @raises InputError if there is none; where: file and line for it"""
         if label not in self.cell_place:
-            raise InputError("{}:{}: there is no element {} before this line".format(*where, label))
+            raise InputError("{}:{}: there is no element {} of a type that is read before this line".format(*where, label))
         block, row = self.cell_place[label]
         return self.blocks[block][0], self.blocks[block][2][row]
 
@@ -105,7 +107,8 @@ class Contents:
         other.sets = {kind: {key: (name, list(entries)) for key, (name, entries) in sets.items()} for kind, sets in self.sets.items()}
         other.unsorted, other.surfaces = set(self.unsorted), dict(self.surfaces)
         other.ties = list(self.ties)
-        other.skipped, other.formulations, other.notes = dict(self.skipped), dict(self.formulations), list(self.notes)
+        other.skipped, other.unknown = self.skipped.copy(), self.unknown.copy()
+        other.formulations, other.notes = dict(self.formulations), list(self.notes)
         other.extras.join(self.extras, str, False)
         other.constraints.join(self.constraints, lambda scope: scope)
         other.single_nodes = dict(self.single_nodes)
@@ -121,8 +124,8 @@ class Contents:
         if self.formulations:
             counts = ", ".join(f"{count} {label}" for label, count in self.formulations.items())
             mesh.notes.append(f"reduced, hybrid, incompatible and modified formulations are replaced by Bielle's own: {counts}")
-        for count, kind in ((count, kind) for kind, count in self.skipped.items()):
-            mesh.notes.append(f"left out: {counted(count, 'element')} of type {kind}, which has neither volume nor surface")
+        if self.skipped:
+            mesh.notes.append(f"left out: elements that have neither volume nor surface: {self.skipped.text()}")
         for key, (name, _) in self.sets["ELSET"].items():
             if not name.startswith("_"):  # Abaqus' own helpers of surfaces
                 mesh.cell_sets[name] = self.cells_of(key)

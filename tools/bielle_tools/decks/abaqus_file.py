@@ -75,6 +75,10 @@ def read_deck(path):
     for keyword in read_keywords(path):
         assembly.keyword(keyword)
     assembly.finish()
+    if reader.unknown:
+        raise InputError(f"elements of types that Bielle does not read: {reader.unknown.text()}; it reduces solid cells (C3D4, C3D10, C3D8, C3D20, "
+                         "C3D27, C3D6, C3D15, C3D5, C3D13) and reads shells (S3, S4, S8R, CPS6, ...) as surfaces: remesh the body with these, or "
+                         "remove the elements")
     return reader
 
 
@@ -143,10 +147,12 @@ class _Reader(Contents):
             if found:
                 break
         else:
-            raise InputError(f"{keyword.where}: elements of type '{label}': Bielle reduces solid cells (C3D4, C3D10, C3D8, C3D20, C3D27, C3D6, "
-                             "C3D15, C3D5) and reads shells (S3, S4, S8R, CPS6, ...) as surfaces; remesh the body with these")
+            if not label:
+                raise ValueError("no type (TYPE=...)")
+            self.unknown.add(label, _count_elements(keyword.rows), keyword.where)
+            return
         if kind is None:
-            self.skipped[label] = self.skipped.get(label, 0) + len(keyword.rows)
+            self.skipped.add(label, len(keyword.rows), keyword.where)
             self._keep_single_nodes(label, keyword)
             return
         table = _element_table(keyword, label, count)
@@ -224,6 +230,12 @@ class _Reader(Contents):
 def _node(words):
     """Label and coordinates of a data line; direction cosines after them are not needed."""
     return integer(words[0]), numbers(words[1:4], 3)
+
+
+def _count_elements(rows):
+    """The number of elements in data lines of unknown length: lines that end with a comma go on, unless all do."""
+    ended = sum(not row.endswith(",") for row in rows)
+    return ended or len(rows)
 
 
 def _element_table(keyword, label, count):

@@ -5,12 +5,12 @@ lines of a body file, RBE2 and RBE3 become ties that an interface can name (nast
 else is reported with its numbers.
 """
 
-from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..messages import counted
+from ..messages import InputError, counted
+from .left_out import LeftOut
 from .nastran_cards import young_and_poisson
 from .nastran_mesh import SHAPES
 from .nastran_ties import read_nastran_ties
@@ -24,6 +24,8 @@ OF_ANALYSES = ("PARAM", "SPC", "SPC1", "SPCD", "SPCADD", "SUPORT", "LOAD", "FORC
                "TEMP", "TEMPD", "EIGR", "EIGRL", "EIGC", "SET", "SET1", "SET3", "ASET", "ASET1", "DMI", "FREQ", "FREQ1", "TABLED1", "CORD1R", "CORD1C",
                "CORD1S", "CORD2R", "CORD2C", "CORD2S", "GRDSET", "PSHELL", "PELAS", "PBUSH", "PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "SPOINT",
                "MDLPRM", "DOMAINS", "BSURF", "BCPROP")
+# Solid cells of other kinds: of order 3, of older programs, acoustic, cohesive.
+OTHER_SOLIDS = ("CIHEX1", "CIHEX2", "CIHEX3", "CHEXA1", "CHEXA2", "CWEDGE", "CHACAB", "CHACBR", "CIFHEX", "CIFPENT", "CHEXCZ", "CPENTCZ", "CHEXAL")
 READ = ("GRID", "MAT1", "PSOLID", "CONM2", "RBE2", "RBE3") + LOST
 MOST_NAMED = 8
 FEWEST_TIED = 3  # nodes that hold all rotations of a node
@@ -44,6 +46,7 @@ def read_extras(all_cards, grids, before=()):
     for card in all_cards:
         if card.name in cards:
             cards[card.name].append(card)
+    _check_solids(all_cards)
     extras = Extras()
     _tell_control(extras, before)
     _tell_parts(extras, all_cards)
@@ -53,8 +56,25 @@ def read_extras(all_cards, grids, before=()):
     _tell_masses(extras, cards["CONM2"], grids, carriers)
     for name in LOST:
         if cards[name]:
-            extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), which no solid cell stands for")
+            extras.notes.append(f"left out: {counted(len(cards[name]), name)} ({_ids(cards[name])}), the first at {place_in(cards[name][0], all_cards)}, "
+                                "which no solid cell stands for")
     return extras
+
+
+def place_in(card, all_cards):
+    """The place of a card in messages about a deck."""
+    return f"line {card.line}" + (f" of '{card.path}'" if card.path != all_cards[0].path else "")
+
+
+def _check_solids(all_cards):
+    """@raises InputError for solid cells without which the body would have holes"""
+    found = LeftOut()
+    for card in all_cards:
+        if card.name in OTHER_SOLIDS:
+            found.add(card.name, 1, place_in(card, all_cards))
+    if found:
+        raise InputError(f"'{all_cards[0].path}': solid cells of types that Bielle does not read: {found.text()}; it reads CTETRA, CHEXA, CPENTA and "
+                         "CPYRAM: remesh the body with these, or remove the cells")
 
 
 def _tell_control(extras, before):
@@ -89,11 +109,12 @@ def _tell_parts(extras, all_cards):
     skins = [card for card in all_cards if card.name == "PSHELL"]
     if skins:
         extras.notes.append(f"left out: the stiffness and mass of shells (PSHELL {_ids(skins)}): their cells are surfaces")
-    known = set(READ + OF_ANALYSES) | set(SHAPES)
-    unknown = Counter(card.name for card in all_cards if card.name not in known and not card.name.startswith("BEGIN"))
+    known, unknown = set(READ + OF_ANALYSES) | set(SHAPES), LeftOut()
+    for card in all_cards:
+        if card.name not in known and not card.name.startswith("BEGIN"):
+            unknown.add(card.name, 1, place_in(card, all_cards))
     if unknown:
-        extras.notes.append("not read: " + ", ".join(f"{count} {name}" for name, count in unknown.most_common(MOST_NAMED))
-                            + (" ..." if len(unknown) > MOST_NAMED else ""))
+        extras.notes.append(f"not read: {unknown.text()}")
     for card in all_cards:
         words = card.name + "".join(card.fields[1:])
         if card.name.startswith("BEGIN") and ("SUPER" in words or "MODULE" in words):

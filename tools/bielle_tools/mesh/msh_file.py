@@ -12,6 +12,8 @@ import numpy as np
 from ..messages import InputError
 from .cells import CELLS, SOLIDS
 
+LONGEST_NAME = 250  # bytes; gmsh cuts longer ones off
+
 
 def write_msh(mesh, path):
     """Writes a SolidMesh next to `path` and renames it. @raises InputError if the file cannot be written"""
@@ -28,8 +30,11 @@ def _write(mesh, file):
     tags = {}  # (dimension, name) -> physical tag
     for dimension, groups in ((2, mesh.surfaces), (3, mesh.volumes)):
         for name in groups:
+            if len(name.encode()) > LONGEST_NAME or '"' in name:
+                raise InputError(f"the name of the group '{name[:40]}{'...' if len(name) > 40 else ''}' has {len(name.encode())} bytes: at most {LONGEST_NAME}, "
+                                 "and no quotation marks, are possible")
             tags[dimension, name] = len(tags) + 1
-    entities = _entities(mesh, tags)  # (dimension, entity tag, physical tags, [(type, cells)])
+    entities = _entities(mesh, tags)  # (dimension, entity tag, physical tags, [(type, cells, labels)])
 
     file.write(b"$MeshFormat\n4.1 1 8\n" + np.int32(1).tobytes() + b"\n$EndMeshFormat\n")
     if tags:
@@ -42,7 +47,7 @@ def _write(mesh, file):
     counts = [sum(1 for e in entities if e[0] == dimension) for dimension in range(4)]
     file.write(np.array(counts, np.uint64).tobytes())
     for dimension, tag, physical, blocks in entities:
-        nodes = np.unique(np.concatenate([cells.ravel() for _, cells in blocks]))
+        nodes = np.unique(np.concatenate([cells.ravel() for _, cells, _ in blocks]))
         box = np.concatenate([mesh.points[nodes].min(axis=0), mesh.points[nodes].max(axis=0)])
         file.write(np.int32(tag).tobytes() + box.astype(np.float64).tobytes())
         file.write(np.uint64(len(physical)).tobytes() + np.array(physical, np.int32).tobytes())
@@ -57,24 +62,36 @@ def _write(mesh, file):
     file.write(np.arange(1, count + 1, dtype=np.uint64).tobytes())
     file.write(np.ascontiguousarray(mesh.points, np.float64).tobytes() + b"\n$EndNodes\n")
 
-    blocks = [(e[0], e[1], kind, cells) for e in entities for kind, cells in e[3]]
-    total = sum(len(cells) for *_, cells in blocks)
-    file.write(b"$Elements\n" + np.array([len(blocks), total, 1, total], np.uint64).tobytes())
-    number = 1
-    for dimension, tag, kind, cells in blocks:
+    blocks = [(e[0], e[1], *block) for e in entities for block in e[3]]
+    all_numbers = _numbers([labels for *_, labels in blocks])
+    together = np.concatenate(all_numbers)
+    file.write(b"$Elements\n" + np.array([len(blocks), len(together), together.min(), together.max()], np.uint64).tobytes())
+    for (dimension, tag, kind, cells, _), numbers in zip(blocks, all_numbers):
         file.write(np.array([dimension, tag, CELLS[kind].gmsh], np.int32).tobytes() + np.uint64(len(cells)).tobytes())
-        rows = np.empty((len(cells), 1 + cells.shape[1]), np.uint64)
-        rows[:, 0] = np.arange(number, number + len(cells))
-        rows[:, 1:] = cells + 1
-        file.write(rows.tobytes())
-        number += len(cells)
+        file.write(np.column_stack([numbers, cells + 1]).astype(np.uint64).tobytes())
     file.write(b"\n$EndElements\n")
+
+
+def _numbers(all_labels):
+    """Numbers of the cells of each block: the labels of the file if they are positive and differ, so that messages name the
+    cells by them; others follow them."""
+    given = np.concatenate(all_labels)
+    given = given[given > 0]
+    keep = len(np.unique(given)) == len(given)
+    last, result = int(given.max(initial=0)) if keep else 0, []
+    for labels in all_labels:
+        numbers, new = labels.copy(), (labels <= 0) if keep else np.ones(len(labels), bool)
+        numbers[new] = last + 1 + np.arange(new.sum())
+        last += int(new.sum())
+        result.append(numbers)
+    return result
 
 
 def _entities(mesh, tags):
     """One entity per combination of groups, per dimension."""
-    found = {}  # (dimension, physical tags) -> [(type, cells)]
+    found = {}  # (dimension, physical tags) -> [(type, cells, labels)]
     for kind, cells in mesh.cells.items():
+        labels = mesh.labels.get(kind, np.full(len(cells), -1))
         dimension, groups = (3, mesh.volumes) if kind in SOLIDS else (2, mesh.surfaces)
         which, combinations = np.zeros(len(cells), np.int64), [()]
         for name in (name for name in groups if kind in groups[name]):
@@ -83,7 +100,7 @@ def _entities(mesh, tags):
             pairs, which = np.unique(2 * which + inside, return_inverse=True)
             combinations = [combinations[pair // 2] + ((tags[dimension, name],) if pair % 2 else ()) for pair in pairs]
         for row, physical in enumerate(combinations):
-            found.setdefault((dimension, physical), []).append((kind, cells[which == row]))
+            found.setdefault((dimension, physical), []).append((kind, cells[which == row], labels[which == row]))
     ordered = sorted(found.items())
     count = {2: 0, 3: 0}
     entities = []

@@ -5,6 +5,7 @@ Readers deliver a RawMesh: any cells, in VTK's node order (cells.py), and named 
 gmsh's node order, every set as a surface or a volume group.
 """
 
+from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -44,7 +45,7 @@ class SolidMesh:
     """Points (p,3), cells by meshio type in gmsh's node order, and groups {name: {type: cell numbers}} by dimension.
 
     numbers: the row of each point of the RawMesh, -1 if it is left out; surface_of: the surface group of each of its sets of
-    faces.
+    faces; labels: the file's number of each solid cell by type, -1 if it has none.
     """
 
     points: np.ndarray
@@ -54,6 +55,7 @@ class SolidMesh:
     notes: list
     numbers: np.ndarray
     surface_of: dict
+    labels: dict
 
 
 def solid_mesh(raw):
@@ -77,6 +79,8 @@ def solid_mesh(raw):
             volumes[name] = solid
         if flat:
             _add_surface(surfaces, volumes, name, flat, notes)
+        if not members:
+            notes.append(f"the set '{name}' holds no solid or surface cells and is left out")
     for name, corners in raw.face_sets.items():
         members = faces.of_corners(corners, name)
         if members:
@@ -93,7 +97,7 @@ def solid_mesh(raw):
     _tell_mixture(cells, notes)
     points, cells, numbers = _drop_unused(raw.points, cells, notes)
     cells = {kind: block[:, permutation(kind, "vtk", "gmsh")] for kind, block in cells.items()}
-    return SolidMesh(points, cells, surfaces, volumes, notes, numbers, surface_of)
+    return SolidMesh(points, cells, surfaces, volumes, notes, numbers, surface_of, {kind: labels[kind] for kind in cells if kind in SOLIDS})
 
 
 def _merge_blocks(raw, notes):
@@ -116,9 +120,9 @@ def _merge_blocks(raw, notes):
             before.append(nodes)
             labels.setdefault(kind, []).append(np.full(len(which), -1) if names is None else np.asarray(names)[which])
         place_of.append((kinds, rows))
-    ignored = sum(len(block) for kind, block in raw.cells if kind in IGNORED)
+    ignored = _counts(raw, lambda kind: kind in IGNORED)
     if ignored:
-        notes.append(f"left out: {counted(ignored, 'cell')} of points or lines")
+        notes.append(f"left out: cells of points or lines: {ignored}")
     for (old, new), count in changes.items():
         old, new = CELLS[old], CELLS[new]
         notes.append(f"{counted(count, old.singular, old.plural)} of {old.nodes} nodes with repeated nodes {'is a' if count == 1 else 'are'} "
@@ -127,14 +131,22 @@ def _merge_blocks(raw, notes):
     return ({kind: np.concatenate(blocks[kind]) for kind in kept}, {kind: np.concatenate(labels[kind]) for kind in kept}, place_of)
 
 
-def _check_blocks(raw):
+def _counts(raw, is_wanted):
+    """"3 line, 2 vertex": numbers of the cells of some types."""
+    counts = Counter()
     for kind, block in raw.cells:
-        if kind not in IGNORED and kind not in CELLS:
-            raise InputError(f"holds {counted(len(block), 'cell')} of type '{kind}', but Bielle reads tetrahedra, hexahedra, wedges and "
-                             "pyramids "
-                             "of order 1 and 2: remesh the body with these")
+        if len(block) and is_wanted(kind):
+            counts[kind] += len(block)
+    return ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items()))
+
+
+def _check_blocks(raw):
+    unknown = _counts(raw, lambda kind: kind not in IGNORED and kind not in CELLS)
+    if unknown:
+        raise InputError(f"holds cells of types that Bielle does not read: {unknown}; it reads tetrahedra, hexahedra, wedges and pyramids of order 1 "
+                         "and 2: remesh the body with these")
     if not any(kind in SOLIDS and len(block) for kind, block in raw.cells):
-        what = ", ".join(sorted({kind for kind, _ in raw.cells})) or "no cells at all"
+        what = _counts(raw, lambda kind: True) or "no cells at all"
         raise InputError(f"holds no tetrahedra, hexahedra, wedges or pyramids ({what}); Bielle reduces solids")
 
 
@@ -193,10 +205,14 @@ def _orient(points, kind, cells, labels, notes):
     cell, volumes = CELLS[kind], six_volumes(points, kind, cells)
     scale = np.ptp(points[np.unique(cells)], axis=0).max() ** 3
     flat = np.abs(volumes) <= 1e-15 * scale
+
+    def told(row):
+        return f"element {labels[row]}, " if labels[row] >= 0 else ""
+
     if flat.any():
         first = int(np.argmax(flat))
         raise InputError(f"holds {counted(int(flat.sum()), cell.singular, cell.plural)} of no volume "
-                         f"(the first near {place(points[cells[first, 0]])})")
+                         f"(the first: {told(first)}near {place(points[cells[first, 0]])})")
     negative = volumes < 0
     if negative.any():
         cells = cells.copy()
@@ -205,10 +221,9 @@ def _orient(points, kind, cells, labels, notes):
     turned = has_turned_corner(points, kind, cells) if cell.shape != "tetra" else np.zeros(0, bool)
     if turned.any():
         first = int(np.argmax(turned))
-        told = f"element {labels[first]}, " if labels[first] >= 0 else ""
         notes.append(f"{int(turned.sum())} of {len(cells)} {cell.plural} {'is' if turned.sum() == 1 else 'are'} turned inside out at a "
                      "corner "
-                     f"(the first: {told}near {place(points[cells[first, 0]])})")
+                     f"(the first: {told(first)}near {place(points[cells[first, 0]])})")
     return cells
 
 

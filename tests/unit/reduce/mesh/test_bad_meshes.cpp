@@ -123,9 +123,82 @@ TEST_CASE("parts that hang together by an edge or a node only give a warning") {
       loose_joints(box_mesh({{1, 1, 1}, {2, 2, 2}, true}), FaceTable(box_mesh({{1, 1, 1}, {2, 2, 2}, true}))).empty());
 }
 
-TEST_CASE("cells that stand twice are refused") {
-  CHECK_THAT(message_for(msh(corners, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 4"})),
-             Contains("three or more cells share the face at (") && Contains("cells overlap or stand twice"));
+TEST_CASE("wedges of order 1 give a warning, which tells single layers") {
+  // Two wedges on one another, and one next to the upper one.
+  Mesh mesh;
+  mesh.points.resize(3, 11);
+  for (int layer = 0; layer < 3; ++layer) {
+    mesh.points.col(3 * layer) << 0, 0, layer;
+    mesh.points.col(3 * layer + 1) << 1, 0, layer;
+    mesh.points.col(3 * layer + 2) << 0, 1, layer;
+  }
+  mesh.points.col(9) << 1, 1, 1;
+  mesh.points.col(10) << 1, 1, 2;
+  Eigen::MatrixXi cells(6, 2);
+  cells << 0, 3, 1, 4, 2, 5, 3, 6, 4, 7, 5, 8;
+  mesh.blocks.push_back({CellType::wedge6, cells});
+  CHECK(stiff_wedges(mesh, FaceTable(mesh)) ==
+        "2 of 2 elements are wedge6, which are far too stiff in bending: use wedge15, or hexahedra");
+  Eigen::MatrixXi more(6, 3);
+  more << cells, (Eigen::VectorXi(6) << 4, 9, 5, 7, 10, 8).finished();
+  mesh.blocks.front().nodes = more;
+  CHECK(
+      stiff_wedges(mesh, FaceTable(mesh)) ==
+      "3 of 3 elements are wedge6 (1 as the only layer between two surfaces), which are far too stiff in bending: use "
+      "wedge15, or hexahedra");
+  const Mesh box = box_mesh({{1, 1, 1}, {1, 1, 1}, false});
+  CHECK(stiff_wedges(box, FaceTable(box)).empty());
+}
+
+TEST_CASE("cells that stand twice are refused, in whatever order their nodes are") {
+  const std::vector<std::string> five = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"};
+  CHECK_THAT(
+      message_for(msh(corners, {"4 2 1 1 1 2 3 4", "4 2 1 1 2 3 1 4", "4 2 1 1 2 1 3 4"})),
+      StartsWith("geometry: 2 of 3 elements have the same corners as another one (the first: elements 1 and 2 at "
+                 "(0.25, 0.25, 0.25) m): a part of the mesh is in the file more than once; keep one of each"));
+  CHECK_THAT(
+      message_for(msh(five, {"4 2 1 1 1 2 3 4", "4 2 1 1 2 5 3 4", "4 2 1 1 3 2 5 4"})),
+      StartsWith("geometry: 1 of 3 elements has the same corners as another one (the first: elements 2 and 3 at") &&
+          Contains("this cell is in the file more than once"));
+  CHECK_THAT(message_for(msh(five, {"4 2 1 1 1 2 3 4", "4 2 1 1 2 5 3 4", "4 2 1 1 1 2 3 4", "4 2 1 1 2 5 3 4"})),
+             StartsWith("geometry: 2 of 4 elements have") && Contains("elements 1 and 3 at") &&
+                 Contains("the whole mesh is in the file more than once"));
+}
+
+TEST_CASE("cells that overlap with common nodes are refused") {
+  // Two tetrahedra of different heights on the same side of one triangle; three on one triangle.
+  const std::vector<std::string> points = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 2", "0 0 -1"};
+  CHECK_THAT(
+      message_for(msh(points, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 5"})),
+      Contains("1 common face has both cells on the same side: cells overlap, the first are elements 1 and 2 at"));
+  CHECK_THAT(message_for(msh(points, {"4 2 1 1 1 2 3 4", "4 2 1 1 1 2 3 5", "4 2 1 1 2 1 3 6"})),
+             Contains("three or more cells share the face at (") && Contains("m: cells overlap"));
+}
+
+TEST_CASE("a tetrahedron on the nodes of a hexahedron is refused, though they share no face") {
+  const std::vector<std::string> cube = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
+  CHECK_THAT(
+      message_for(msh(cube, {"5 2 1 1 1 2 3 4 5 6 7 8", "4 2 1 1 1 2 3 6"})),
+      Contains("the body is in 2 pieces that share no faces") && Contains("the pieces overlap, elements 1 and 2 at"));
+}
+
+TEST_CASE("pieces on one another are told as such") {
+  const std::vector<std::string> twice = {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 0", "1 0 0", "0 1 0", "0 0 1"};
+  CHECK_THAT(
+      message_for(msh(twice, {"4 2 1 1 1 2 3 4", "4 2 1 1 6 7 5 8"})),
+      Contains("the body is in 2 pieces") &&
+          Contains("1 of 2 elements lies on another one with nodes of its own (the first: elements 1 and 2 at") &&
+          !Contains("merge the nodes"));
+  const std::vector<std::string> crossing = {"0 0 0",     "1 0 0",     "0 1 0",     "0 0 1",
+                                             ".1 .1 .05", "1.1 .1 .1", ".1 1.1 .1", ".1 .1 1.1"};
+  CHECK_THAT(message_for(msh(crossing, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
+             Contains("the pieces overlap, elements 1 and 2 at (0.25, 0.25, 0.25) m for example") &&
+                 !Contains("merge the nodes"));
+  // The box of one piece contains the other, which stands in a corner outside of the tetrahedron.
+  const std::vector<std::string> apart = {"0 0 0",    "1 0 0",   "0 1 0",   "0 0 1",
+                                          ".9 .9 .9", "1 .9 .9", ".9 1 .9", ".9 .9 1"};
+  CHECK_THAT(message_for(msh(apart, {"4 2 1 1 1 2 3 4", "4 2 1 1 5 6 7 8"})),
+             Contains("share no nodes") && !Contains("overlap"));
 }
 
 TEST_CASE("cells of other types are named with what is supported") {
