@@ -64,9 +64,9 @@ constexpr double worth_a_warning = 0.05;
 /// No scheme adds energy to a motion that its steps resolve: the summary mentions a gain above this fraction.
 constexpr double gained = 0.01;
 
-/// Newton's method determines positions to some 1e-9 of the model's size; energies below the work of the largest forces
-/// along this length are not significant [J]. Reactions do no work: they may have any size if joints act against each
-/// other.
+/// Returns the energy below which a change means nothing [J]: the work of the largest forces along 1e-9 of the model's
+/// size, to which Newton's method determines positions. Reactions do no work: they may have any size if joints act
+/// against each other.
 double force_noise(const Session& session) {
   constexpr double positions = 1e-9;
   State state = session.state();
@@ -149,7 +149,8 @@ std::string judge_gap(const Gap& gap, double tolerance) {
   return text;
 }
 
-/// A large stored energy does not make a small input or dissipation more accurate.
+/// Returns a line for the summary if the error of the balance is a considerable part of the energy that went in or was
+/// dissipated; relative to a larger stored energy the error looks small.
 std::string judge_flow(double balance, double stored, double through) {
   constexpr double least = 1e-3;  // fraction of the stored energy: smaller flows mean a motion without losses
   if (through >= stored || through < least * stored || std::abs(balance) <= worth_a_warning * through) return {};

@@ -83,7 +83,8 @@ class SuperposedResponse {
   }
 
  private:
-  /// A rigid mode without any force has a response of 1/s^2 and 1/s, which the smooth remainder cannot represent.
+  /// Throws if a rigid mode takes part in the answers: its response to forces, of 1/s^2 and 1/s, cannot be represented
+  /// by the smooth remainder.
   void check_rigid(const ModalAccuracy& accuracy, const std::vector<Mode>& modes,
                    const std::vector<ModalPole>& poles) const {
     for (const Mode& mode : modes)

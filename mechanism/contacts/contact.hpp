@@ -100,7 +100,8 @@ class Contact final : public Component, public CoupledPairs, public OpenContact 
   PairForce::Nearest nearest(const LocalState& state, int pair) const;
   double damping(const LocalState& state, int pair) const;
   bool has_bristles() const { return law_.friction && law_.friction->model == FrictionLaw::Model::lugre; }
-  /// There is no sliding in statics, and bristles keep their values.
+  /// Returns the law of the surfaces; in statics the one without friction: there is no sliding, and bristles keep their
+  /// values.
   const SurfaceLaw& law_of(const LocalState& state) const { return state.environment().statics ? frictionless_ : law_; }
   /// Returns the bristles of a pair at the last accepted step. The reference is valid until the next call in the same
   /// thread.

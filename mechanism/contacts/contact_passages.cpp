@@ -64,7 +64,8 @@ double Contact::passage(int a, int b) const {
   return shape(a).thickness() + shape(b).thickness();
 }
 
-/// Only the skin of a surface is known to be solid: a deeper shape in a trial state would not touch it.
+/// Checks that a shape has not passed through the skin of a surface: only the skin is known to be solid, and a deeper
+/// shape in a trial state would not touch it.
 /// @param way  displacement, as in check_passage_of
 void Contact::check_passage_of_surface(const LocalState& state, int pair, const Vector3& way) const {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];

@@ -22,7 +22,7 @@ Triple<Twelve> number_of(const Vector3& v, const Eigen::Matrix<double, 3, 12>* g
   return result;
 }
 
-/// For `coulomb`: h as a function of |v|^2.
+/// Returns h of the law `coulomb` as a function of |v|^2.
 template <class T>
 T friction_slope(const FrictionLaw& law, const T& squared) {
   const FrictionLaw::Sliding sliding = law.sliding(std::sqrt(std::max(0.0, value_of(squared))));

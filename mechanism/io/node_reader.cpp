@@ -150,7 +150,7 @@ void read_holds(const YamlValue& entry, const Holds& holds, Node& node) {
   }
 }
 
-/// A held direction has no velocity of its own: a given one is an error, and must not be ignored.
+/// Refuses a velocity that is given along a held direction, which has none of its own.
 void check_velocities(const YamlValue& entry, const Holds& holds, const Node& node) {
   const Vector3 v = holds.axes.transpose() * node.velocity;
   const double rounding = holds.own_axes ? 1e-12 * v.norm() : 0;

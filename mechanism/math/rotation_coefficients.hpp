@@ -34,7 +34,7 @@ inline constexpr double shortest_series_angle = 0.05;
 
 namespace coefficient_series {
 
-/// sum_k c_k x^k of the first `terms` terms
+/// Returns sum_k c_k x^k, the sum over the first `terms` terms.
 template <std::size_t terms, std::size_t N>
 constexpr double horner_of_first(const std::array<double, N>& c, double x) {
   double sum = c[terms - 1];

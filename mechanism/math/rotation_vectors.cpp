@@ -49,7 +49,8 @@ Quaternion quaternion_of_conformal(const Vector3& c) {
 
 Vector3 conformal_of(const Quaternion& principal) { return 4 * principal.tail<3>() / (1 + principal[0]); }
 
-/// T^-1 of psi has a pole of 1/(2 pi n - |psi|): the function throws if less than half of the digits would be left.
+/// Throws if psi is so near to a full turn that less than half of the digits of T^-1 would be left: it has a pole of
+/// 1/(2 pi n - |psi|).
 void check_full_turns(const Vector3& psi) {
   constexpr double full = 2 * std::numbers::pi;
   const double turns = psi.norm() / full;

@@ -23,7 +23,7 @@ struct Workers::Team {
   void take_pieces() {
     for (std::size_t k; (k = next.fetch_add(1, std::memory_order_relaxed)) < work.count;) work.call(work.piece, k);
   }
-  /// The thread spins for about ten microseconds before it sleeps.
+  /// Spins for about ten microseconds before the thread sleeps.
   void linger(unsigned seen) const {
     constexpr int turns = 100;
     for (int k = 0; k < turns && round.load(std::memory_order_relaxed) == seen; ++k) std::this_thread::yield();

@@ -50,7 +50,7 @@ bool MeasureEvent::is_armed(const LocalState& state) const {
   return !after_ || EventRecord::has_happened(state.of(of_after_));
 }
 
-/// The value of an event that cannot occur is zero: it has no side that could be left.
+/// Computes the value; that of an event that cannot occur is zero: it has no side that could be left.
 void MeasureEvent::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   values[0] = is_armed(state) ? measure_.value(state.of(0)) - value_ : 0;
   // A value that is reached exactly at the start is beyond.

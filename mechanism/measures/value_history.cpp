@@ -19,8 +19,8 @@ struct StoredValues {
   /// Whether values k and k + 1 exist, with a smooth part of the motion between them.
   bool smooth(int k) const { return k >= 0 && k + 1 < count && length(k) > 0; }
   bool jumps(int k) const { return length(k) == 0 && value(k) != value(k + 1); }
-  /// Slope at value k of the parabola through it and its neighbours, or through the nearest three values on this side
-  /// of a discontinuity. @param k  an end of a smooth part
+  /// Returns the slope at value k of the parabola through it and its neighbours, or through the nearest three values on
+  /// this side of a discontinuity. @param k  an end of a smooth part
   double slope(int k) const {
     const int middle = smooth(k - 1) && smooth(k) ? k : smooth(k) ? k + 1 : k - 1;
     if (!smooth(middle - 1)) return secant(middle);

@@ -195,10 +195,10 @@ class Component {
 
   // The following functions begin a motion, keep the memory from step to step, and find events.
 
-  /// At the beginning of an analysis, with positions and velocities known, a component adds the changes that the start
-  /// values of first-order unknowns need, its own or those of components that it refers to (a filter begins at its
-  /// input). The function is called again until nothing changes. A motion that follows another continues with its
-  /// values: the component's memory has to tell whether they have been initialised. A static analysis takes these
+  /// Adds the changes that the start values of first-order unknowns need, its own or those of components that it refers
+  /// to (a filter begins at its input). The function is called at the beginning of an analysis, with positions and
+  /// velocities known. The function is called again until nothing changes. A motion that follows another continues with
+  /// its values: the component's memory has to tell whether they have been initialised. A static analysis takes these
   /// values as its initial guess.
   /// @param change  change of the start values, in the component's local layout
   virtual void add_start_values(const LocalState& /*state*/, Eigen::Ref<VectorX> /*change*/) const {}

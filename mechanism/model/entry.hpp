@@ -18,7 +18,7 @@ const char* section_noun(Section section);  ///< noun for one of its entries: "j
 struct Entry {
   Section section;
   std::string name;
-  auto operator<=>(const Entry&) const = default;
+  auto operator<=>(const Entry&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 sees a 0 in it
 };
 
 /// Path of the results of an entry, relative to the group of an analysis: "joints/main".

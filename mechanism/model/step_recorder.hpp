@@ -34,8 +34,8 @@ class StepRecorder {
     return names;
   }
   virtual std::string summary() = 0;  ///< the results as lines for the user; each ends with a line break
-  /// Only the loudest of several step recorders with the same voice (the elements of a beam) writes a summary. A
-  /// recorder with an empty voice always writes its own.
+  /// Returns the name of a group of step recorders (the elements of a beam), of which the loudest alone writes a
+  /// summary; a recorder with an empty name always writes its own.
   virtual std::string voice() const { return {}; }
   virtual double loudness() const { return 0; }
   /// Returns the gathered quantity and its component: "peaks of 'rod': von_mises". A run can only be continued if it is

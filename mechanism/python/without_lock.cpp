@@ -16,13 +16,13 @@ std::atomic<bool> ending = false, abandoned = false;
   throw pybind11::error_already_set();
 }
 
-/// The lock cannot be taken any more.
+/// Stops this thread for good if the program has ended without it: the lock cannot be taken any more.
 void stay_away_if_abandoned() {
   while (abandoned) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// The program ends: the function waits for all computations. (A step of a large model takes some time; a thread may
-/// never end.)
+/// Waits for all computations, up to a minute, when the program ends. (A step of a large model takes some time; a
+/// thread may never end.)
 void end_computing() {
   constexpr std::chrono::seconds longest{60};
   ending = true;

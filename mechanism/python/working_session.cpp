@@ -36,7 +36,7 @@ WorkingSession::Listening::Listening(WorkingSession& of, const Callbacks& callba
   session.listener_ = &interruptible;
 }
 
-/// A motion with thousands of starts gives the same messages repeatedly.
+/// Keeps a message once: a motion with thousands of starts gives the same ones repeatedly.
 void WorkingSession::KeptNotes::note(const std::string& sentence) {
   std::string shown = without_unseen_lines(sentence);
   if (std::find(sentences.begin(), sentences.end(), shown) == sentences.end()) sentences.push_back(std::move(shown));

@@ -110,7 +110,7 @@ std::int64_t sum_of(const Checkpoint& checkpoint) {
   return sum.value();
 }
 
-/// Older files have no checksums.
+/// Throws if the numbers of a checkpoint do not have its checksums; older files have none.
 void check_sum(const Hdf5File& file, const std::string& group, std::size_t count, const Checkpoint& checkpoint) {
   if (!file.has(group + "/checksum")) return;
   const std::vector<double> sums = file.read(group + "/checksum");

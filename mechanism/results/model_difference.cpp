@@ -17,7 +17,8 @@ namespace {
 
 using Digests = std::map<std::string, std::string>;  // digests by path
 
-/// Path and value are written on one line, separated by a tabulator.
+/// Returns the text without line breaks and tabulators: path and value are written on one line, separated by a
+/// tabulator.
 std::string in_one_line(std::string text) {
   for (char& letter : text)
     if (letter == '\n' || letter == '\t' || letter == '\r' || letter == '\0') letter = ' ';

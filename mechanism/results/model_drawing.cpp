@@ -22,7 +22,8 @@ void begin_drawn(const Entry& entry, const std::string& type, const DrawnShapes&
   for (const DrawnItem* shape : given->second) drawing.add(*shape);
 }
 
-/// A node without inertia about it has its rotations held, and no support.
+/// Returns whether the node has a point mass and moves freely: its rotations are held because they have no inertia, not
+/// by a support.
 bool is_point_mass(const Node& node, int index, const std::set<int>& point_masses) {
   return point_masses.contains(index) &&
          std::all_of(node.freedom.begin(), node.freedom.begin() + 3, [](Freedom f) { return f == Freedom::free; });

@@ -61,7 +61,7 @@ class ResultsRows {
   /// Reads one column in the layout by names of a single state, like a row without a previous one.
   std::vector<double> read(const ResultsColumn& column, const State& state, const std::vector<Slots>& slots,
                            const Environment& environment, const StepRecord& step) const;
-  /// The next row has no previous one: its quaternions have w >= 0.
+  /// Begins a new series: the next row has no previous one, and its quaternions have w >= 0.
   void restart() { quaternions_known_ = false; }
   void exchange(Archive& archive);
 

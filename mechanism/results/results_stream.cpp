@@ -216,7 +216,7 @@ std::size_t ResultsStream::make_rows(std::size_t first) {
   return count;
 }
 
-/// The sums are updated row by row: the processor works on several columns at a time.
+/// Adds the waiting rows to the sums, row by row: the processor works on several columns at a time.
 void ResultsStream::add_to_sums() {
   if (sums_.empty()) return;
   for (std::size_t row = 0; row < block_.rows; ++row) {

@@ -33,7 +33,7 @@ void Motion::exchange_energy_balance(Archive& archive, Parts& parts) {
   archive.of_any_length(parts.gathered);
 }
 
-/// The numbers of the sink come last.
+/// Writes the motion, the numbers of the sink last.
 void Motion::write(Archive& archive, ResultSink* sink) {
   Recorder& recorder = session_.recorder();
   parts_.gathered = recorder.step_recorders().numbers();
@@ -105,7 +105,8 @@ bool Motion::arrives(Parts anchor) {
   return true;
 }
 
-/// The function is called even without sinks: the motion must not depend on whether there are any.
+/// Saves the motion for all sinks. It is called without sinks as well: the motion must not depend on whether there are
+/// any.
 void Motion::save_for_sinks() {
   if (saved_) return;
   parts_.steps = parts_.saves = 0;

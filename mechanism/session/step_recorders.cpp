@@ -23,7 +23,8 @@ void StepRecorders::begin() {
   check_datasets();
 }
 
-/// A results file rejects a name that is used twice, but only at the end, after the whole computation.
+/// Throws if two datasets have the same name: a results file would reject it only at the end, after the whole
+/// computation.
 void StepRecorders::check_datasets() {
   std::map<std::string, std::size_t> owners;
   for (const One& one : all_)

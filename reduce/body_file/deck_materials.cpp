@@ -16,7 +16,7 @@ namespace bielle::reduce {
 
 namespace {
 
-// Kilograms per unit. A slinch is a pound-force second squared per inch, a slug one per foot.
+// Mass units in kilograms. A slinch is a pound-force second squared per inch, a slug one per foot.
 constexpr std::array<std::pair<const char*, double>, 6> units = {{{"kg", 1},
                                                                   {"g", 1e-3},
                                                                   {"t", 1e3},

@@ -11,7 +11,7 @@ namespace bielle::reduce {
 
 /// Returns the units of mass that a body file may name, for the values of a deck.
 std::vector<std::string> mass_units();
-/// Kilograms per unit of these.
+/// Returns the number of kilograms in one of these units.
 double kilograms_per(const std::string& unit);
 
 /// Reads the materials of the geometry's file, whose values have its `length_unit`, the body file's `mass_unit` and

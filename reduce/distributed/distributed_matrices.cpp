@@ -221,7 +221,7 @@ std::unique_ptr<Factor> DistributedMatrices::factorise(const InteriorUnknowns& i
   return factor;
 }
 
-/// MUMPS does not stop at a tiny or negative pivot.
+/// Throws if the matrix is not positive definite: MUMPS does not stop at a tiny or negative pivot.
 void DistributedMatrices::check_regular(const Factor& factor, const std::vector<std::int64_t>& kept,
                                         const SparseRows& carried, bool suspected) const {
   const Eigen::VectorXd of_points = stiffness_diagonal();

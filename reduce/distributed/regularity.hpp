@@ -8,7 +8,7 @@
 
 namespace bielle::reduce {
 
-/// Two steps of inverse iteration on S^-1 A S^-1 find the motion that A resists least.
+/// Finds the motion that A resists least by two steps of inverse iteration on S^-1 A S^-1.
 /// @param scale      (size) the diagonal of S: for each unknown, the root of the absolute value of its diagonal entry
 /// @param suspected  whether there is other evidence that A is not positive definite
 /// @returns the unknown that moves most, if A is singular to working precision or suspected

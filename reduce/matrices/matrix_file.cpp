@@ -154,7 +154,7 @@ NodalShapes read_shapes(const Hdf5File& file, std::size_t n) {
   return shapes;
 }
 
-/// Finite numbers in quantities that fit the unknowns.
+/// Reads quantities, and checks that they fit the unknowns and have finite numbers.
 void read_set_quantities(const Hdf5File& file, MatrixSet& set) {
   set.quantities = read_quantities(file);
   if (const std::string fault = fault_of(set.quantities, set.size()); !fault.empty()) refuse_matrices(file, fault);

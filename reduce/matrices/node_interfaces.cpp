@@ -92,7 +92,8 @@ class NodeTieMaker {
 
   const std::array<Eigen::Index, 6>& unknowns_at(int node) const { return unknown_of_[static_cast<std::size_t>(node)]; }
 
-  /// A direction along an axis of the node needs that unknown; any other one needs all three.
+  /// Returns whether the node has the unknowns to move in a direction: that unknown for a direction along its axis, all
+  /// three for any other one.
   bool is_movable(int node, const Eigen::Matrix3d& rotation, int axis) const {
     const int first = axis < 3 ? 0 : 3;
     const Eigen::Vector3d along = set_.axes[static_cast<std::size_t>(node)].transpose() * rotation.col(axis - first);

@@ -106,8 +106,8 @@ void check_reduced_mass(const MatrixSet& set, const Eigen::MatrixXd& mass, int t
         set.source, least->value));
 }
 
-/// A mechanism needs inertia in every coordinate. Lumped masses leave rotations of nodes without any: these get a
-/// hundred-millionth of the body's own.
+/// Adds inertia to coordinates without any: a mechanism needs it in every coordinate. Lumped masses leave rotations of
+/// nodes without any: these get a hundred-millionth of the body's own.
 void add_missing_inertia(const MassProperties& whole, Superelement& body, Progress& progress) {
   constexpr double share = 1e-8;
   const Eigen::VectorXd scale = body.mass.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();

@@ -16,7 +16,7 @@ namespace {
 constexpr double thin_body = 1e-6;       // relative to the largest principal P
 constexpr double known_direction = 0.5;  // share of the energy of a motion from which on its directions count as known
 
-/// A^+ of a semidefinite matrix: a line of mass has no inertia about itself.
+/// Returns A^+ of a semidefinite matrix: a line of mass has no inertia about itself.
 Eigen::MatrixXd semidefinite_inverse(const Eigen::MatrixXd& A) {
   const Eigen::VectorXd scale = A.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(scale.asDiagonal() * A * scale.asDiagonal());

@@ -35,7 +35,7 @@ constexpr double same_place = 1e-4;  // in lengths of the body
 
 std::string vector_text(const Eigen::Vector3d& x) { return fmt::format("{:.6g}, {:.6g}, {:.6g}", x.x(), x.y(), x.z()); }
 
-/// Inertia about one point, the centre of the second body, in body axes.
+/// Compares the inertias about one point, the centre of the second body, in body axes.
 void compare_inertia(const SetMass& a, const SetMass& b, VerifiedSubject& subject) {
   const Eigen::Vector3d offset = a.centre - b.centre;
   const Eigen::Matrix3d moved = a.inertia - a.mass() * skew(offset) * skew(offset);

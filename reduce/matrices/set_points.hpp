@@ -28,8 +28,8 @@ struct SetPoint {
   Eigen::MatrixXd rows;      ///< (6,n): displacement and rotation, body axes
 };
 
-/// A node has its own displacement and rotation, if it has the unknowns for them, or else those of the points around
-/// it.
+/// Returns the requested points. A node has its own displacement and rotation, if it has the unknowns for them, or else
+/// those of the points around it.
 /// @throws InputError about a request: no such node, a place away from all points, two points of one name
 std::vector<SetPoint> set_points(const MatrixSet& set, const PointMotions& motions,
                                  const std::vector<NodePoint>& requests);

@@ -77,7 +77,8 @@ void verify_distances(const MatrixStudy& study, VerifiedSubject& subject) {
                           percent(value)));
 }
 
-/// Rigid motions vibrate below a hundredth of the first elastic frequency: they have less than 1e-4 of its energy.
+/// Checks that rigid motions vibrate below a hundredth of the first elastic frequency, that is with less than 1e-4 of
+/// its energy.
 void verify_frequencies(const MatrixStudy& study, VerifiedSubject& subject) {
   constexpr double limit = 1e-2;
   if (!study.modes) {

@@ -9,13 +9,13 @@
 
 namespace bielle::reduce {
 
-/// The straight cell of the vertices must have a Jacobian determinant of more than 1e-12 of its longest edge cubed: of
-/// a tetrahedron its only one, of other cells at the places of `checked_determinants`.
+/// Checks that the straight cell of the vertices has a Jacobian determinant of more than 1e-12 of its longest edge
+/// cubed: of a tetrahedron its only one, of other cells at the places of `checked_determinants`.
 /// @param cell_tags  numbers of the cells in the user's file; may be empty (cells are then numbered from 1)
 /// @throws InputError: inverted or flat elements, the first by number and place
 void check_elements(const Mesh& mesh, const std::vector<std::size_t>& cell_tags);
 
-/// The solid must be one piece: its cells connected by common nodes.
+/// Checks that the solid is one piece: its cells are connected by common nodes.
 /// @param cell_tags  as above
 /// @throws InputError: number, size and place of the pieces, and whether they overlap or touch without sharing nodes
 void check_connected(const Mesh& mesh, const std::vector<std::size_t>& cell_tags = {});

@@ -30,7 +30,8 @@ constexpr double most_refinement = 20;
 /// Calls `work` with gmsh's options set to these sizes. gmsh's exceptions are not translated.
 void with_sizes(const MeshSizes& sizes, const std::function<void()>& work);
 
-/// gmsh may leave a volume without cells and report it only in its log. gmsh's exceptions are not translated.
+/// Checks that all volumes have cells: gmsh may leave one without them and report it only in its log. gmsh's exceptions
+/// are not translated.
 /// @throws ComputationError about such a volume
 void check_volumes_meshed(const std::string& name);
 

@@ -31,7 +31,7 @@ class SortedPoints {
   }
 
  private:
-  /// The direction is oblique: along it the nodes of no face of a machine part coincide.
+  /// Returns the height along an oblique direction, along which the nodes of no face of a machine part coincide.
   static double height(const Eigen::Vector3d& place) { return Eigen::Vector3d(0.6154, 0.3581, 0.7022).dot(place); }
 
   const Eigen::Matrix3Xd& points_;

@@ -93,7 +93,8 @@ void warn_about_rigid_ties(const Ties& ties, Progress& progress) {
   }
 }
 
-/// Full matrices are: stiffness, mass, damping, six inertia components and six geometric stiffnesses.
+/// Warns if the full matrices need much memory: stiffness, mass, damping, six inertia components and six geometric
+/// stiffnesses.
 void warn_about_size(Eigen::Index coordinates, Progress& progress) {
   const double gigabytes = 15 * 8e-9 * static_cast<double>(coordinates) * static_cast<double>(coordinates);
   if (gigabytes > 1) {

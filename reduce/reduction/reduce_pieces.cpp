@@ -29,8 +29,7 @@ void check_damping(const ReductionOptions& options, Progress& progress) {
                   Subject::hidden);
 }
 
-/// The nodes of free ties are named by their number in the mesh; adjacent pieces must use the same name for a common
-/// node.
+/// Names the nodes of free ties by their number in the mesh: adjacent pieces must use the same name for a common node.
 void rename_free_nodes(const ReductionOptions& options, const std::vector<int>& nodes, Superelement& piece) {
   for (const InterfaceRequest& request : options.interfaces) {
     if (request.tie != Tie::free) continue;
@@ -41,7 +40,8 @@ void rename_free_nodes(const ReductionOptions& options, const std::vector<int>& 
   }
 }
 
-/// Neither its phases nor its notes are shown: the comparison with the uncut body replaces the notes on ties.
+/// Reduces one piece. Neither its phases nor its notes are shown: the comparison with the uncut body replaces the notes
+/// on ties.
 Superelement reduce_part(const Mesh& mesh, const ReductionOptions& options, Progress part, int threads,
                          const MatrixMaker& make) {
   try {

@@ -71,7 +71,8 @@ Eigen::Matrix3Xd spread_unit_load(const SurfaceIntegrals& surface, const Interfa
 /// Returns the same for all six directions, (3 nodes, 6): rows x y z of the first node, of the second ...
 Eigen::MatrixXd spread_unit_loads(const SurfaceIntegrals& surface, const Interface& interface);
 
-/// An arm of a hundred times the body makes the matrices useless, and is probably a wrong unit.
+/// Refuses a position at a hundred times the size of the body: such an arm makes the matrices useless, and is probably
+/// a wrong unit.
 /// @param position  position of the node that follows the surface; default: its centroid
 /// @param from      the surface in messages @throws InputError
 void check_position(const std::optional<Eigen::Vector3d>& position, const SurfaceIntegrals& surface, const Mesh& mesh,

@@ -117,8 +117,8 @@ ComplexPairs dense_pairs(MatrixXcd A) {
   return pairs;
 }
 
-/// The start vector is the same in every run and on every machine: a linear congruential generator (Knuth's MMIX
-/// constants).
+/// Returns a start vector that is the same in every run and on every machine: a linear congruential generator (Knuth's
+/// MMIX constants).
 template <class Scalar>
 VectorOf<Scalar> start_vector(Index size, int seed) {
   std::uint64_t state = 0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(seed);

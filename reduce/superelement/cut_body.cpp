@@ -64,7 +64,7 @@ std::vector<CutSurface> read_cuts(const Hdf5File& file, std::size_t pieces) {
   return cuts;
 }
 
-/// Shared interfaces must coincide: otherwise their common node would strain the pieces.
+/// Checks that shared interfaces coincide: otherwise their common node would strain the pieces.
 void check_shared(const std::vector<Superelement>& pieces, const std::string& path) {
   std::map<std::string, const Interface*> known;
   for (const Superelement& piece : pieces)

@@ -8,6 +8,7 @@
 
 #include "reduce/dense/symmetric_factors.hpp"
 #include "reduce/superelement/superelement.hpp"
+#include "reduce/superelement/superelement_check.hpp"
 
 namespace bielle {
 
@@ -69,6 +70,11 @@ std::string physical_fault_of(const Superelement& body) {
                                                                                          : "third");
   if (!is_semidefinite(body.inertia, Eigen::Vector3d::Ones())) return "/mass_properties/inertia: is not positive";
   return odd_mode(body);
+}
+
+std::string first_fault_of(const Superelement& body) {
+  const std::string fault = fault_of(body);
+  return fault.empty() ? physical_fault_of(body) : fault;
 }
 
 }  // namespace bielle

@@ -13,4 +13,8 @@ struct Superelement;
 /// @returns the first fault in a sentence that names the dataset of the file, or nothing
 std::string physical_fault_of(const Superelement& body);
 
+/// Returns the first fault of a single part (superelement_check.hpp), otherwise that of the body as a whole, or
+/// nothing.
+std::string first_fault_of(const Superelement& body);
+
 }  // namespace bielle

@@ -8,6 +8,9 @@ namespace bielle {
 class Hdf5File;
 struct Superelement;
 
+/// Name of the file format: the attribute `format` of the group.
+inline constexpr const char* superelement_format = "bielle superelement";
+
 /// @throws ComputationError when the superelement's parts do not fit together: `path` would not be readable
 void check_writable(const Superelement& superelement, const std::string& path);
 

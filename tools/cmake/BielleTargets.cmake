@@ -13,6 +13,16 @@ if(BIELLE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(bielle_warnings INTERFACE -Wno-subobject-linkage)
 endif()
 
+# Warnings are errors where CMAKE_COMPILE_WARNING_AS_ERROR is set, as .ci/run does. GCC 12 finds some faults by following the
+# flow of optimised code, and in batches it finds ones that do not exist: they stay warnings.
+#   -Warray-bounds, -Wrestrict, -Wstringop-overflow: within std::string, after char_traits.h:431 (GCC's bugs 105329, 105651)
+#   -Wmaybe-uninitialized, -Wuninitialized: of Eigen's dynamic storage, after DenseStorage.h:593 and :626
+if(CMAKE_COMPILE_WARNING_AS_ERROR AND BIELLE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU
+   AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(bielle_warnings INTERFACE -Wno-error=array-bounds -Wno-error=restrict -Wno-error=stringop-overflow
+                                                   -Wno-error=maybe-uninitialized -Wno-error=uninitialized)
+endif()
+
 # The options of tests, linked after bielle_warnings. Tests spend their time in the libraries: their own sources are
 # optimised less, which takes the compiler less time. In a batch of tests a local variable may have the name of a constant
 # of another source; builds without batches warn about one in the same source.

@@ -85,7 +85,7 @@ SpanForce AirfoilLoad::load(const LocalState& state, const SpanPoint& point, con
   return {at.S * here.F, here.M};
 }
 
-/// f = S F(u), n = M(u), and du = u~ dTheta(z) - S^T dv.
+/// Adds the derivatives of f = S F(u) and n = M(u), with du = u~ dTheta(z) - S^T dv.
 void AirfoilLoad::add_tangent(const LocalState& state, LocalTangent& tangent) const {
   if (!tangent.wants_K && !tangent.wants_C) return;
   for (const SpanPoint& point : points()) {

@@ -20,7 +20,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// The inner nodes start with velocities interpolated between the rigid motions of both ends.
+/// Gives inner nodes start velocities that are interpolated between the rigid motions of both ends.
 void follow_ends(const std::vector<int>& nodes, Model& model) {
   if (nodes.size() == 2) return;
   when_motion_is_known(model, [nodes, &model] {

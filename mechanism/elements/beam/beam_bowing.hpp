@@ -19,7 +19,7 @@ namespace bielle::mechanism {
 
 class BeamBowing {
  public:
-  /// No bowing: q = 0.
+  /// Makes a beam without bowing: q = 0.
   BeamBowing() = default;
   /// @param stiffness  C_e of the element
   /// @param along      t

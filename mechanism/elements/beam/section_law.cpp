@@ -51,7 +51,7 @@ SectionLaw::Definition SectionLaw::between(double s) const {
 
 namespace {
 
-/// Extreme lengths and moduli give constants that cannot be represented.
+/// Returns whether all constants of the section are finite: those of extreme lengths and moduli overflow.
 bool is_representable(const BeamSection& section) {
   return section.stiffness.allFinite() && section.stiffness.diagonal().minCoeff() > 0 && std::isfinite(section.mass) &&
          section.inertia.allFinite() && (section.mass == 0 || section.inertia.diagonal().minCoeff() > 0);

@@ -39,7 +39,7 @@ struct SpringDamper::Line {
   Vector3 u, sdot;
 };
 
-/// Below this length the direction consists of rounding errors of the positions.
+/// Returns the length below which the direction consists of rounding errors of the positions [m].
 double SpringDamper::smallest_length(const LocalState& state) const {
   return 1e-12 * (state.node(0).x.cwiseAbs().maxCoeff() + state.node(1).x.cwiseAbs().maxCoeff() +
                   c_a_.cwiseAbs().maxCoeff() + c_b_.cwiseAbs().maxCoeff());

@@ -36,7 +36,7 @@ Matrix3 read_inertia(const YamlValue& entry, double mass, const Vector3& centre)
   return J;
 }
 
-/// Extreme sizes give masses and moments that cannot be represented.
+/// Refuses masses and moments of inertia that cannot be represented, as bodies of extreme sizes have them.
 void check_representable(const YamlValue& entry, const MassProperties& p) {
   if (!(p.mass > 0 && std::isfinite(p.mass) && p.inertia_about_origin().allFinite()))
     entry.fail("the mass or the inertia is too large or too small for a number; lengths are in m, masses in kg");

@@ -106,7 +106,7 @@ void check_cut(const YamlValue& cut, double density, const std::vector<double>& 
     cut.fail(fmt::format("what is cut out has the density {:.6g} kg/m^3, and none of the solids has it", density));
 }
 
-/// A cut must be in material: its mass is subtracted at any position.
+/// Refuses a cut that is not in material: its mass is subtracted at any position.
 void check_empty_cuts(const YamlValue& value, const std::vector<PlacedSpace>& solids) {
   constexpr double whole = 0.999;
   for (const EmptyCut& empty : empty_cuts(solids)) {

@@ -51,7 +51,7 @@ class Volume final : public PressureNode {
   /// determines it.
   void let_load_decide() { load_decides_ = true; }
   bool load_decides() const { return load_decides_; }
-  /// The load of a cylinder determines the start pressure.
+  /// Leaves the start pressure to the load of a cylinder.
   void start_by_load() {
     start_.reset();
     load_decides_ = false;

@@ -31,7 +31,7 @@ class Line : public Component {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
-  /// The names are "flow" of the first path, and those of the type.
+  /// Returns "flow" of the first path, and the names of the type.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 

@@ -21,7 +21,7 @@ const Kind* drive_of(const Joint& joint, std::size_t coordinate, const Model& mo
   return nullptr;
 }
 
-/// A drive by motion already determines the start value or rate of a coordinate.
+/// Refuses a start value or rate that a drive by motion determines already.
 void check_drives(const std::optional<YamlValue>& value, const std::optional<YamlValue>& rate, const Joint& joint,
                   std::size_t coordinate, const Model& model) {
   const std::string& name = joint.coordinates()[coordinate].name;

@@ -138,7 +138,8 @@ void RigidOneWay::declare(Declaration& declaration) const {
   declaration.multipliers.push_back(row);
 }
 
-/// If other constraints hold the coordinate as well, it has no force: its motion decides.
+/// Computes the force that holds, or the motion if other constraints hold the coordinate as well: there is no force
+/// then.
 void RigidOneWay::calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const {
   OneWay::calc_event_functions(state, values);
   values[takes_over] = -1;

@@ -76,7 +76,7 @@ void RopeSection::get_poses(const LocalState& state, std::vector<Frame>& at) con
   }
 }
 
-/// The places are those of the present branch; in statics they follow from the position.
+/// Computes the places of the present branch; in statics they follow from the position.
 void RopeSection::get_places(const LocalState& state, std::vector<RopePlace>& places) const {
   const auto memory = state.memory();
   places.assign(path_.pulleys.size(), RopePlace());
@@ -109,7 +109,8 @@ void RopeSection::for_each_slip(const LocalState& state, const Act& act) const {
     if (slip_references_[end] >= 0) act(end, slip_at(state, end), end == last_end ? 1.0 : -1.0);
 }
 
-/// The slip with which a motion begins decides itself which sections are stretched.
+/// Returns whether the section is stretched: by its elongation while a motion begins, whose slip decides it, then by
+/// memory.
 bool RopeSection::is_stretched(const LocalState& state, double E) const {
   bool begins = state.environment().statics;
   for_each_slip(state, [&](End, const LocalState& slip, double) { begins = begins || !RopeSlip::has_begun(slip); });

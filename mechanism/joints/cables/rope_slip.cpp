@@ -113,7 +113,8 @@ void RopeSlip::begin_branch(const LocalState& state, std::span<const int> /*cros
   memory[phase_memory] = damping_ > 0 ? begins : first_step;
 }
 
-/// The tensions of a rope that is activated may be too different for its friction: without damping, it slips at once.
+/// Lets a rope that is activated slip at once unless it has damping: its tensions may be too different for its
+/// friction.
 void RopeSlip::activate(const LocalState& /*state*/, Eigen::Ref<VectorX> memory) const {
   memory[time_memory] = std::numeric_limits<double>::quiet_NaN();
   memory[mean_memory] = memory[step_memory] = memory[rate_memory] = 0;

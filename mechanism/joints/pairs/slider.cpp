@@ -38,7 +38,7 @@ Weights weights(double xi, double L, int order) {
 
 }  // namespace
 
-SliderJoint::SliderJoint(std::string name, JointFrames frames, BeamLine line, double start, bool tangent, Ends ends,
+SliderJoint::SliderJoint(std::string name, JointFrames frames, SliderLine line, double start, bool tangent, Ends ends,
                          const Model& model)
     : Joint("slider", std::move(name), std::move(frames),
             {{"displacement", JointCoordinate::Kind::displacement, JointCoordinate::by_type}}, model),

@@ -23,7 +23,7 @@
 namespace bielle::mechanism {
 
 /// The initial line of a beam.
-struct BeamLine {
+struct SliderLine {
   std::vector<int> nodes;        ///< node indices in the model, at least two
   std::vector<Vector3> tangent;  ///< unit vectors, in the axes of each node
   std::vector<double> place;     ///< arc length from the start to each node [m]
@@ -34,7 +34,7 @@ class SliderJoint final : public Joint {
   enum class Ends { error, stop };
   /// @param frames  J_A on the line's first node, J_B on the slider with x_B along the line   @param start  initial u
   ///                [m]
-  SliderJoint(std::string name, JointFrames frames, BeamLine line, double start, bool tangent, Ends ends,
+  SliderJoint(std::string name, JointFrames frames, SliderLine line, double start, bool tangent, Ends ends,
               const Model& model);
 
   Vector6 calc_press(const LocalState& state) const override;
@@ -68,7 +68,7 @@ class SliderJoint final : public Joint {
   void calc_position_row(int axis, const LocalState& state, Row& result) const;
   void calc_tangent_row(int axis, const LocalState& state, Row& result) const;
   std::size_t element_at(double u) const;
-  BeamLine line_;
+  SliderLine line_;
   double start_;
   bool tangent_;
   Ends ends_;

@@ -21,10 +21,10 @@ const Chain& chain_of_beam(const YamlValue& beam, const Model& model) {
 }
 
 /// Returns the line through the beam's nodes: tangents are those of the circle through three neighbours.
-BeamLine line_through(const std::vector<int>& nodes, const Model& model) {
+SliderLine line_through(const std::vector<int>& nodes, const Model& model) {
   const std::size_t n = nodes.size();
   const auto x = [&](std::size_t k) -> const Vector3& { return model.node(nodes[k]).frame.x; };
-  BeamLine line{nodes, std::vector<Vector3>(n), std::vector<double>(n, 0)};
+  SliderLine line{nodes, std::vector<Vector3>(n), std::vector<double>(n, 0)};
   std::vector<Vector3> chord(n - 1);
   for (std::size_t k = 0; k + 1 < n; ++k) chord[k] = x(k + 1) - x(k);
   for (std::size_t k = 0; k < n; ++k) {
@@ -60,7 +60,7 @@ struct Foot {
   Vector3 tangent, point;
 };
 
-Foot foot_of(const Vector3& point, const BeamLine& line, const Model& model) {
+Foot foot_of(const Vector3& point, const SliderLine& line, const Model& model) {
   Foot best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 1 < line.nodes.size(); ++k) {
@@ -102,7 +102,7 @@ void read_slider(const std::string& name, const YamlValue& entry, Model& model) 
   const Chain& chain = chain_of_beam(entry.at("beam"), model);
   if (std::find(chain.nodes.begin(), chain.nodes.end(), node) != chain.nodes.end())
     entry.at("node").fail("is a node of that beam: it cannot slide on itself");
-  BeamLine line = line_through(chain.nodes, model);
+  SliderLine line = line_through(chain.nodes, model);
   const bool error = entry.at("ends").word() == "error", tangent = entry.at("orientation").word() == "tangent";
   const Frame& sliding = model.node(node).frame;
   const Vector3 attachment = entry.at("at").vector3();

@@ -111,7 +111,7 @@ void SchemeStep::follow(const VectorX* without_rates) {
   still_algebraic();
 }
 
-/// Algebraic unknowns have no rates.
+/// Sets the rates of algebraic unknowns to zero: they have none.
 void SchemeStep::still_algebraic() {
   for (const int k : system_.algebraic()) trial_.first_order_rate[k] = 0;
 }

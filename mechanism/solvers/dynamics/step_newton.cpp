@@ -134,8 +134,8 @@ void StepNewton::explain(SchemeStep& step, StepReport& report) {
   report.refusal += "; before the iteration went there the largest residual was: " + convergence_.worst();
 }
 
-/// If a full step has increased the residual above `before`, or could not be evaluated, shorter steps are tried and
-/// kept if they reduce it.
+/// Tries shorter steps if a full one has increased the residual above `before` or could not be evaluated, and keeps one
+/// that reduces it.
 void StepNewton::shorten(SchemeStep& step, double before, std::exception_ptr refusal, StepReport& report) {
   const double full = size_;
   double part = 1;
@@ -164,7 +164,8 @@ void StepNewton::shorten(SchemeStep& step, double before, std::exception_ptr ref
   size_ = full;
 }
 
-/// If forces have kinks, the tangent may belong to the other side: the residual must then really decrease.
+/// Adds a step with the last factors. If forces have kinks, it is taken back unless the residual decreases: the tangent
+/// may belong to the other side.
 void StepNewton::polish(SchemeStep& step, StepReport& report) {
   solve_with_factors(report);
   equations_->move(step, delta_, 1);
@@ -239,7 +240,8 @@ bool StepNewton::reached(const SchemeStep& step, const StepReport& report) {
 
 bool StepNewton::within_tolerance() { return convergence_.reached(equations_->judged(r_, h_), scale_); }
 
-/// A residual that is not a number makes the size infinite; before the first iteration there is no size.
+/// Returns whether the residual is finite. One that is not a number makes the size infinite; before the first iteration
+/// there is no size.
 bool StepNewton::finite(const StepReport& report) const {
   return report.iterations == 0 ? r_.allFinite() : std::isfinite(size_);
 }

@@ -36,19 +36,19 @@ class StepNewton {
   void solve(SchemeStep& step, StepReport& report);
   /// Adds to the report of a failed step the state of the iteration before it diverged.
   void explain(SchemeStep& step, StepReport& report);
-  /// If called with true, balances that may be constant (FlowBalance) are searched for at each iterate until the
-  /// function is called with false. This is slower, but necessary for such balances.
+  /// Switches the search for balances that may be constant (FlowBalance) at each iterate on or off. This is slower, but
+  /// necessary for such balances.
   /// @returns whether there are any balances
   bool search_balances(bool wanted);
-  /// The next iteration needs a new tangent, and measures the rounding of residuals again: the rounding in a very short
-  /// step after an event differs from that of other steps.
+  /// Makes the next iteration compute a new tangent and measure the rounding of residuals again: the rounding in a very
+  /// short step after an event differs from that of other steps.
   void forget_factors() {
     factored_for_ = 0;
     floor_age_ = never_measured;
   }
   /// Discards pivots, factors and rounding, so that later results do not depend on earlier ones.
   void begin_anew();
-  /// Step sizes differ little while an event is located: one factorisation of the tangent is then used for all of them.
+  /// Lets steps of similar sizes share one factorisation of the tangent: sizes differ little while an event is located.
   void share_factors(bool shared) { factors_serve_within_ = shared ? 0.1 : same; }
   /// Returns whether two step sizes are equal up to rounding.
   static bool same_size(double h, double other, double within = same) { return std::abs(h - other) <= within * other; }

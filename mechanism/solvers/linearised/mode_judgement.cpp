@@ -16,7 +16,8 @@ Complex paired(const VectorXc& y, const VectorXc& a) { return (y.transpose() * a
 
 }  // namespace
 
-/// The left vector of general equations is computed only for modes that may grow, since it costs a factorisation.
+/// Returns the left vector. That of general equations is computed only for modes that may grow, since it costs a
+/// factorisation.
 VectorXc ModeJudgement::left(const Mode& mode) const {
   constexpr double nearly = 1e-3;
   if (symmetry_ == EquationSymmetry::symmetric) return mode.u;
@@ -26,8 +27,9 @@ VectorXc ModeJudgement::left(const Mode& mode) const {
   return left_vector(e_, mode.s, mode.u);
 }
 
-/// The operator (A - sigma E)^-1 E, where sigma is the rate, changes by this fraction, and so does s - sigma; for
-/// double zeros, which such a change splits, its square does.
+/// Returns the uncertainty of s by the change of the equations: the operator (A - sigma E)^-1 E, where sigma is the
+/// rate, changes by this fraction, and so does s - sigma; for double zeros, which such a change splits, its square
+/// does.
 double ModeJudgement::drift_uncertainty(Complex s) const {
   const double size = std::abs(s), split = rate_ * std::sqrt(drift_);
   return std::max(drift_ * (rate_ + size), size < split ? split : 0.0);

@@ -47,7 +47,7 @@ class ModeSearch {
   }
 
  private:
-  /// First-order unknowns have their own units, for which u^T D u has no meaning.
+  /// Returns whether there are first-order unknowns: they have their own units, for which u^T D u has no meaning.
   bool has_own_units() const { return e_.unknowns() != e_.dofs; }
   double shift() const { return std::abs(around_.T().shift()); }
 
@@ -59,7 +59,7 @@ class ModeSearch {
     return std::abs(pair.s) <= of_shift * shift() || judgement_.is_nothing(pair.s, pair.x.head(e_.unknowns()));
   }
 
-  /// One eigenvalue represents each conjugate pair.
+  /// Returns whether the eigenvalue represents its conjugate pair.
   static bool represents(Complex s) { return s.imag() >= 0; }
 
   void add_modes(const std::vector<Eigenpair>& pairs, const std::function<bool(Complex)>& wanted, Modes& result) const {

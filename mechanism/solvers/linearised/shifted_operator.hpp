@@ -50,7 +50,7 @@ class ShiftedOperator {
   /// Returns [u; lambda] for right-hand sides of the equations of motion and of the constraints (their rows of D).
   VectorXc solve(const VectorXc& right) const;
 
-  /// Physical values are the scale times the scaled values.
+  /// Returns the factors by which scaled values become physical ones.
   const VectorX& scale() const { return scale_; }  ///< (states)
 
  private:

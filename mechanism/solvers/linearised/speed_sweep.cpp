@@ -334,8 +334,8 @@ void SpeedSweep::find_meetings() {
                    [](const ModeMeeting& a, const ModeMeeting& b) { return a.value < b.value; });
 }
 
-/// If the speed changes its sign, it passes through rest: its absolute value has a kink there, and lines may meet on
-/// both sides.
+/// Follows the modes to another value. If the speed changes its sign, a point at rest is added: the absolute value of
+/// the speed has a kink there, and lines may meet on both sides.
 void SpeedSweep::go_to(double value) {
   const SweepPoint from = result_.points.back();
   SweepPoint to = followed(from, value);

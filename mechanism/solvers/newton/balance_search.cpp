@@ -182,7 +182,7 @@ BalanceSearch::Way BalanceSearch::bracket(State& state, const Environment& envir
   return Way::refused;
 }
 
-/// Every value up to the bound of one of the unknowns leaves the balance on the same side.
+/// Writes why there is no balance: every value up to the bound of the unknown `blocked` leaves it on the same side.
 void BalanceSearch::explain(int blocked) {
   // Joined junctions move together.
   constexpr double together = 0.5;

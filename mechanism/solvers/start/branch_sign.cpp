@@ -46,7 +46,7 @@ int BranchSign::sign_at(const Environment& environment, const State& state) {
   return known_sign_;
 }
 
-/// The end of a step is usually the beginning of the next one.
+/// Returns whether the sign is known at the state: the end of a step is usually the beginning of the next one.
 bool BranchSign::is_known(const State& state) const {
   if (state.time != known_time_ || known_at_.size() != state.nodes.size()) return false;
   for (std::size_t i = 0; i < known_at_.size(); ++i)

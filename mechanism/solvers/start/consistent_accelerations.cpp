@@ -7,11 +7,11 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "mechanism/solvers/constraints/reaction_norm.hpp"
 #include "mechanism/solvers/newton/balance_search.hpp"
 #include "mechanism/solvers/newton/model_length.hpp"
+#include "mechanism/solvers/start/acceleration_refusals.hpp"
 #include "reduce/common/counted.hpp"
 
 namespace bielle::mechanism {
@@ -147,7 +147,7 @@ class AccelerationEquations {
     state_.multiplier = -guess;
     const Search mirrored = search();
     if (!found.converged && !mirrored.converged)
-      throw_without_solution(found.worst, found.flips(without) || mirrored.flips(without));
+      throw_no_accelerations(system_, state_.time, found.worst, found.flips(without) || mirrored.flips(without));
     if (found.converged && mirrored.converged) check_same(solution.multiplier, state_.multiplier);
     if (found.converged) {
       state_ = solution;
@@ -155,7 +155,8 @@ class AccelerationEquations {
       system_.set_rates(state_, v_, a_);
     }
     if ((found.converged ? found : mirrored).determinant_sign != without)
-      throw_ambiguous("the one found is not the continuation of what there is without such forces", -1);
+      throw_ambiguous_accelerations(system_, state_.time,
+                                    "the one found is not the continuation of what there is without such forces", -1);
   }
 
  private:
@@ -400,59 +401,10 @@ class AccelerationEquations {
     Eigen::Index most = 0;
     if ((one - other).cwiseAbs().maxCoeff(&most) <= 1e-6 * size) return;
     const int multiplier = static_cast<int>(most);
-    throw_ambiguous(
-        fmt::format("the multiplier {} may be {:.4g} or {:.4g}", multiplier_name(multiplier), one[most], other[most]),
-        multiplier);
-  }
-
-  std::string multiplier_name(int multiplier) const {
-    return system_.unknown_name(system_.size() - system_.multipliers() + multiplier);
-  }
-
-  /// Returns the names of the components that read the reactions of the multiplier's owner; if there are none, or no
-  /// multiplier is given, those of all components that read any reactions.
-  std::string names_of_readers(int multiplier) const {
-    std::vector<std::string> names, all;
-    for (std::size_t m = 0; m < system_.slots().size(); ++m) {
-      const Member& member = system_.model().members()[m];
-      Declaration declaration;
-      member.component->declare(declaration);
-      if (!declaration.reads_reactions || declaration.passive) continue;
-      const std::string name = describe(member);
-      if (all.empty() || all.back() != name) all.push_back(name);
-      for (const Slots* read : system_.slots()[m].references)
-        if (multiplier >= read->multiplier_begin && multiplier < read->multiplier_begin + read->multipliers &&
-            (names.empty() || names.back() != name))
-          names.push_back(name);
-    }
-    return fmt::format("{}", fmt::join(names.empty() ? all : names, ", "));
-  }
-
-  std::string advice(int multiplier) const {
-    return fmt::format(
-        "; those of {} (friction) are too strong for rigid parts in this position (Painleve's paradox): give a part or "
-        "the "
-        "contact some compliance, or make them weaker",
-        names_of_readers(multiplier));
-  }
-  /// @param multiplier  the multiplier that is not unique; -1: not known
-  [[noreturn]] void throw_ambiguous(const std::string& how, int multiplier) const {
-    throw ComputationError(fmt::format(
-        "t = {:.6g} s: forces that depend on reactions leave more than one solution for the accelerations: {}{}",
-        state_.time, how, advice(multiplier)));
-  }
-  /// @param worst  the multiplier for which the search did not converge; -1: it could not be evaluated
-  /// @param paradox  the equations have become singular between forces that do not depend on reactions and these
-  [[noreturn]] void throw_without_solution(int worst, bool paradox) const {
-    const std::string where =
-        worst < 0 ? std::string() : fmt::format(" (the search for {} did not settle)", multiplier_name(worst));
-    if (paradox)
-      throw ComputationError(
-          fmt::format("t = {:.6g} s: forces that depend on reactions leave no solution for the accelerations{}{}",
-                      state_.time, where, advice(worst)));
-    throw ComputationError(
-        fmt::format("t = {:.6g} s: no accelerations and reactions were found{}, where forces of {} depend on reactions",
-                    state_.time, where, names_of_readers(worst)));
+    throw_ambiguous_accelerations(system_, state_.time,
+                                  fmt::format("the multiplier {} may be {:.4g} or {:.4g}",
+                                              multiplier_name(system_, multiplier), one[most], other[most]),
+                                  multiplier);
   }
 
   const System& system_;

@@ -117,7 +117,7 @@ class Path {
           after = tangent_at(trial_);
         }
         const double arc = arc_;
-        const PathPoint point = accept(end_.gap(trial_.state, trial_.factor), limit && part == 1, after, part * length);
+        PathPoint point = accept(end_.gap(trial_.state, trial_.factor), limit && part == 1, after, part * length);
         arc_ = arc;
         return point;
       }

@@ -48,8 +48,8 @@ int Equilibrium::relax(double factor, State& state) {
   return attempt(factor, state, [&] { return iterate_relaxing(factor, state); });
 }
 
-/// If a component cannot be evaluated at a distant iterate (a beam whose ends rotate too far), the attempt fails, not
-/// the analysis.
+/// Tries to find the equilibrium. If a component cannot be evaluated at a distant iterate (a beam whose ends rotate too
+/// far), the attempt fails, not the analysis.
 template <class Iterations>
 int Equilibrium::attempt(double factor, State& state, const Iterations& iterations) {
   start_ = state;

@@ -61,8 +61,8 @@ void StabilityWatch::look(double factor, State& state, StaticsLog& log) {
   remember(factor, state, now);
 }
 
-/// The number changes between the last equilibrium and this one: the point is located by the zero of the smallest
-/// stiffness, within the bracket of the counts.
+/// Locates the point between the last equilibrium and this one at which the number changes, by the zero of the smallest
+/// stiffness within the bracket of the counts.
 CriticalPoint StabilityWatch::locate(double factor, const State& state, int count) {
   constexpr int most = 60;
   constexpr double accurate = 1e-7;

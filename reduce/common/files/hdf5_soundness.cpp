@@ -146,8 +146,9 @@ herr_t walk_object(hid_t root, const char* name, const H5O_info_t*, void* data) 
   return walk.damaged.empty() ? 0 : -1;
 }
 
-/// HDF5 may read behind the end of a damaged object, up to 2 MB for a text. A crash then depends on what memory holds
-/// there, and must not come later, in the program: in this process no memory looks harmless, neither new nor freed.
+/// Fills memory, new and freed, with values that are not harmless. HDF5 may read behind the end of a damaged object, up
+/// to 2 MB for a text. A crash then depends on what memory holds there, and must not come later, in the program: in
+/// this process no memory looks harmless, neither new nor freed.
 void fill_free_memory() {
   constexpr int never_an_address = 0x5a, behind = 8 << 20;
   mallopt(M_PERTURB, never_an_address);

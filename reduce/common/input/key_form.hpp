@@ -106,7 +106,7 @@ KeyForm list_of(std::size_t count, KeyForm item);
 /// Returns a list in which each place has its own forms.
 KeyForm tuple(std::vector<KeyForms> items);
 KeyForm vector3(std::string unit);
-/// Three numbers, not all zero; their length is arbitrary.
+/// Returns the form of three numbers that are not all zero; their length is arbitrary.
 KeyForm direction();
 KeyForm matrix(std::size_t rows, std::size_t columns, std::string unit);
 /// Returns a map with the keys of a table.

@@ -55,7 +55,7 @@ class UnitSystem {
   ut_system* system_ = nullptr;
 };
 
-/// UDUNITS is not safe for threads.
+/// Returns the lock of UDUNITS, which is not safe for threads.
 std::mutex& mutex() {
   static std::mutex the_mutex;
   return the_mutex;

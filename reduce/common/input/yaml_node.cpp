@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t deepest = 50;
 
-/// The parser's message about a tab in the indentation does not mention the tab, and may refer to a later line.
+/// Returns a hint at a tab in the indentation: the parser's message does not mention the tab, and may refer to a later
+/// line.
 std::string hint_at_tabs(const std::string& text, int up_to_line) {
   std::istringstream lines(text);
   std::string line;

@@ -58,7 +58,7 @@ void send(int pipe, Outcome outcome, const std::string& text, const std::string&
   write_all(pipe, text.data(), text.size());
 }
 
-/// The C library and others report a crash on file descriptor 2, which is redirected to /dev/null; the program's own
+/// Redirects file descriptor 2 to /dev/null, on which the C library and others report a crash; the program's own
 /// messages still go to standard error.
 void divert_last_words() {
   const int shown = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);

@@ -52,7 +52,8 @@ constexpr rlim_t other_libraries = rlim_t{64} << 20;
 
 // -- the standard streams
 
-/// Otherwise the next opened file would get the number of a closed stream, and printed text would be written into it.
+/// Opens the standard streams that are closed: the next opened file would get the number of one, and printed text would
+/// be written into it.
 void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(!open("/dev/null", O_RDWR));

@@ -24,7 +24,7 @@ void check(PetscErrorCode code) {
   throw ComputationError(fmt::format("the search for modes failed in SLEPc: {}", text ? text : "unknown error"));
 }
 
-/// SLEPc's errors are returned as numbers, and it handles no signals.
+/// Starts SLEPc such that its errors are returned as numbers and it handles no signals.
 void start_slepc() {
   static bool started = false;
   if (std::exchange(started, true)) return;
@@ -155,7 +155,7 @@ class Search {
     check(EPSDestroy(&eps));
   }
 
-  /// Shift and invert: the solution comes from bielle-reduce.
+  /// Sets the solver to shift and invert, with solutions from bielle-reduce.
   void set_solution(EPS eps) {
     ST transformation = nullptr;
     KSP solver = nullptr;

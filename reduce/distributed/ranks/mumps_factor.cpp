@@ -23,7 +23,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// MUMPS returns counts beyond 32 bits in millions, with a negative sign.
+/// Returns a count of MUMPS, which gives those beyond 32 bits in millions with a negative sign.
 double counted_large(int value) { return value < 0 ? -1e6 * value : value; }
 
 }  // namespace
@@ -97,7 +97,7 @@ void MumpsFactor::analyse(const std::vector<int>& block_starts) {
   });
 }
 
-/// Otherwise the machine would run out of memory minutes later.
+/// Throws if the factor needs more memory than there is: the machine would run out of it minutes later.
 void MumpsFactor::check_memory() {
   const Instance& m = *instance_;
   MPI_Comm machine;

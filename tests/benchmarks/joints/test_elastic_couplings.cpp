@@ -79,6 +79,24 @@ TEST_CASE("two shafts vibrate against each other with the frequency of their ela
   CHECK(error < 2e-3 * std::abs(ratio) * w_1 / w);
 }
 
+TEST_CASE("the vibration of two shafts decays by the damping of their gear") {
+  // J e'' + d e' + k e = 0 from e = 0 at the rate -ratio w_1.
+  constexpr double d = 10;
+  const double decay = d / (2 * J), w = std::sqrt(k / J - decay * decay), start = -ratio * w_1;
+  double error = 1;
+  for (const double h : {2e-3, 1e-3, 5e-4}) {
+    double found = 0;
+    move(shafts(fmt::format("stiffness: {}, damping: {}", k, d)), h, 0.2, [&](const Session& session) {
+      const double t = session.time(), c = std::cos(w * t), s = std::sin(w * t), fade = std::exp(-decay * t);
+      const double e = start / w * fade * s, rate = start * fade * (c - decay / w * s);
+      found = std::max(found, std::abs(read(session, "pair/force", 1) + k * e + d * rate) / (k * start / w));
+    });
+    CHECK(found < error / 3);  // second order
+    error = found;
+  }
+  CHECK(error < 2e-3);
+}
+
 TEST_CASE("at the place as drawn an elastic coupling without backlash has its stiffness once") {
   for (const std::string backlash : {"", ", backlash: 0"}) {
     Session session = session_of(shafts(fmt::format("stiffness: {}, damping: 1.5{}", k, backlash), 0));

@@ -217,6 +217,21 @@ TEST_CASE("a universal joint that holds the spin of a rod leaves its motion as i
   CHECK((held.node("mass").x - Vector3(1, 0, 0)).norm() > 0.5);
 }
 
+TEST_CASE("a node that two held rotations leave one axis is on the wrong branch if this axis is turned over") {
+  using bielle::mechanism::exp_so3;
+  const Session session = session_of(tumbling("fixed: [x, y, z, rx, ry], fixed_axes: own", "[0, 0, 2]"));
+  const auto body = static_cast<std::size_t>(*session.model().find_node("body"));
+  const auto wrong_after = [&](const Vector3& turn) {
+    bielle::mechanism::State state = session.state();
+    state.nodes[body].R = exp_so3(turn) * state.nodes[body].R;
+    return session.system().wrong_branch(state, {});
+  };
+  CHECK(wrong_after(Vector3::Zero()).empty());
+  CHECK(wrong_after(Vector3(0, 0, M_PI)).empty());
+  CHECK_THAT(wrong_after(Vector3(M_PI, 0, 0)), Contains("'body': the node is turned over"));
+  CHECK_THAT(wrong_after(Vector3(0, M_PI, 0)), Contains("'body': the node is turned over"));
+}
+
 TEST_CASE("wrong holds are told with their keys") {
   const auto said = [](const std::string& keys, const std::string& more = "") {
     return message_of<InputError>([&] { session_of(tumbling(keys, "[0, 0, 0]", more)); });

@@ -1,14 +1,13 @@
 """States and controllers in the files of bielle-mechanism: rows, restarts, refusals and their messages."""
 
 import os
-import shutil
 import unittest
 
 import h5py
 import numpy as np
 
 from command import CommandTest
-from test_long_runs import datasets
+from equal_runs import end_at_checkpoint, expect_equal_runs
 
 MODEL = """\
 gravity: [0, -9.81, 0]
@@ -52,22 +51,13 @@ class Control(CommandTest):
 
     def test_a_restarted_run_equals_the_whole_one(self):
         self.assertEqual(self.run_model("whole", 50).returncode, 0)
-        with h5py.File(os.path.join(self.folder, "whole.h5")) as file:
-            expected = {name: data[:] for name, data in datasets(file["analysis_1"]).items()}
+        with h5py.File(self.path("whole.h5")) as file:
             checkpoints = len(file["checkpoints/analysis_1/rows"])
         for keep in (2, 8, checkpoints - 1):
-            shutil.copy(os.path.join(self.folder, "whole.h5"), os.path.join(self.folder, "part.h5"))
-            with h5py.File(os.path.join(self.folder, "part.h5"), "r+") as part:
-                for data in datasets(part["checkpoints/analysis_1"]).values():
-                    if data.shape and data.shape[0] == checkpoints:
-                        data.resize(keep, axis=0)
-                part.attrs["complete"] = 0
+            end_at_checkpoint(self.path("whole.h5"), self.path("part.h5"), keep)
             done = self.run_model("part", 50, "--restart", "part.h5")
             self.assertEqual(done.returncode, 0, done.stderr)
-            with h5py.File(os.path.join(self.folder, "part.h5")) as file:
-                found = datasets(file["analysis_1"])
-                for name, data in expected.items():
-                    np.testing.assert_array_equal(found[name][:], data, err_msg=name)
+            expect_equal_runs(self.path("part.h5"), self.path("whole.h5"), f"after {keep} checkpoints")
 
     def test_a_restart_notices_another_controller(self):
         self.assertEqual(self.run_model("run", 100).returncode, 0)

@@ -12,6 +12,7 @@ import h5py
 import numpy
 
 from command import PROGRAMS, CommandTest
+from equal_runs import datasets
 from symmetric_bar import symmetric_bar
 from test_reduce import BAR, BODY
 
@@ -63,11 +64,9 @@ def command_of(pid):
         return ""
 
 
-def datasets(path):
-    found = {}
+def values_in(path):
     with h5py.File(path) as file:
-        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    return found
+        return {name: item[()] for name, item in datasets(file).items()}
 
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)
@@ -97,7 +96,7 @@ class Distributed(CommandTest):
         self.assertEqual(status, 0, said)
         inspected = self.run_program("--inspect", "shared.h5")
         self.assertEqual(inspected.returncode, 0, inspected.stderr)
-        return datasets(self.path("alone.h5")), datasets(self.path("shared.h5"))
+        return values_in(self.path("alone.h5")), values_in(self.path("shared.h5"))
 
     def expect_same(self, alone, shared):
         """The whole file except the checks, which are rounding errors. Signs of modes are unique: their largest

@@ -3,15 +3,17 @@
 import os
 import re
 import subprocess
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-PAGES = [os.path.join(HERE, "..", "..", "..", "mechanism", "language", name) for name in ("README.md", "parts.md")]
-PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
+from command import PROGRAMS
+from equal_runs import datasets, expect_equal_values
+from in_folder import REPOSITORY, InFolder
+
+PAGES = [os.path.join(REPOSITORY, "mechanism", "language", name) for name in ("README.md", "parts.md")]
+PROGRAM = os.path.join(PROGRAMS, "bielle-mechanism")
 
 
 def files_of_page():
@@ -22,15 +24,12 @@ def files_of_page():
     return {re.match(r"# (\S+\.yaml)\n", block).group(1): block for block in blocks}
 
 
-class LanguageManual(unittest.TestCase):
+class LanguageManual(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.files = files_of_page()
         for name, text in self.files.items():
-            with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
-                file.write(text)
+            self.write(name, text)
 
     def run_program(self, *arguments):
         done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120)
@@ -45,21 +44,17 @@ class LanguageManual(unittest.TestCase):
                 expanded = self.run_program(name, "--expand")
                 for word in ("include:", "repeat:", "parts:", "definitions:", "if:"):
                     self.assertNotIn(word, expanded)
-                with open(os.path.join(self.folder, "expanded.yaml"), "w", encoding="utf-8") as file:
-                    file.write(expanded)
+                self.write("expanded.yaml", expanded)
                 self.run_program(name, "-o", "written.h5", "--quiet")
                 self.run_program("expanded.yaml", "-o", "expanded.h5", "--quiet")
                 self.compare("written.h5", "expanded.h5")
 
     def compare(self, first, second):
-        with h5py.File(os.path.join(self.folder, first)) as one, h5py.File(os.path.join(self.folder, second)) as other:
-            names = []
-            one.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
-            self.assertTrue(any("nodes" in name for name in names))
-            for name in names:
-                if one[name].dtype.kind == "f":
-                    self.assertIn(name, other)
-                    np.testing.assert_array_equal(one[name][()], other[name][()], err_msg=name)
+        with h5py.File(self.path(first)) as one, h5py.File(self.path(second)) as other:
+            found, expected = ({name: item[()] for name, item in datasets(file).items() if item.dtype.kind == "f"}
+                               for file in (one, other))
+            self.assertTrue(any("nodes" in name for name in expected))
+            expect_equal_values(found, expected)
 
     def test_cases_have_results_of_their_own(self):
         self.run_program("drop.yaml", "--all-cases", "--quiet")

@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 
 from command import PROGRAMS, CommandTest
+from equal_runs import datasets, expect_equal_runs
 
 MODEL = """\
 mechanism: double pendulum
@@ -32,12 +33,6 @@ output: {checkpoint: 500}
 analysis:
   - {type: dynamic, duration: DURATION, step: 1e-3}
 """
-
-
-def datasets(group):
-    found = {}
-    group.visititems(lambda name, item: found.__setitem__(name, item) if isinstance(item, h5py.Dataset) else None)
-    return found
 
 
 class LongRuns(CommandTest):
@@ -83,12 +78,7 @@ class LongRuns(CommandTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.write("whole.yaml", MODEL.replace("DURATION", "30"))
         self.assertEqual(self.run_program("whole.yaml", "--quiet").returncode, 0)
-        with h5py.File(os.path.join(self.folder, "model.h5")) as a, \
-                h5py.File(os.path.join(self.folder, "whole.h5")) as b:
-            self.assertEqual(a.attrs["complete"], 1)
-            whole = datasets(b["analysis_1"])
-            for name, dataset in datasets(a["analysis_1"]).items():
-                np.testing.assert_array_equal(dataset[:], whole[name][:], err_msg=name)
+        expect_equal_runs(self.path("model.h5"), self.path("whole.h5"))
 
     def test_an_interrupted_run_says_how_to_go_on_and_the_summary_counts_what_it_did(self):
         self.write("model.yaml", MODEL.replace("DURATION", "30"))

@@ -11,6 +11,7 @@ import h5py
 import numpy as np
 
 from command import PROGRAMS, CommandTest
+from equal_runs import expect_equal_runs
 
 # This model contains features that a later part of the motion may meet and that the probing state of a checkpoint does
 # not show.
@@ -84,12 +85,6 @@ drives: {engine: {joint: crank, rate: "20*sin(40*t)"}}
 analysis: [{type: dynamic, duration: 0.4, step: 2e-4}]
 output: {every: 5, checkpoint: 100, log: true}
 """
-
-
-def datasets(group):
-    found = {}
-    group.visititems(lambda name, item: found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None)
-    return found
 
 
 class SameModel(CommandTest):
@@ -184,12 +179,7 @@ class SameMotion(CommandTest):
         self.assertEqual(run.returncode, 2 if number != signal.SIGKILL else -number, errors)
 
     def check_same(self, name, whole="whole.h5"):
-        with h5py.File(self.path(name)) as file, h5py.File(self.path(whole)) as other:
-            self.assertEqual(file.attrs["complete"], 1)
-            one, two = datasets(file["analysis_1"]), datasets(other["analysis_1"])
-            self.assertEqual(sorted(one), sorted(two))
-            for dataset, values in two.items():
-                np.testing.assert_array_equal(one[dataset], values, err_msg=f"{name}: {dataset}")
+        expect_equal_runs(self.path(name), self.path(whole), name)
         tables = []
         for path in (name, whole):
             with open(self.path(path.replace(".h5", ".steps.csv")), encoding="utf-8") as file:

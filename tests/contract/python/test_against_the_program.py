@@ -10,22 +10,15 @@ import numpy as np
 import bielle
 from samples import BEAM, PENDULUM, WithModel
 
+from equal_runs import expect_equal_values, valid_values  # noqa: E402 (samples leads to its folder)
+
 PROGRAM = os.path.join(os.environ["BIELLE_PROGRAMS"], "bielle-mechanism")
 EXAMPLES = os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] * 3, "mechanism", "examples"))
 
 
 def recorded(group):
-    """Datasets of an analysis in a results file, without invalid rows and without events."""
-    rows = len(group["time"])
-    found = {}
-
-    def visit(name, item):
-        if isinstance(item, h5py.Dataset) and not name.startswith("events/"):
-            grows = item.maxshape and item.maxshape[0] is None
-            found[name] = item[:rows] if grows else item[()]
-
-    group.visititems(visit)
-    return found
+    """Returns the datasets of an analysis in a results file that Python has as well: all but the events."""
+    return {name: values for name, values in valid_values(group).items() if not name.startswith("events/")}
 
 
 class AgainstTheProgram(WithModel):
@@ -38,10 +31,8 @@ class AgainstTheProgram(WithModel):
         """Everything of an analysis in a results file, and nothing else."""
         expected = recorded(expected)
         self.assertEqual(set(expected), {"time", *results.datasets})
-        for name, values in expected.items():
-            found = np.asarray(results[name])
-            self.assertEqual((found.shape, found.dtype), (values.shape, np.float64), name)
-            self.assertTrue(np.array_equal(found, values, equal_nan=True), name)
+        self.assertEqual({values.dtype for values in expected.values()}, {np.dtype(float)})
+        expect_equal_values({name: results[name] for name in expected}, expected)
 
     def expect_same_run(self, model):
         """As a whole in memory, with a file, and analysis by analysis in a session."""
@@ -58,10 +49,7 @@ class AgainstTheProgram(WithModel):
                     self.expect_equal(group, results)
                     events = group["events/time"][:] if "events" in group else []
                     self.assertEqual([event.time for event in results.events], list(events))
-                expected, found = recorded(group), recorded(python[f"analysis_{k + 1}"])
-                self.assertEqual(set(expected), set(found))
-                for name in expected:
-                    self.assertTrue(np.array_equal(expected[name], found[name], equal_nan=True), name)
+                expect_equal_values(valid_values(python[f"analysis_{k + 1}"]), valid_values(group), f"analysis {k + 1}")
 
     def test_fixed_steps(self):
         self.expect_same_run(self.write_model(PENDULUM))

@@ -10,7 +10,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 REPOSITORY = os.path.abspath(os.path.join(HERE, "..", "..", ".."))
 PROGRAMS = os.environ["BIELLE_PROGRAMS"]
 TOOLS = ["keys", "bielle-plot", "bielle-animate", "bielle-paraview", "bielle-rainflow", "bielle-table", "bielle-view", "bielle-loads", "bielle-exchange", "bielle-study", "install", "demo",
-         "test", "verify", "package", "convert_mesh.py", "manual", "gallery"]
+         "test", "tidy", "verify", "package", "convert_mesh.py", "manual", "gallery"]
 OTHERS = {"--preset", "--build", "--install", "--prefix",  # options of CMake
           "--hostfile"}  # options of mpirun
 

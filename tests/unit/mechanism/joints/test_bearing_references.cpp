@@ -31,7 +31,9 @@ loads: {{push: {{node: shaft, {}}}}}
 measures: {{x: shaft.position.x, z: shaft.position.z, tilt: shaft.rotation.y}}
 )yaml",
                                            clearance, load));
-  compute_statics(session, {.steps = 10});
+  StaticsOptions options;
+  options.steps = 10;
+  compute_statics(session, options);
   return {session.measure("x"), session.measure("z"), session.measure("tilt")};
 }
 
