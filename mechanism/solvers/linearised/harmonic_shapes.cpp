@@ -99,7 +99,7 @@ double HarmonicShapes::similarity(const Eigen::MatrixXcd& u, const Eigen::Matrix
 VectorX HarmonicShapes::similarities(const Eigen::MatrixXcd& u, const Eigen::MatrixXcd& other) const {
   const Eigen::VectorXcd weight = weights(std::abs(equations_.rate())).cast<std::complex<double>>();
   const Eigen::Index count = u.cols(), h = count / 2;
-  const Eigen::MatrixXcd products = other.adjoint() * (weight.asDiagonal() * u);  // a row for each harmonic of the other one
+  const Eigen::MatrixXcd products = other.adjoint() * (weight.asDiagonal() * u);
   const auto square = [&](const Eigen::MatrixXcd& a) {
     return a.conjugate().cwiseProduct(weight.asDiagonal() * a).sum().real();
   };
