@@ -28,6 +28,7 @@ class CampbellStates {
       found.gathered = with_modes(last, options_.modes, [&](const System& /*system*/, const ModesReport& report) {
         static_cast<LinearisedSetting&>(found) = report;
         harmonics_ = std::max(1, report.turning->harmonics);
+        found.turning->unresolved = 0;
       });
       return;
     }
@@ -121,9 +122,10 @@ class CampbellStates {
     return names;
   }
 
-  /// Keeps the largest number of harmonics and the largest change by one more.
+  /// Keeps the largest number of harmonics, the largest change by one more, and rates at which they do not suffice.
   void note_harmonics(const LinearisedSetting::Turning& turning) {
     LinearisedSetting::Turning& whole = *found_->turning;
+    if (turning.unresolved > 0) found_->unresolved.push_back(turning.rate);
     whole.periodicity = std::max(whole.periodicity, turning.periodicity);
     whole.harmonics = std::max(whole.harmonics, turning.harmonics);
     whole.change = std::max(whole.change, turning.change);

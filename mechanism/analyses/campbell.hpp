@@ -35,6 +35,9 @@ struct Campbell : LinearisedSetting {
   SweptModes swept;
   Vector3 axis = Vector3::Zero();  ///< zero for a rotation behind a joint
   std::vector<double> unsteady;    ///< values at which the motion was not steady in these axes
+  /// Rates [rad/s] at which the motions about the periodic one were not resolved: their modes are those about the mean
+  /// state.
+  std::vector<double> unresolved;
   /// Name of each mode (mode_names.hpp): that of the mode at the last value, among all modes there; if it is lost
   /// there, that at the first value with the word "lost".
   std::vector<std::string> names;

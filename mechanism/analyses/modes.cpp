@@ -54,8 +54,8 @@ MemberEnergies energies_of_harmonics(const System& system, const ModesReport& re
   for (int k = -harmonic.harmonics; k <= harmonic.harmonics; ++k) {
     std::vector<Mode> modes = report.found.modes;
     for (std::size_t j = 0; j < modes.size(); ++j) {
-      modes[j].u = harmonic.u[j].col(k + harmonic.harmonics);
-      modes[j].w = harmonic.w[j].col(k + harmonic.harmonics);
+      modes[j].u = harmonic.modes[j].u.col(k + harmonic.harmonics);
+      modes[j].w = harmonic.modes[j].w.col(k + harmonic.harmonics);
       modes[j].s += std::complex<double>(0, k * rate);
     }
     sum += member_energies(system, report.about.environment, report.about.state, modes);
@@ -83,16 +83,17 @@ void find_turning_modes(const System& system, const ModesOptions& options, Modes
   const HarmonicSearch search = equations.search();
   auto harmonic = std::make_shared<HarmonicModes>(search.find(options.search, options.harmonics));
   static_cast<LinearisedSetting&>(report) = equations.setting(*harmonic);
-  report.found = harmonic->found;
+  report.found = harmonic->found();
   for (std::size_t k = 0; k < report.found.modes.size(); ++k) {
     Mode& mode = report.found.modes[k];
-    mode.u = harmonic->u[k].rowwise().sum();
-    mode.w = harmonic->w[k].rowwise().sum();
+    HarmonicMode& amplitudes = harmonic->modes[k];
+    mode.u = amplitudes.u.rowwise().sum();
+    mode.w = amplitudes.w.rowwise().sum();
     const std::complex<double> factor = unit_factor(system, state, mode);
     mode.u *= factor;
     mode.w *= factor;
-    harmonic->u[k] *= factor;
-    harmonic->w[k] *= factor;
+    amplitudes.u *= factor;
+    amplitudes.w *= factor;
   }
   report.harmonic = harmonic;
   if (options.energies) report.energies = energies_of_harmonics(system, report, rotation.rate);
@@ -139,7 +140,7 @@ ModesReport compute_modes(Session& session, const ModesOptions& options) {
 
 double ModesReport::turning_whirl(const System& system, std::size_t mode) const {
   if (!turning || turning->periodicity == Periodicity::negligible) return NAN;
-  if (harmonic && harmonic->harmonics > 0) return harmonic->whirl[mode];
+  if (harmonic && harmonic->harmonics > 0) return harmonic->modes[mode].whirl;
   const auto whirl = whirl_of(system, about.state, equations->M, found.modes[mode], turning_axis);
   return whirl ? std::copysign(1, turning->rate) * *whirl : NAN;
 }

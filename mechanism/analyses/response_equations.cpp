@@ -34,7 +34,7 @@ ResponseEquations::ResponseEquations(Session& session, const std::vector<Respons
 void ResponseEquations::make_turning(const System& system, const std::vector<ResponseInput>& inputs) {
   ModeOptions slow;
   slow.count = 10;
-  HarmonicModes modes = turning_->search().find(slow);
+  HarmonicModes modes = turning_->search().find_resolved(slow);
   const bool standing = std::all_of(inputs.begin(), inputs.end(), [&](const ResponseInput& input) {
     return input.node >= 0 && !turning_->part.turns(input.node);
   });

@@ -194,9 +194,13 @@ std::string format_vibration(const LinearisedSetting::Turning& turning) {
   if (turning.orbit_harmonics == 0) return "";
   return fmt::format(
       "  gravity across the axis and unbalance shake the mechanism periodically: node '{}' moves up to {:.3g} m from "
-      "its "
-      "place in the mean state, nodes turn up to {:.3g} rad ({} harmonics); motions are about this periodic motion\n",
-      turning.moved, turning.displacement, turning.rotation, turning.orbit_harmonics);
+      "its place in the mean state, nodes turn up to {:.3g} rad ({} harmonics); {}\n",
+      turning.moved, turning.displacement, turning.rotation, turning.orbit_harmonics,
+      turning.unresolved == 0
+          ? "motions are about this periodic motion"
+          : fmt::format("{} harmonics do not resolve motions about it at this rate: modes are those about the mean "
+                        "state, around which frequencies change over a turn",
+                        turning.unresolved));
 }
 
 std::string format_turning(const LinearisedSetting::Turning& turning) {

@@ -100,6 +100,7 @@ LinearisedSetting TurningEquations::setting(const HarmonicModes& modes) const {
     turned.rotation = orbit->rotation;
     turned.moved = moved;
     turned.orbit_harmonics = orbit->deviation.harmonics;
+    turned.unresolved = modes.unresolved;
   }
   setting.turning = turned;
   return setting;

@@ -104,10 +104,8 @@ EigenpairsNearby EigenpairsAround::look(Eigen::Index count, Look how) const {
   const ShiftedOperator& now = *operator_;
   OperatorEigenOptions options;
   options.dense = dense() ? basis_.cols() : 0;
-  if (!dense() && how == Look::roughly) {
-    options.tolerance = 1e-6;
-    options.copies = false;
-  }
+  if (!dense() && how == Look::roughly) options.tolerance = 1e-6;
+  if (!dense() && how != Look::exactly) options.copies = false;
   const MatrixX* basis = dense() ? &basis_ : nullptr;
   const OperatorEigenpairs found = now.is_real() ? search_complement<double>(now, Q_, basis, count, options)
                                                  : search_complement<Complex>(now, Q_, basis, count, options);

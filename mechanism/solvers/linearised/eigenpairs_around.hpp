@@ -40,7 +40,8 @@ class EigenpairsAround {
   void set_shift(std::complex<double> shift);
   const ShiftedOperator& T() const { return *operator_; }
 
-  enum class Look { roughly, exactly };
+  /// `roughly` and `without_copies` may miss copies of a multiple eigenvalue; `roughly` is less accurate.
+  enum class Look { roughly, without_copies, exactly };
   /// Finds at least `count` eigenpairs, or all if there are fewer. @throws ComputationError if ARPACK does not converge
   EigenpairsNearby look(Eigen::Index count, Look how) const;
 

@@ -15,13 +15,6 @@ using Complex = std::complex<double>;
 
 constexpr double accurate = 1e-8;  // residual of a mode
 
-/// Returns the amplitudes with zeros for further harmonics.
-Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h) {
-  Eigen::MatrixXcd wide = Eigen::MatrixXcd::Zero(amplitudes.rows(), 2 * h + 1);
-  wide.middleCols(h - amplitudes.cols() / 2, amplitudes.cols()) = amplitudes;
-  return wide;
-}
-
 /// Improves a mode of the equations by inverse iteration.
 void iterate(const LinearisedEquations& equations, const ShiftedOperator& T, double rate, Mode& mode) {
   const double size = std::max(std::abs(mode.s), std::abs(rate));
@@ -89,10 +82,24 @@ void take_copy(int multiple, double rate, Complex& s, Eigen::MatrixXcd& u, Eigen
 
 }  // namespace
 
+Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h) {
+  Eigen::MatrixXcd wide = Eigen::MatrixXcd::Zero(amplitudes.rows(), 2 * h + 1);
+  wide.middleCols(h - amplitudes.cols() / 2, amplitudes.cols()) = amplitudes;
+  return wide;
+}
+
+Modes HarmonicModes::found() const {
+  Modes result;
+  for (const HarmonicMode& each : modes) result.modes.push_back(each.mode);
+  result.all = all;
+  result.states = states;
+  result.growing_besides = growing_besides;
+  return result;
+}
+
 bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u, Complex s) {
-  for (std::size_t k = 0; k < modes.found.modes.size(); ++k)
-    if (shapes.are_same(u, s, modes.u[k], modes.found.modes[k].s)) return true;
-  return false;
+  return std::any_of(modes.modes.begin(), modes.modes.end(),
+                     [&](const HarmonicMode& each) { return shapes.are_same(u, s, each.u, each.mode.s); });
 }
 
 std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, const HarmonicShapes& shapes,
@@ -101,13 +108,13 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
   HarmonicModes modes;
   modes.harmonics = harmonics;
   modes.equations = equations.of_harmonics(harmonics);
-  modes.found.states = from.found.states;
-  modes.found.all = from.found.all;
-  modes.found.growing_besides = from.found.growing_besides;
+  modes.states = from.states;
+  modes.all = from.all;
+  modes.growing_besides = from.growing_besides;
   std::unique_ptr<ShiftedOperator> near;
-  for (std::size_t k = 0; k < from.found.modes.size(); ++k) {
-    Mode mode = from.found.modes[k];
-    Eigen::MatrixXcd u = widened(from.u[k], harmonics), w = widened(from.w[k], harmonics);
+  for (const HarmonicMode& before : from.modes) {
+    Mode mode = before.mode;
+    Eigen::MatrixXcd u = widened(before.u, harmonics), w = widened(before.w, harmonics);
     const auto improve_here = [&] {
       mode.u = equations.coefficients(u);
       mode.w = equations.coefficients(w);
@@ -119,75 +126,37 @@ std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, 
     improve_here();
     if (mode.kind != ModeKind::rigid) {
       const double size = std::max(std::abs(mode.s), std::abs(rate));
-      modes.change = std::max(modes.change, std::abs(mode.s - from.found.modes[k].s) / size);
+      modes.change = std::max(modes.change, std::abs(mode.s - before.mode.s) / size);
       if (copies == Copies::continued) {
         constexpr double same = 0.5;
-        if (!(mode.s.imag() >= 0) || !(shapes.similarity(u, widened(from.u[k], harmonics)) > same)) return std::nullopt;
+        if (!(mode.s.imag() >= 0) || !(shapes.similarity(u, widened(before.u, harmonics)) > same)) return std::nullopt;
       } else if (const int multiple = shapes.sizes(u, mode.s).largest(); multiple != 0) {
         take_copy(multiple, rate, mode.s, u, w);
         improve_here();
       }
       if (shapes.is_shift(u, mode.s) || is_among(shapes, modes, u, mode.s)) return std::nullopt;
     }
-    modes.whirl.push_back(shapes.whirl(shapes.sizes(u, mode.s)));
-    modes.found.modes.push_back(std::move(mode));
-    modes.u.push_back(std::move(u));
-    modes.w.push_back(std::move(w));
+    const double whirl = shapes.whirl(shapes.sizes(u, mode.s));
+    modes.modes.push_back({std::move(mode), std::move(u), std::move(w), whirl});
   }
   return modes;
-}
-
-void take_copies_of(const HarmonicModes& others, const PeriodicEquations& equations, const HarmonicShapes& shapes,
-                    HarmonicModes& modes) {
-  struct Copy {
-    std::size_t mode, other;
-    Complex s;
-    Eigen::MatrixXcd u, w;
-    double similarity;
-  };
-  const double rate = equations.rate();
-  std::vector<Copy> copies;
-  for (std::size_t k = 0; k < modes.found.modes.size(); ++k)
-    for (std::size_t other = 0; other < others.found.modes.size(); ++other) {
-      if (modes.found.modes[k].kind == ModeKind::rigid || others.found.modes[other].kind == ModeKind::rigid) continue;
-      const Complex wanted = others.found.modes[other].s;
-      Copy copy{k, other, modes.found.modes[k].s, modes.u[k], modes.w[k], 0};
-      take_copy(static_cast<int>(std::round((wanted - copy.s).imag() / rate)), rate, copy.s, copy.u, copy.w);
-      copy.similarity = shapes.similarity(copy.u, widened(others.u[other], modes.harmonics));
-      copies.push_back(std::move(copy));
-    }
-  std::stable_sort(copies.begin(), copies.end(),
-                   [](const Copy& a, const Copy& b) { return a.similarity > b.similarity; });
-  std::vector<char> done(modes.found.modes.size(), 0), taken(others.found.modes.size(), 0);
-  for (Copy& copy : copies) {
-    if (done[copy.mode] != 0 || taken[copy.other] != 0) continue;
-    done[copy.mode] = taken[copy.other] = 1;
-    Mode& mode = modes.found.modes[copy.mode];
-    mode.s = copy.s;
-    mode.u = equations.coefficients(copy.u);
-    mode.w = equations.coefficients(copy.w);
-    modes.whirl[copy.mode] = shapes.whirl(shapes.sizes(copy.u, copy.s));
-    modes.u[copy.mode] = std::move(copy.u);
-    modes.w[copy.mode] = std::move(copy.w);
-  }
 }
 
 bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, double exact) {
   const int more = modes.harmonics + 1;
   const LinearisedEquations next = equations.of_harmonics(more);
   double slowest = INFINITY;
-  for (const Mode& mode : modes.found.modes)
+  for (const auto& [mode, u, w, whirl] : modes.modes)
     if (mode.kind != ModeKind::rigid) slowest = std::min(slowest, std::abs(mode.s));
   if (!std::isfinite(slowest)) return true;
   constexpr double beyond_copies = 1.37;  // a shift off the real eigenvalues of the modes and of their copies
   const ShiftedOperator T(next, beyond_copies * std::max(slowest, std::abs(equations.rate())));
   if (!T.regular()) return false;
   const auto scale = T.scale().cast<Complex>();
-  for (std::size_t k = 0; k < modes.found.modes.size(); ++k) {
-    const Mode& mode = modes.found.modes[k];
+  for (const auto& [mode, u, w, whirl] : modes.modes) {
     if (mode.kind == ModeKind::rigid) continue;
     Eigen::VectorXcd x(next.states());
-    x << equations.coefficients(widened(modes.u[k], more)), equations.coefficients(widened(modes.w[k], more));
+    x << equations.coefficients(widened(u, more)), equations.coefficients(widened(w, more));
     x = x.cwiseQuotient(scale).eval();
     const Eigen::VectorXcd y = T.apply(x);
     const Complex mu = x.dot(y) / x.squaredNorm();
@@ -201,8 +170,8 @@ bool are_exact(const PeriodicEquations& equations, const HarmonicModes& modes, d
 void judge_modes(HarmonicModes& modes, const ModeOptions& options) {
   const EquationRounding rounding(modes.equations);
   const ModeJudgement judgement(modes.equations, rounding, options);
-  for (Mode& mode : modes.found.modes)
-    if (mode.kind != ModeKind::rigid) judgement.judge(mode);
+  for (HarmonicMode& each : modes.modes)
+    if (each.mode.kind != ModeKind::rigid) judgement.judge(each.mode);
 }
 
 }  // namespace bielle::mechanism

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "mechanism/solvers/linearised/harmonic_shapes.hpp"
 #include "mechanism/solvers/linearised/modes.hpp"
@@ -16,15 +17,31 @@ enum class Periodicity {
   periodic     ///< periodic in any coordinates
 };
 
+struct HarmonicMode {
+  Mode mode;              ///< its shapes are those of the harmonics
+  Eigen::MatrixXcd u, w;  ///< amplitudes at harmonics -h .. h (columns)
+  double whirl = 0;       ///< sense (HarmonicShapes::whirl)
+};
+
 struct HarmonicModes {
   Periodicity periodicity = Periodicity::constant;
-  int harmonics = 0;                   ///< h
-  double change = 0;                   ///< largest change of an exponent by further harmonics, relative to the rates
-  LinearisedEquations equations;       ///< equations of the harmonics
-  Modes found;                         ///< shapes of the harmonics
-  std::vector<Eigen::MatrixXcd> u, w;  ///< amplitudes of each mode at harmonics -h .. h (columns)
-  std::vector<double> whirl;           ///< sense of each mode (HarmonicShapes::whirl)
+  int harmonics = 0;              ///< h
+  double change = 0;              ///< largest change of an exponent by further harmonics, relative to the rates
+  LinearisedEquations equations;  ///< equations of the harmonics
+  std::vector<HarmonicMode> modes;
+  bool all = false;                      ///< there are no others
+  int states = 0;                        ///< number of states at one azimuth
+  std::optional<int> growing_besides{};  ///< as in `Modes`
+  /// Number of harmonics with which the motions about a periodic motion could not be told apart; the modes are those
+  /// of the mean equations. 0: the modes are about the periodic motion.
+  int unresolved = 0;
+
+  /// Returns the modes without their amplitudes.
+  Modes found() const;
 };
+
+/// Returns the amplitudes with zeros for further harmonics.
+Eigen::MatrixXcd widened(const Eigen::MatrixXcd& amplitudes, int h);
 
 /// Whether a motion is one of the modes, or a copy of one. @param u  as many harmonics as they have @param s  exponent
 bool is_among(const HarmonicShapes& shapes, const HarmonicModes& modes, const Eigen::MatrixXcd& u,
@@ -39,11 +56,6 @@ enum class Copies { largest, continued };
 /// time, or, of continued exponents, if a shape has become another one
 std::optional<HarmonicModes> continue_modes(const PeriodicEquations& equations, const HarmonicShapes& shapes,
                                             const HarmonicModes& from, int harmonics, Copies copies);
-
-/// Takes for each mode that copy which resembles a mode of other equations with the same rate, one each, and whose
-/// exponent is next to that mode's.
-void take_copies_of(const HarmonicModes& others, const PeriodicEquations& equations, const HarmonicShapes& shapes,
-                    HarmonicModes& modes);
 
 /// Whether the modes satisfy the equations with one more harmonic, which shows that they are exact. One factorisation
 /// at a real shift serves all modes. Rounding of stiff equations may hide it.

@@ -133,26 +133,6 @@ PeriodicEquations::PeriodicEquations(const std::vector<LinearisedEquations>& azi
   for (const HarmonicMatrix* each : {&M_, &C_, &K_, &B_, &S_, &F_}) constant_ = constant_ && !varies(*each);
 }
 
-PeriodicEquations PeriodicEquations::towards(const PeriodicEquations& others, double part) const {
-  PeriodicEquations result = *this;
-  result.constant_ = constant_ && others.constant_;
-  for (HarmonicMatrix PeriodicEquations::*matrix :
-       {&PeriodicEquations::M_, &PeriodicEquations::C_, &PeriodicEquations::K_, &PeriodicEquations::B_,
-        &PeriodicEquations::S_, &PeriodicEquations::F_}) {
-    HarmonicMatrix& A = result.*matrix;
-    const HarmonicMatrix& B = others.*matrix;
-    for (std::size_t r = 0; r < std::max(A.size(), B.size()); ++r) {
-      if (r >= A.size())
-        A.push_back(Sparse(part * B[r]));
-      else if (r >= B.size())
-        A[r] = Sparse((1 - part) * A[r]);
-      else
-        A[r] = Sparse((1 - part) * A[r] + part * B[r]);
-    }
-  }
-  return result;
-}
-
 double PeriodicEquations::function(int p, double psi) {
   return (p > 0 ? std::numbers::sqrt2 : 1) * harmonic_function(p, psi);
 }

@@ -36,9 +36,6 @@ class PeriodicEquations {
   const LinearisedEquations& first() const { return first_; }  ///< the equations at azimuth 0
   /// Returns the equations of the harmonics up to h; for h = 0 the mean equations.
   LinearisedEquations of_harmonics(int h) const;
-  /// Returns equations whose coefficients are on the line from these to others, with the same unknowns and rate.
-  /// @param part  0: these, 1: the others
-  PeriodicEquations towards(const PeriodicEquations& others, double part) const;
   /// Value of e_p at an azimuth [rad].
   static double function(int p, double psi);
   /// Index of an unknown of u in the equations of the harmonics. @param function  p of f_p

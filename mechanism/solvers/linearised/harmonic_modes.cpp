@@ -3,23 +3,48 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "mechanism/solvers/linearised/finite_states.hpp"
+#include "mechanism/solvers/linearised/modes_around_mean.hpp"
 #include "mechanism/solvers/linearised/orthonormal.hpp"
 
 namespace bielle::mechanism {
+namespace {
+
+constexpr double exact = 1e-7;  // relative change of an exponent by further harmonics
+
+/// Number of harmonics after these that shows whether they suffice.
+int next_harmonics(int h) { return h + std::max(1, h / 2); }
+
+bool is_rigid(const HarmonicMode& each) { return each.mode.kind == ModeKind::rigid; }
+
+/// @param change  relative change of an exponent by further harmonics; 0: not known
+[[noreturn]] void throw_unresolved(int harmonics, double change) {
+  throw ComputationError(fmt::format(
+      "the modes of the periodic equations do not converge with {} harmonics of the rotation{}: ask for fewer "
+      "modes or for a faster rotation; about as many harmonics are necessary as the rate is contained in the "
+      "change of a frequency over a turn",
+      harmonics, change > 0 ? fmt::format(" (further ones change them by {:.2g})", change) : ""));
+}
+
+}  // namespace
+
+HarmonicModes HarmonicSearch::find_resolved(const ModeOptions& options) const {
+  HarmonicModes modes = find(options);
+  if (modes.unresolved > 0) throw_unresolved(modes.unresolved, 0);
+  return modes;
+}
 
 /// Inserts the shift in time among the rigid modes, unless it is a sum of those.
 void HarmonicSearch::add_shift(HarmonicModes& result) const {
   const int h = result.harmonics;
   const VectorX u = shapes_.shift(h), scale = shapes_.weights(equations_.rate(), h).cwiseSqrt();
   std::vector<VectorX> rigid;
-  for (const Mode& mode : result.found.modes)
-    if (mode.kind == ModeKind::rigid) rigid.emplace_back(scale.cwiseProduct(mode.u.real()));
+  for (const HarmonicMode& each : result.modes)
+    if (is_rigid(each)) rigid.emplace_back(scale.cwiseProduct(each.mode.u.real()));
   MatrixX known(u.size(), static_cast<Eigen::Index>(rigid.size()));
   for (std::size_t k = 0; k < rigid.size(); ++k) known.col(static_cast<Eigen::Index>(k)) = rigid[k];
   if (!rigid.empty()) known = orthonormal_columns(known);
@@ -31,10 +56,8 @@ void HarmonicSearch::add_shift(HarmonicModes& result) const {
   mode.kind = ModeKind::rigid;
   mode.u = u.cast<std::complex<double>>();
   mode.w = (result.equations.W * u).head(result.equations.dofs).cast<std::complex<double>>();
-  result.u.insert(result.u.begin(), equations_.amplitudes(mode.u, h));
-  result.w.insert(result.w.begin(), equations_.amplitudes(mode.w, h));
-  result.whirl.insert(result.whirl.begin(), NAN);
-  result.found.modes.insert(result.found.modes.begin(), std::move(mode));
+  Eigen::MatrixXcd of_u = equations_.amplitudes(mode.u, h), of_w = equations_.amplitudes(mode.w, h);
+  result.modes.insert(result.modes.begin(), {std::move(mode), std::move(of_u), std::move(of_w), NAN});
 }
 
 namespace {
@@ -45,43 +68,26 @@ void sort_by_distance(double frequency, std::vector<Mode>& modes) {
                    [&](const Mode& a, const Mode& b) { return std::abs(a.s - near) < std::abs(b.s - near); });
 }
 
-/// Sorts what was found by rates.
-void sort_by_rate(HarmonicModes& modes) {
-  std::vector<std::size_t> order(modes.found.modes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(modes.found.modes[a].s) < std::abs(modes.found.modes[b].s);
+void sort_by_rate(std::vector<HarmonicMode>& modes) {
+  std::stable_sort(modes.begin(), modes.end(), [](const HarmonicMode& a, const HarmonicMode& b) {
+    return std::abs(a.mode.s) < std::abs(b.mode.s);
   });
-  HarmonicModes sorted;
-  for (const std::size_t k : order) {
-    sorted.found.modes.push_back(std::move(modes.found.modes[k]));
-    sorted.u.push_back(std::move(modes.u[k]));
-    sorted.w.push_back(std::move(modes.w[k]));
-    sorted.whirl.push_back(modes.whirl[k]);
-  }
-  modes.found.modes = std::move(sorted.found.modes);
-  modes.u = std::move(sorted.u);
-  modes.w = std::move(sorted.w);
-  modes.whirl = std::move(sorted.whirl);
 }
 
 }  // namespace
 
 /// Takes the principal modes. @returns whether there are enough
 bool HarmonicSearch::take(Modes found, const ModeOptions& options, HarmonicModes& result) const {
-  result.found.modes.clear();
-  result.u.clear();
-  result.w.clear();
-  result.whirl.clear();
-  result.found.states = found.states / (2 * result.harmonics + 1);
-  result.found.all = found.all;
-  if (result.harmonics == 0) result.found.growing_besides = found.growing_besides;
+  result.modes.clear();
+  result.states = found.states / (2 * result.harmonics + 1);
+  result.all = found.all;
+  if (result.harmonics == 0) result.growing_besides = found.growing_besides;
   int count = 0;
   const bool shifts = shapes_.any_shift() && !options.near;
   const auto finish = [&](bool enough) {
-    if (options.near) sort_by_rate(result);
+    if (options.near) sort_by_rate(result.modes);
     if (shifts) add_shift(result);
-    result.found.all = result.found.all && (result.harmonics == 0 || is_complete(result));
+    result.all = result.all && (result.harmonics == 0 || is_complete(result));
     return enough;
   };
   if (options.near) sort_by_distance(*options.near, found.modes);
@@ -93,13 +99,11 @@ bool HarmonicSearch::take(Modes found, const ModeOptions& options, HarmonicModes
     if (!rigid && sizes.largest() != 0) continue;
     if (mode.kind != ModeKind::rigid && result.harmonics > 0 && is_among(shapes_, result, u, mode.s)) continue;
     if (mode.kind != ModeKind::rigid && !options.below && ++count > options.count) {
-      result.found.all = false;
+      result.all = false;
       return finish(true);
     }
-    result.w.push_back(equations_.amplitudes(mode.w, result.harmonics));
-    result.u.push_back(std::move(u));
-    result.found.modes.push_back(std::move(mode));
-    result.whirl.push_back(shapes_.whirl(sizes));
+    Eigen::MatrixXcd w = equations_.amplitudes(mode.w, result.harmonics);
+    result.modes.push_back({std::move(mode), std::move(u), std::move(w), shapes_.whirl(sizes)});
   }
   return finish(options.below || found.all || count >= options.count);
 }
@@ -123,13 +127,13 @@ bool HarmonicSearch::is_complete(const HarmonicModes& modes) const {
   const ShiftedOperator T(first, equations_.rate());
   if (!T.regular()) return false;
   Eigen::Index least = 0, greatest = 0;
-  for (const Mode& mode : modes.found.modes) {
+  for (const HarmonicMode& each : modes.modes) {
     // A motion that is locked to the rotation is its own conjugate.
-    const double turns = 2 * mode.s.imag() / equations_.rate();
+    const double turns = 2 * each.mode.s.imag() / equations_.rate();
     constexpr double rounding = 1e-6;
-    const bool single = mode.kind == ModeKind::rigid || std::abs(turns - std::round(turns)) < rounding;
+    const bool single = is_rigid(each) || std::abs(turns - std::round(turns)) < rounding;
     least += single ? 1 : 2;
-    greatest += single && mode.kind != ModeKind::rigid ? 1 : 2;
+    greatest += single && !is_rigid(each) ? 1 : 2;
   }
   const Eigen::Index all = count_finite_eigenvalues(first, T);
   return least <= all && all <= greatest;
@@ -146,19 +150,11 @@ HarmonicModes HarmonicSearch::find_with(const ModeOptions& options, int harmonic
     if (take(find_modes(result.equations, search), options, result)) return result;
     search.count *= 2;
   }
-  if (std::none_of(result.found.modes.begin(), result.found.modes.end(),
-                   [](const Mode& mode) { return mode.kind != ModeKind::rigid; }))
+  if (std::all_of(result.modes.begin(), result.modes.end(), is_rigid))
     throw ComputationError(
         "the modes of the periodic equations were not found: their rates differ too much (a part that turns hardly "
         "has inertia?)");
   return result;
-}
-
-/// Whether a rigid mode may be the shift in time, which it resembles with more harmonics only: those of rigid modes are
-/// not continued.
-bool HarmonicSearch::counts_shift_twice(const HarmonicModes& modes) const {
-  const auto is_rigid = [](const Mode& mode) { return mode.kind == ModeKind::rigid; };
-  return shapes_.any_shift() && std::count_if(modes.found.modes.begin(), modes.found.modes.end(), is_rigid) > 1;
 }
 
 /// Returns the oscillations and decays about the mean state, some more than asked for; nothing if they have harmonics
@@ -172,105 +168,105 @@ std::optional<HarmonicModes> HarmonicSearch::modes_of_mean(const ModeOptions& op
   if (wider.below) *wider.below *= higher;
   HarmonicModes mean = mean_->find(wider);
   if (mean.periodicity == Periodicity::periodic) return std::nullopt;
-  int rigid = 0;
-  for (std::size_t k = mean.found.modes.size(); k-- > 0;) {
-    if (mean.found.modes[k].kind != ModeKind::rigid) continue;
-    const auto at = static_cast<std::ptrdiff_t>(k);
-    mean.found.modes.erase(mean.found.modes.begin() + at);
-    mean.u.erase(mean.u.begin() + at);
-    mean.w.erase(mean.w.begin() + at);
-    mean.whirl.erase(mean.whirl.begin() + at);
-    ++rigid;
-  }
-  if (rigid != (shapes_.any_shift() ? 1 : 0)) return std::nullopt;
+  const auto others = std::stable_partition(mean.modes.begin(), mean.modes.end(), is_rigid);
+  if (others - mean.modes.begin() != (shapes_.any_shift() ? 1 : 0)) return std::nullopt;
+  mean.modes.erase(mean.modes.begin(), others);
   return mean;
-}
-
-/// Continues modes from the mean equations to these, in steps if necessary.
-std::optional<HarmonicModes> HarmonicSearch::continue_mean(const HarmonicModes& mean, int harmonics) const {
-  constexpr double least = 1.0 / 32;
-  constexpr int modulated = 8;
-  // One step with few harmonics suffices unless frequencies are modulated by more than the rate.
-  if (auto modes = continue_modes(equations_, shapes_, mean, harmonics, Copies::continued)) return modes;
-  HarmonicModes modes = mean;
-  double made = 0, step = 0.5;
-  while (made < 1) {
-    const double end = std::min(1.0, made + step);
-    const PeriodicEquations here = mean_equations_->towards(equations_, end);
-    auto next = continue_modes(here, shapes_, modes, std::max(harmonics, modulated), Copies::continued);
-    if (next) {
-      modes = *std::move(next);
-      made = end;
-      continue;
-    }
-    step /= 2;
-    if (step < least) return std::nullopt;
-  }
-  return modes;
 }
 
 /// Completes modes that were continued from those of the mean.
 void HarmonicSearch::finish_continued(const ModeOptions& options, HarmonicModes& modes) const {
   judge_modes(modes, options);
-  sort_by_rate(modes);
-  const std::vector<Mode>& all = modes.found.modes;
-  const auto slow = [&](const Mode& mode) { return mode.frequency() <= *options.below; };
-  const auto count = options.below ? static_cast<std::size_t>(std::count_if(all.begin(), all.end(), slow))
-                                   : static_cast<std::size_t>(options.count);
-  if (all.size() > count) {
-    modes.found.all = false;
-    modes.found.modes.resize(count);
-    modes.u.resize(count);
-    modes.w.resize(count);
-    modes.whirl.resize(count);
+  sort_by_rate(modes.modes);
+  const auto slow = [&](const HarmonicMode& each) { return each.mode.frequency() <= *options.below; };
+  const auto count = options.below
+                         ? static_cast<std::size_t>(std::count_if(modes.modes.begin(), modes.modes.end(), slow))
+                         : static_cast<std::size_t>(options.count);
+  if (modes.modes.size() > count) {
+    modes.all = false;
+    modes.modes.erase(modes.modes.begin() + static_cast<std::ptrdiff_t>(count), modes.modes.end());
   }
   if (shapes_.any_shift()) add_shift(modes);
-  modes.found.all = modes.found.all && is_complete(modes);
+  modes.all = modes.all && is_complete(modes);
+}
+
+/// Continues modes with more harmonics until these change no exponent. @returns nothing if `most` do not suffice
+std::optional<HarmonicModes> HarmonicSearch::converged(HarmonicModes modes, int most) const {
+  while (true) {
+    const int h = modes.harmonics, more = next_harmonics(h);
+    modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
+    if (h == 1 && are_exact(equations_, modes, exact)) return modes;
+    if (more > most) return std::nullopt;
+    std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more, Copies::continued);
+    if (!next) return std::nullopt;
+    if (next->change < exact) {
+      modes.change = next->change;
+      return modes;
+    }
+    modes = *std::move(next);
+  }
+}
+
+/// Returns the largest number of harmonics about a periodic motion. Each mode needs factors of the equations of the
+/// harmonics, whose cost grows with about the cube of their number: half a minute for 12 modes and 110 unknowns.
+int HarmonicSearch::most_affordable() const {
+  constexpr int least = 9, most = 64, unknowns = 3000;
+  return std::clamp((unknowns / equations_.first().unknowns() - 1) / 2, least, most);
+}
+
+HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const {
+  const int most = most_affordable(), most_searched = 2 * most / 3;
+  std::optional<HarmonicModes> modes = continue_modes(equations_, shapes_, mean, std::max(1, least), Copies::continued);
+  if (modes) modes = converged(*std::move(modes), most);
+  constexpr int first = 6;
+  for (int h = first, before = 0; !modes && h > before; before = h, h = std::min(2 * h, most_searched)) {
+    modes = find_modes_around(equations_, shapes_, mean, h);
+    if (modes) modes = converged(*std::move(modes), most);
+  }
+  if (modes) {
+    finish_continued(options, *modes);
+    return *std::move(modes);
+  }
+  HarmonicModes in_place = mean_->find(options);
+  in_place.unresolved = most;
+  return in_place;
+}
+
+/// The search finds all copies, whose number grows with the harmonics: large equations are searched with one harmonic.
+HarmonicModes HarmonicSearch::find_freely(const ModeOptions& options, int least) const {
+  constexpr int most = 64, most_searched = 16;
+  const auto counts_shift_twice = [&](const HarmonicModes& modes) {
+    return shapes_.any_shift() && std::count_if(modes.modes.begin(), modes.modes.end(), is_rigid) > 1;
+  };
+  constexpr int small = 1000;  // unknowns of the harmonics
+  const bool at_once = (2 * least + 1) * equations_.first().unknowns() <= small;
+  HarmonicModes modes = find_with(options, at_once ? std::max(1, least) : 1);
+  for (bool continued = false;;) {
+    const int h = modes.harmonics, more = std::max(least, next_harmonics(h));
+    modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
+    if (h == 1 && are_exact(equations_, modes, exact)) return modes;
+    std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more, Copies::largest);
+    if (next && next->change < exact) {
+      // A rigid mode may be the shift in time, which it resembles with more harmonics only: rigid modes are not
+      // continued.
+      if (continued && h <= most_searched && counts_shift_twice(modes)) {
+        modes = find_with(options, h);
+        modes.periodicity = Periodicity::periodic;
+      }
+      modes.change = next->change;
+      if (continued) judge_modes(modes, options);
+      return modes;
+    }
+    if (next_harmonics(h) > (next ? most : most_searched)) throw_unresolved(h, next ? next->change : 0);
+    continued = next.has_value();
+    modes = next ? *std::move(next) : find_with(options, next_harmonics(h));
+  }
 }
 
 HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const {
   if (equations_.constant()) return find_with(options, 0);
-  constexpr int most = 64, most_searched = 16;
-  constexpr double exact = 1e-7;
-  const std::optional<HarmonicModes> mean = modes_of_mean(options);
-  std::optional<HarmonicModes> of_mean = mean ? continue_mean(*mean, std::max(1, least)) : std::nullopt;
-  Copies copies = of_mean ? Copies::continued : Copies::largest;
-  const auto finish = [&](HarmonicModes& modes) {
-    if (copies == Copies::continued) {
-      finish_continued(options, modes);
-    } else if (mean) {
-      take_copies_of(*mean, equations_, shapes_, modes);
-      sort_by_rate(modes);
-    }
-  };
-  HarmonicModes modes = of_mean ? *std::move(of_mean) : find_with(options, std::max(1, least));
-  for (bool continued = false;;) {
-    const int h = modes.harmonics, more = h + std::max(1, h / 2);
-    if (h == 1 && are_exact(equations_, modes, exact)) {
-      modes.periodicity = Periodicity::multiblade;
-      finish(modes);
-      return modes;
-    }
-    std::optional<HarmonicModes> next = continue_modes(equations_, shapes_, modes, more, copies);
-    if (next && next->change < exact) {
-      if (copies == Copies::largest && continued && h <= most_searched && counts_shift_twice(modes))
-        modes = find_with(options, h);
-      modes.change = next->change;
-      modes.periodicity = h == 1 ? Periodicity::multiblade : Periodicity::periodic;
-      if (copies == Copies::largest && continued) judge_modes(modes, options);
-      finish(modes);
-      return modes;
-    }
-    if (more > (next ? most : most_searched))
-      throw ComputationError(fmt::format(
-          "the modes of the periodic equations do not converge with {} harmonics of the rotation{}: ask for fewer "
-          "modes or for a faster rotation; about as many harmonics are necessary as the rate is contained in the "
-          "change of a frequency over a turn",
-          h, next ? fmt::format(" (further ones change them by {:.2g})", next->change) : ""));
-    continued = next.has_value();
-    if (!next) copies = Copies::largest;
-    modes = next ? *std::move(next) : find_with(options, more);
-  }
+  if (const std::optional<HarmonicModes> mean = modes_of_mean(options)) return find_from(*mean, options, least);
+  return find_freely(options, least);
 }
 
 }  // namespace bielle::mechanism

@@ -5,9 +5,10 @@
 // the rate is contained in the change of a frequency over a turn.
 //
 // About a periodic motion of equal blades the modes are continued from those about its mean state, which one harmonic
-// of the rotation contains. At a slow rate this is the only way to tell copies of the modes from modes: they are close
-// together, and a motion whose frequency is modulated has its largest harmonic anywhere within the modulation. The
-// exponent that represents a motion is then the one into which that of the mean state goes over.
+// of the rotation contains, or searched for around these (modes_around_mean.hpp). The exponent that represents a motion
+// is then the one into which that of the mean state goes over. At a rate so slow that the limit of harmonics does not
+// contain the modulation of a frequency over a turn, a motion has no line of its own but a band, whose middle is the
+// frequency about the mean state: the modes are those of the mean equations there.
 #pragma once
 
 #include <memory>
@@ -23,28 +24,32 @@ class HarmonicSearch {
   /// @param mean  equations about the mean state of that motion; must outlive this object
   HarmonicSearch(const PeriodicEquations& equations, const std::vector<char>& turning, MatrixX shift = {},
                  const PeriodicEquations* mean = nullptr)
-      : equations_(equations), shapes_(equations, turning, std::move(shift)), mean_equations_(mean) {
+      : equations_(equations), shapes_(equations, turning, std::move(shift)) {
     if (mean) mean_ = std::make_unique<const HarmonicSearch>(*mean, turning);
   }
 
   /// Finds the modes with as many harmonics as they need, at least with the given number.
-  /// @throws ComputationError if they need too many
+  /// @throws ComputationError if they need too many and have no modes of mean equations in their place
   HarmonicModes find(const ModeOptions& options, int least = 1) const;
+
+  /// As `find`, about the periodic motion alone. @throws ComputationError if the modes need too many harmonics
+  HarmonicModes find_resolved(const ModeOptions& options) const;
 
  private:
   HarmonicModes find_with(const ModeOptions& options, int harmonics) const;
+  HarmonicModes find_freely(const ModeOptions& options, int least) const;
+  HarmonicModes find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const;
   std::optional<HarmonicModes> modes_of_mean(const ModeOptions& options) const;
-  std::optional<HarmonicModes> continue_mean(const HarmonicModes& mean, int harmonics) const;
+  std::optional<HarmonicModes> converged(HarmonicModes modes, int most) const;
+  int most_affordable() const;
   void finish_continued(const ModeOptions& options, HarmonicModes& modes) const;
   void add_shift(HarmonicModes& result) const;
   bool is_complete(const HarmonicModes& modes) const;
-  bool counts_shift_twice(const HarmonicModes& modes) const;
   bool is_phase(std::complex<double> s, const HarmonicSizes& sizes) const;
   bool take(Modes found, const ModeOptions& options, HarmonicModes& result) const;
 
   const PeriodicEquations& equations_;
   HarmonicShapes shapes_;
-  const PeriodicEquations* mean_equations_;
   std::unique_ptr<const HarmonicSearch> mean_;
 };
 

@@ -96,6 +96,25 @@ double HarmonicShapes::similarity(const Eigen::MatrixXcd& u, const Eigen::Matrix
   return sizes > 0 ? std::norm(product(u, other)) / sizes : 0;
 }
 
+VectorX HarmonicShapes::similarities(const Eigen::MatrixXcd& u, const Eigen::MatrixXcd& other) const {
+  const Eigen::VectorXcd weight = weights(std::abs(equations_.rate())).cast<std::complex<double>>();
+  const Eigen::Index count = u.cols(), h = count / 2;
+  const Eigen::MatrixXcd products = other.adjoint() * (weight.asDiagonal() * u);
+  const auto square = [&](const Eigen::MatrixXcd& a) {
+    return a.conjugate().cwiseProduct(weight.asDiagonal() * a).sum().real();
+  };
+  const double sizes = square(u) * square(other);
+  VectorX result = VectorX::Zero(count);
+  if (!(sizes > 0)) return result;
+  for (Eigen::Index k = -h; k <= h; ++k) {
+    std::complex<double> sum = 0;
+    for (Eigen::Index from = std::max<Eigen::Index>(0, -k); from < count - std::max<Eigen::Index>(0, k); ++from)
+      sum += products(from, from + k);
+    result[h + k] = std::norm(sum) / sizes;
+  }
+  return result;
+}
+
 bool HarmonicShapes::is_shift(const Eigen::MatrixXcd& u, std::complex<double> s) const {
   if (!any_shift()) return false;
   const auto h = static_cast<int>(u.cols() / 2);

@@ -48,6 +48,9 @@ class HarmonicShapes {
                 std::complex<double> of_other, double alike = 1 - 1e-6) const;
   /// Square of the cosine between two shapes with as many harmonics, 0..1.
   double similarity(const Eigen::MatrixXcd& u, const Eigen::MatrixXcd& other) const;
+  /// Squares of the cosines between a shape and the copies of another one that are moved by k harmonics, k = -h .. h:
+  /// a motion of which the copy k is a part has nearly the exponent of the other one less i k rate.
+  VectorX similarities(const Eigen::MatrixXcd& u, const Eigen::MatrixXcd& other) const;
   /// Whether a mode is the shift of the motion in time, or a copy of it. (A mode in resonance with the rotation has
   /// another shape.)
   bool is_shift(const Eigen::MatrixXcd& u, std::complex<double> s) const;

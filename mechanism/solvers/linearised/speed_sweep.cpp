@@ -30,14 +30,18 @@ bool together(double a, double b) {
   return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
 }
 
+/// Whether two modes change their order between two points.
+bool order_changed(const SweepPoint& a, const SweepPoint& b, std::size_t i, std::size_t j) {
+  if (!kept(b.tracks[i]) || !kept(b.tracks[j])) return false;
+  const double ai = rate_of(a.tracks[i]), aj = rate_of(a.tracks[j]), bi = rate_of(b.tracks[i]),
+               bj = rate_of(b.tracks[j]);
+  return !together(ai, aj) && !together(bi, bj) && (ai > aj) != (bi > bj);
+}
+
 bool order_changed(const SweepPoint& a, const SweepPoint& b) {
   for (std::size_t i = 0; i < a.tracks.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!kept(b.tracks[i]) || !kept(b.tracks[j])) continue;
-      const double ai = rate_of(a.tracks[i]), aj = rate_of(a.tracks[j]), bi = rate_of(b.tracks[i]),
-                   bj = rate_of(b.tracks[j]);
-      if (!together(ai, aj) && !together(bi, bj) && (ai > aj) != (bi > bj)) return true;
-    }
+    for (std::size_t j = 0; j < i; ++j)
+      if (order_changed(a, b, i, j)) return true;
   return false;
 }
 
@@ -46,14 +50,10 @@ bool order_changed(const SweepPoint& a, const SweepPoint& b) {
 bool order_changed_beyond_mixing(const SweepPoint& a, const SweepPoint& b, const LinearisedEquations::Sparse& M) {
   constexpr double related = 0.05;  // correlation of shapes of which one has a part of the other
   for (std::size_t i = 0; i < a.tracks.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      SweepPoint before, after;
-      before.tracks = {a.tracks[i], a.tracks[j]};
-      after.tracks = {b.tracks[i], b.tracks[j]};
-      if (order_changed(before, after) && shape_correlation(M, a.tracks[i].u, b.tracks[j].u) < related &&
+    for (std::size_t j = 0; j < i; ++j)
+      if (order_changed(a, b, i, j) && shape_correlation(M, a.tracks[i].u, b.tracks[j].u) < related &&
           shape_correlation(M, a.tracks[j].u, b.tracks[i].u) < related)
         return true;
-    }
   return false;
 }
 

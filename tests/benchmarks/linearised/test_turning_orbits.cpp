@@ -160,6 +160,7 @@ TEST_CASE("slow rotors under gravity have the modes of their nonlinear equations
     std::vector<Complex> of_mean = mean.exponents();
     REQUIRE(found.size() == 5);
     REQUIRE(of_mean.size() == 5);
+    CHECK(turning.report.turning->unresolved == 0);
     if (rate == 1) check_table(found, table, "slow_blades", rate, 3e-6);
     // The exponent that represents a motion is no copy of it, which differs by a multiple of the rate.
     for (const Complex s : found) {
@@ -170,6 +171,38 @@ TEST_CASE("slow rotors under gravity have the modes of their nonlinear equations
       of_mean.erase(nearest);
     }
   }
+}
+
+TEST_CASE("slow blades have the exponents that a search around a frequency finds among all copies", "[linearised]") {
+  // The search knows nothing of the mean state, and takes the copy with the largest harmonic.
+  const double rate = 0.3;
+  const Turning turning(blades(3, 60, springs, "rate: 0.3"), rate);
+  CHECK(turning.report.turning->harmonics > 8);
+  ModesOptions near = Turning::options(turning.model, rate, false, 1);
+  near.search.near = 2;
+  near.search.count = 3;
+  std::vector<Complex> left = turning.exponents();
+  for (const Mode& mode : compute_modes(turning.model.session, near).found.modes) {
+    const auto nearest = std::min_element(left.begin(), left.end(), [&](Complex a, Complex b) {
+      return distance(a, mode.s, rate) < distance(b, mode.s, rate);
+    });
+    CHECK(distance(*nearest, mode.s, rate) < 1e-5);
+    left.erase(nearest);
+  }
+  CHECK(left.size() == 2);
+}
+
+TEST_CASE("a rotor too slow for harmonics has the modes of its mean state", "[linearised]") {
+  const double rate = 0.01;
+  const std::string text = blades(3, 60, springs, fmt::format("rate: {}", rate));
+  const Turning turning(text, rate), mean(text, rate, true);
+  CHECK(turning.report.turning->unresolved > 0);
+  CHECK(turning.report.turning->orbit_harmonics > 0);
+  CHECK(mean.report.turning->unresolved == 0);
+  CHECK(count_rigid(turning.report) == 1);
+  const std::vector<Complex> found = turning.exponents(), expected = mean.exponents();
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) CHECK(std::abs(found[k] - expected[k]) < 1e-9);
 }
 
 TEST_CASE("modes of a slow rotor under gravity are followed from rest, and through it", "[linearised]") {

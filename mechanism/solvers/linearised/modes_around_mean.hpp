@@ -1,0 +1,18 @@
+// Modes about a periodic motion, searched for around the exponents of the mean equations.
+//
+// The slower the rotation, the closer together lie the copies of a motion, and the more harmonics a motion has whose
+// frequency is modulated over a turn. Its shape is then a sum of copies of modes of the mean equations. It represents
+// that mode of the mean of which it has most, with the copy in which the mean of the harmonics of this mode is nearest
+// to zero: its exponent is next to the mean of the modulated frequency.
+#pragma once
+
+#include "mechanism/solvers/linearised/harmonic_continuation.hpp"
+
+namespace bielle::mechanism {
+
+/// @param mean  modes of the mean equations, none of them rigid
+/// @returns for each of them one mode of the equations of the harmonics; nothing if one of them is not found
+std::optional<HarmonicModes> find_modes_around(const PeriodicEquations& equations, const HarmonicShapes& shapes,
+                                               const HarmonicModes& mean, int harmonics);
+
+}  // namespace bielle::mechanism
