@@ -86,9 +86,11 @@ bool is_inside(const SolidCells& cells, int cell, const Eigen::Matrix3Xd& corner
 std::optional<std::pair<int, int>> overlapping_cells(const SolidCells& cells, const std::vector<int>& piece_of) {
   constexpr std::size_t most = 1000;  // centroids looked up
   std::map<int, Eigen::AlignedBox3d> boxes;
-  for (int e = 0; e < cells.size(); ++e)
-    for (const auto& corner : cells.corner_points(e).colwise())
-      boxes[piece_of[static_cast<std::size_t>(e)]].extend(Eigen::Vector3d(corner));
+  for (int e = 0; e < cells.size(); ++e) {
+    const Eigen::Matrix3Xd corners = cells.corner_points(e);
+    Eigen::AlignedBox3d& box = boxes[piece_of[static_cast<std::size_t>(e)]];
+    for (Eigen::Index k = 0; k < corners.cols(); ++k) box.extend(corners.col(k));
+  }
   std::vector<std::pair<int, Eigen::Vector3d>> candidates;  // cells with their centroids in the box of another piece
   for (int e = 0; e < cells.size(); ++e) {
     const Eigen::Vector3d middle = centroid(cells, e);
