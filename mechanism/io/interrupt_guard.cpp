@@ -1,6 +1,9 @@
 #include "mechanism/io/interrupt_guard.hpp"
 
+#include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 #include <fmt/format.h>
 
@@ -9,15 +12,29 @@
 namespace bielle::mechanism {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+/// One interruption may arrive twice: `timeout` sends its signal to the program and to its group, and a terminal that
+/// is closed to both the shell and its programs.
+constexpr std::int64_t one_interruption = 500'000'000;  // [ns]
 
-/// A second interruption ends the program at once, as without a guard.
+volatile std::sig_atomic_t interrupted = 0;
+std::atomic<std::int64_t> first = 0;  // time of the first interruption [ns]
+static_assert(std::atomic<std::int64_t>::is_always_lock_free, "signal handlers may not wait");
+
+std::int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);  // may be called by signal handlers
+  return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
+}
+
+/// A later interruption ends the program at once, as without a guard.
 void note(int signal) {
-  if (interrupted) {
+  if (!interrupted) {
+    first = now();
+    interrupted = 1;
+  } else if (now() - first > one_interruption) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
-  interrupted = 1;
 }
 
 }  // namespace

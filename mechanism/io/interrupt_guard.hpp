@@ -6,8 +6,8 @@
 namespace bielle::mechanism {
 
 /// During the lifetime of this object, an interrupt (Ctrl-C), a termination request or the end of the terminal lets the
-/// current step finish; then the run stops. A second one ends the program at once: an analysis without steps (eigen,
-/// frequency_response) takes as long as it takes.
+/// current step finish; then the run stops. Another one, half a second later or more, ends the program at once: an
+/// analysis without steps (eigen, frequency_response) takes as long as it takes.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -231,7 +231,8 @@ class Streams(CommandTest):
             time.sleep(0.02)
         time.sleep(1)
         run.send_signal(signal.SIGINT)
-        time.sleep(0.3)
+        run.send_signal(signal.SIGINT)  # as `timeout` does: one interruption
+        time.sleep(1)
         self.assertIsNone(run.poll(), "the first one waits for the end of a step")
         run.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(timeout=60), -signal.SIGINT)

@@ -197,6 +197,45 @@ class EachType(CellConverter):
         box.points = [x * [1, 1, 0] for x in box.points]
         self.refuse("box.inp", box.abaqus(), "holds 3 hexahedra of no volume (the first: element 1, near ")
 
+    def test_thin_cells_are_measured_by_themselves(self):
+        # The first two cells of this wire of 100 m are 0.1 mm long: 2.5e-17 of the cube over its length, and far from flat.
+        box, thick = Box(across=1), 5e-4
+        ends = [0, 1e-4, 2e-4, 100]
+        box.points = [np.array([ends[round(3 * x / SIZE[0])], thick * y / SIZE[1], thick * z / SIZE[2]]) for x, y, z in box.points]
+        self.convert("box.inp", box.abaqus(), volume=100 * thick**2)
+
+    def test_arcs_that_bulge_beyond_the_wall_keep_their_nodes(self):
+        """A ring of C3D20 whose wall is thinner than its arcs are high: the middle of an arc is nearer to the chord of the other
+        face than to its own."""
+        around, radius, wall, height = 24, 1.0, 0.01, 0.1
+        numbers, points = {}, []
+
+        def node(i, j, k):
+            key = (i % (2 * around), j, k)
+            if key not in numbers:
+                angle, r = np.pi * key[0] / around, radius + wall * j / 2
+                points.append((r * np.cos(angle), r * np.sin(angle), height * k / 2))
+                numbers[key] = len(points)
+            return numbers[key]
+
+        text = ""
+        for cell in range(around):
+            level = [[(0, 0, k), (0, 2, k), (2, 2, k), (2, 0, k)] for k in (0, 2)]
+            edges = [[(0, 1, k), (1, 2, k), (2, 1, k), (1, 0, k)] for k in (0, 2)]
+            places = [*level[0], *level[1], *edges[0], *edges[1], (0, 0, 1), (0, 2, 1), (2, 2, 1), (2, 0, 1)]
+            nodes = [str(node(2 * cell + i, j, k)) for i, j, k in places]
+            text += f"{cell + 1}, {', '.join(nodes[:10])},\n{', '.join(nodes[10:])}\n"
+        head = "*NODE\n" + "".join(f"{n + 1}, {x:.17g}, {y:.17g}, {z:.17g}\n" for n, (x, y, z) in enumerate(points))
+        self.write("ring.inp", f"{head}*ELEMENT, TYPE=C3D20, ELSET=BODY\n{text}")
+        done = self.run_tool("ring.inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        mesh = GmshFile(self.path("out.msh"))
+        # Parabolas through three points of a circle bound its area within (pi/n)^4/20 or so.
+        exact = np.pi * ((radius + wall)**2 - radius**2) * height
+        self.assertAlmostEqual(sum(v.sum() for v in mesh.volumes.values()) / exact, 1, delta=1e-4)
+        self.assertEqual(sum(len(nodes) for nodes in mesh.cells.values()), around)
+        self.assertIn("mid-side nodes of 24 hexahedra lie nearer to another edge than to their own", done.stderr)
+
     def test_cells_keep_their_numbers(self):
         """bielle-reduce names cells by the numbers of the deck: gmsh's element numbers are theirs."""
         for numbers in ([7, 3, 2**31 - 2], [11, 11 + 10**6, 12]):

@@ -178,8 +178,21 @@ def _misplaced(points, cell, cells):
     return wrong
 
 
+def _beyond_arcs(points, cell, cells):
+    """(n) whether a node after the corners lies farther from the middle of its edge, or face, than on any arc of 150 degrees
+    over its corners."""
+    found = np.zeros(len(cells), bool)
+    for own, each in enumerate(cell.middles):
+        corners = points[cells[:, list(each)]]
+        middle = corners.mean(axis=1)
+        radius = np.linalg.norm(corners - middle[:, None, :], axis=2).max(axis=1)
+        found |= np.linalg.norm(points[cells[:, cell.corners + own]] - middle, axis=1) > 0.8 * radius
+    return found
+
+
 def _order_mid_nodes(points, kind, cells, labels, notes):
-    """VTK's order of the mid-side nodes, verified: each must lie nearer to the middle of its own edge than to others'."""
+    """VTK's order of the mid-side nodes, verified: each must lie nearer to the middle of its own edge than to others', unless its
+    edge is curved by more than the cell is thick."""
     cell = CELLS[kind]
     wrong = _misplaced(points, cell, cells)
     if wrong.mean() > 0.5:
@@ -190,10 +203,11 @@ def _order_mid_nodes(points, kind, cells, labels, notes):
                     which = "last two mid-side nodes of the tetrahedra" if kind == "tetra10" else f"mid-side nodes of the {cell.plural}"
                     notes.append(f"the {which} stand in {name}'s order, not the format's; read so")
                     return cells[:, columns]
-    if wrong.mean() > 0.01:
-        first = int(np.argmax(wrong))
+    lost = wrong & _beyond_arcs(points, cell, cells)
+    if lost.mean() > 0.01:
+        first = int(np.argmax(lost))
         told = f"element {labels[first]}" if labels[first] >= 0 else f"cell {first + 1} of its type"
-        raise InputError(f"mid-side nodes of {int(wrong.sum())} of {len(cells)} {cell.plural} do not lie on their edges "
+        raise InputError(f"mid-side nodes of {int(lost.sum())} of {len(cells)} {cell.plural} do not lie on their edges "
                          f"(the first is {told}, near {place(points[cells[first, 0]])}): "
                          "the node order is not that of the format")
     if wrong.any():
@@ -203,8 +217,8 @@ def _order_mid_nodes(points, kind, cells, labels, notes):
 
 def _orient(points, kind, cells, labels, notes):
     cell, volumes = CELLS[kind], six_volumes(points, kind, cells)
-    scale = np.ptp(points[np.unique(cells)], axis=0).max() ** 3
-    flat = np.abs(volumes) <= 1e-15 * scale
+    corners = points[cells[:, :cell.corners]]
+    flat = np.abs(volumes) <= 1e-15 * np.ptp(corners, axis=1).max(axis=1) ** 3
 
     def told(row):
         return f"element {labels[row]}, " if labels[row] >= 0 else ""
