@@ -114,9 +114,10 @@ bool HarmonicSearch::is_phase(std::complex<double> s, const HarmonicSizes& sizes
   constexpr double zero = 1e-7, most = 0.5;
   const double rate = equations_.rate(), k = std::round(s.imag() / rate);
   const VectorX all = sizes.standing + sizes.turning;
-  const double h = static_cast<double>(all.size() / 2);
-  return k != 0 && std::abs(k) <= h && std::abs(s - std::complex<double>(0, k * rate)) < zero * std::abs(rate) &&
-         all[static_cast<Eigen::Index>(h - k)] > most * all.sum();
+  const Eigen::Index h = all.size() / 2;
+  return k != 0 && std::abs(k) <= static_cast<double>(h) &&
+         std::abs(s - std::complex<double>(0, k * rate)) < zero * std::abs(rate) &&
+         all[h - static_cast<Eigen::Index>(k)] > most * all.sum();
 }
 
 /// Whether the modes are as many as the finite eigenvalues of the equations at one azimuth.

@@ -96,6 +96,7 @@ def solid_mesh(raw):
     cells = faces.all_cells()
     _tell_mixture(cells, notes)
     points, cells, numbers = _drop_unused(raw.points, cells, notes)
+    _tell_repeated_numbers([labels[kind] for kind in cells if kind in SOLIDS], notes)
     cells = {kind: block[:, permutation(kind, "vtk", "gmsh")] for kind, block in cells.items()}
     return SolidMesh(points, cells, surfaces, volumes, notes, numbers, surface_of, {kind: labels[kind] for kind in cells if kind in SOLIDS})
 
@@ -148,6 +149,16 @@ def _check_blocks(raw):
     if not any(kind in SOLIDS and len(block) for kind, block in raw.cells):
         what = _counts(raw, lambda kind: True) or "no cells at all"
         raise InputError(f"holds no tetrahedra, hexahedra, wedges or pyramids ({what}); Bielle reduces solids")
+
+
+def _tell_repeated_numbers(labels, notes):
+    """The numbers of elements are those of later messages, unless instances of parts repeat them."""
+    given = np.concatenate(labels) if labels else np.zeros(0, np.int64)
+    given = given[given > 0]
+    repeated = len(given) - len(np.unique(given))
+    if repeated:
+        notes.append(f"{counted(repeated, 'element')} {'has' if repeated == 1 else 'have'} the number of another one (of another instance): messages "
+                     "name elements by running numbers and their places")
 
 
 def _name(kind, row, labels):
