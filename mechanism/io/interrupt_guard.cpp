@@ -17,10 +17,10 @@ namespace {
 constexpr std::int64_t one_interruption = 500'000'000;  // [ns]
 
 volatile std::sig_atomic_t interrupted = 0;
-std::atomic<std::int64_t> first = 0;  // time of the first interruption [ns]
+std::atomic<std::int64_t> first_interruption = 0;  // time of the first interruption [ns]
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "signal handlers may not wait");
 
-std::int64_t now() {
+std::int64_t monotonic_time() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);  // may be called by signal handlers
   return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
@@ -29,9 +29,9 @@ std::int64_t now() {
 /// A later interruption ends the program at once, as without a guard.
 void note(int signal) {
   if (!interrupted) {
-    first = now();
+    first_interruption = monotonic_time();
     interrupted = 1;
-  } else if (now() - first > one_interruption) {
+  } else if (monotonic_time() - first_interruption > one_interruption) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
