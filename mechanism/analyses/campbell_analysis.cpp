@@ -162,8 +162,8 @@ std::string CampbellAnalysis::format(const Campbell& found) const {
                                             [](double a, double b) { return std::abs(a) < std::abs(b); });
       fastest != found.unresolved.end())
     text += fmt::format(
-        "  at {}, the fastest {:.6g} rad/s, no affordable number of harmonics resolves motions about the periodic "
-        "motion: modes there are those about the mean state\n",
+        "  at {}, the fastest {:.6g} rad/s, not all motions about the periodic motion were found: modes there are "
+        "those about the mean state\n",
         counted(found.unresolved.size(), "rate"), *fastest);
   if (!found.turning && found.steadiness && found.unsteady.empty() && found.axes == ModeAxes::turning)
     text += "  frequencies and senses of whirl are those seen from what turns\n";

@@ -164,8 +164,16 @@ void EigenAnalysis::solve(Session& session, AnalysisSummary& summary) const {
     session.write(ResultNames{"eigen/name", names});
     summary.text += format_table(report, parts, names);
   }
+  const auto moving =
+      std::count_if(modes.begin(), modes.end(), [](const Mode& mode) { return mode.kind != ModeKind::rigid; });
   if (report.found.all)
     summary.text += modes.empty() ? "  nothing can move\n" : "  these are all modes of the mechanism\n";
+  else if (report.harmonic && !options_.search.below && moving < options_.search.count)
+    summary.text += fmt::format(
+        "  warning: {} of the {} modes that were asked for were found: another motion resembles a copy of one of "
+        "these, whose frequency differs by a "
+        "multiple of the rate; `near: FREQUENCY` or another rate shows it\n",
+        moving, options_.search.count);
   summary.text += format_remarks(report);
 }
 

@@ -196,11 +196,11 @@ std::string format_vibration(const LinearisedSetting::Turning& turning) {
       "  gravity across the axis and unbalance shake the mechanism periodically: node '{}' moves up to {:.3g} m from "
       "its place in the mean state, nodes turn up to {:.3g} rad ({} harmonics); {}\n",
       turning.moved, turning.displacement, turning.rotation, turning.orbit_harmonics,
-      turning.unresolved == 0
-          ? "motions are about this periodic motion"
-          : fmt::format("{} harmonics do not resolve motions about it at this rate: modes are those about the mean "
-                        "state, around which frequencies change over a turn",
-                        turning.unresolved));
+      turning.unresolved == 0 ? "motions are about this periodic motion"
+                              : fmt::format("with up to {} harmonics not all motions about it were found: modes are "
+                                            "those about the mean state, around which "
+                                            "frequencies change over a turn",
+                                            turning.unresolved));
 }
 
 std::string format_turning(const LinearisedSetting::Turning& turning) {
@@ -222,8 +222,8 @@ std::string format_turning(const LinearisedSetting::Turning& turning) {
     default:
       return text + fmt::format(
                         "  the equations are periodic in any axes: Floquet exponents by {} harmonics of the rotation, "
-                        "further ones change them by {:.1g}; frequencies are those of the largest harmonic of "
-                        "what stands still\n",
+                        "further ones change them by {:.1g}; frequencies that differ by multiples of the rate "
+                        "belong to the same motion\n",
                         turning.harmonics, turning.change);
   }
 }

@@ -175,8 +175,35 @@ std::optional<HarmonicModes> HarmonicSearch::modes_of_mean(const ModeOptions& op
   return mean;
 }
 
+namespace {
+
+/// Makes the shapes of modes with one exponent orthogonal: iterations that begin at different shapes may end at nearly
+/// parallel ones of the space that belongs to it.
+/// @param weights  of the coefficients of u
+void separate_equal(const VectorX& weights, double rate, std::vector<HarmonicMode>& modes) {
+  constexpr double equal = 1e-9;  // relative difference of exponents
+  for (std::size_t k = 1; k < modes.size(); ++k)
+    for (int pass = 0; pass < 2; ++pass)  // the second one removes what rounding leaves of nearly parallel shapes
+      for (std::size_t j = 0; j < k; ++j) {
+        HarmonicMode& mode = modes[k];
+        const HarmonicMode& other = modes[j];
+        if (is_rigid(mode) || is_rigid(other)) continue;
+        const double size = std::max(std::abs(mode.mode.s), std::abs(rate));
+        if (std::abs(mode.mode.s - other.mode.s) > equal * size) continue;
+        const Eigen::VectorXcd weighted = weights.cwiseProduct(other.mode.u);
+        const std::complex<double> c = weighted.dot(mode.mode.u) / weighted.dot(other.mode.u).real();
+        mode.mode.u -= c * other.mode.u;
+        mode.mode.w -= c * other.mode.w;
+        mode.u -= c * other.u;
+        mode.w -= c * other.w;
+      }
+}
+
+}  // namespace
+
 /// Completes modes that were continued from those of the mean.
 void HarmonicSearch::finish_continued(const ModeOptions& options, HarmonicModes& modes) const {
+  separate_equal(shapes_.weights(equations_.rate(), modes.harmonics), equations_.rate(), modes.modes);
   judge_modes(modes, options);
   sort_by_rate(modes.modes);
   const auto slow = [&](const HarmonicMode& each) { return each.mode.frequency() <= *options.below; };

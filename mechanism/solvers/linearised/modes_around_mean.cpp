@@ -70,7 +70,7 @@ class SearchAround {
                        w = periodic_.amplitudes(mode.w, found_.harmonics);
       for (std::size_t j = 0; j < mean_.modes.size(); ++j) {
         constexpr double least = 0.1;
-        if (of_mean_[j] >= 0) continue;
+        if (of_mean_[j] >= 0 || !may_be(pair.s, mean_.modes[j].mode.s)) continue;
         const double share = share_of(u, mean_shapes_[j]);
         if (share > (j == k ? least : most)) candidates.push_back({j, motions.size(), share});
       }
@@ -87,6 +87,12 @@ class SearchAround {
       of_mean_[each.mean] = static_cast<int>(found_.modes.size());
       found_.modes.push_back(motion);
     }
+  }
+
+  /// Whether a motion decays about as a mode of the mean does: a slow and a fast decay may have one shape, and copies
+  /// differ in their frequency alone.
+  bool may_be(Complex s, Complex of_mean) const {
+    return std::abs(s.real() - of_mean.real()) <= 0.5 * std::abs(of_mean) + std::abs(periodic_.rate());
   }
 
   /// Returns the part that copies of a mode of the mean have in a motion; zero if the mean of their harmonics is
