@@ -179,7 +179,7 @@ namespace {
 
 /// Makes the shapes of modes with one exponent orthogonal: iterations that begin at different shapes may end at nearly
 /// parallel ones of the space that belongs to it.
-/// @param weights  of the coefficients of u
+/// @param weights  weight of each coefficient of u
 void separate_equal(const VectorX& weights, double rate, std::vector<HarmonicMode>& modes) {
   constexpr double equal = 1e-9;  // relative difference of exponents
   for (std::size_t k = 1; k < modes.size(); ++k)
