@@ -11,6 +11,7 @@ import numpy as np
 
 from ..messages import InputError
 from .cells import CELLS, SOLIDS
+from .solid_mesh import repeated_numbers
 
 LONGEST_NAME = 250  # bytes; gmsh cuts longer ones off
 
@@ -75,10 +76,8 @@ def _write(mesh, file):
 def _numbers(all_labels):
     """Numbers of the cells of each block: the labels of the file if they are positive and differ, so that messages name the
     cells by them; others follow them."""
-    given = np.concatenate(all_labels)
-    given = given[given > 0]
-    keep = len(np.unique(given)) == len(given)
-    last, result = int(given.max(initial=0)) if keep else 0, []
+    keep = repeated_numbers(all_labels) == 0
+    last, result = max((int(labels.max(initial=0)) for labels in all_labels), default=0) if keep else 0, []
     for labels in all_labels:
         numbers, new = labels.copy(), (labels <= 0) if keep else np.ones(len(labels), bool)
         numbers[new] = last + 1 + np.arange(new.sum())

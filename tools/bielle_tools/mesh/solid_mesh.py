@@ -151,11 +151,16 @@ def _check_blocks(raw):
         raise InputError(f"holds no tetrahedra, hexahedra, wedges or pyramids ({what}); Bielle reduces solids")
 
 
+def repeated_numbers(labels):
+    """How many elements have the number of another one. @param labels  the numbers of each block, not positive for none"""
+    given = np.concatenate([np.zeros(0, np.int64), *labels])
+    given = given[given > 0]
+    return len(given) - len(np.unique(given))
+
+
 def _tell_repeated_numbers(labels, notes):
     """The numbers of elements are those of later messages, unless instances of parts repeat them."""
-    given = np.concatenate(labels) if labels else np.zeros(0, np.int64)
-    given = given[given > 0]
-    repeated = len(given) - len(np.unique(given))
+    repeated = repeated_numbers(labels)
     if repeated:
         notes.append(f"{counted(repeated, 'element')} {'has' if repeated == 1 else 'have'} the number of another one (of another instance): messages "
                      "name elements by running numbers and their places")
