@@ -39,7 +39,7 @@ class Analysis {
   /// Sets the function that creates the model with another parameter, for analyses that sweep a parameter.
   virtual void set_maker(const ModelMaker& /*maker*/) {}
 
-  /// Returns the place that the analysis has reached, for messages: "t = 0.3 s", "load factor 0.5".
+  /// Returns the time or load factor that the analysis has reached, for messages: "t = 0.3 s", "load factor 0.5".
   virtual std::string place(const Session& session) const;
   virtual bool can_go_on() const { return false; }  ///< whether sinks receive checkpoints
   /// Nodes and coordinates that keep their values during the assembly, for `--check`.

@@ -29,12 +29,13 @@ struct BladeAmplitude {
   std::complex<double> amplitude;  ///< displacement along the axis, or along axis x radial [m]
 };
 
-/// Returns "collective", "forward", "backward", "reactionless", of two blades "differential"; empty if it is mixed.
+/// Returns "collective", "forward", "backward", or "reactionless" ("differential" for two blades); empty if the motion
+/// is mixed.
 /// @param axis          unit vector of the rotation, inertial
 /// @param out_of_plane  whether amplitudes are along the axis
 /// @param has_sense     whether forward and backward are those that an observer at rest sees; otherwise "asymmetric"
-/// @param standing      at rest: columns along the axis, to the side, up. The motion of the hub is told then: "tilt",
-/// "yaw", "horizontal", "vertical"
+/// @param standing      for a rotor at rest: columns along the axis, to the side, up. The pattern is then the motion of
+/// the hub: "tilt", "yaw", "horizontal", "vertical"
 std::string blade_pattern(const std::vector<BladeAmplitude>& blades, const Vector3& axis, bool out_of_plane,
                           bool has_sense, const std::optional<Matrix3>& standing);
 

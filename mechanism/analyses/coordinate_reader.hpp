@@ -26,7 +26,7 @@ AssemblyOptions::Coordinate read_coordinate_map(const YamlValue& item, const Mod
 /// Returns the joint of a word "joint.coordinate", or nullptr.
 const Component* joint_before_dot(const std::string& word, const Model& model);
 
-/// Reads `hold: [shaft, crank.angle]`: all coordinates of a joint, or one. @throws InputError for a word that is no
+/// Reads `hold: [shaft, crank.angle]`: all coordinates of a joint, or one. @throws InputError for a word that names no
 /// coordinate, or occurs twice
 std::vector<AssemblyOptions::Coordinate> read_held_coordinates(const YamlValue& hold, const Model& model);
 

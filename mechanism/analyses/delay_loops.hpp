@@ -1,4 +1,4 @@
-// Delays in small motions exp(s t): the value x(t - T) is exp(-s T) x.
+// Delays in small motions exp(s t): the delayed value x(t - T) is exp(-s T) x.
 //
 // The equations of small motions are those without delays, where the delayed values d are x + e, with further inputs e
 // and further outputs x. With the responses of these equations,
@@ -26,7 +26,7 @@ class DelayLoops {
   FrequencyResponseOptions opened(FrequencyResponseOptions options) const;
   /// Returns the response with delays.
   /// @param H  response to all inputs of the opened options (outputs, inputs) @param s  exponent of the motion [1/s]
-  /// @returns  an empty matrix if there is none: the mechanism moves so without any force
+  /// @returns  an empty matrix if no response exists, because exp(s t) is a motion of the free mechanism
   Eigen::MatrixXcd closed(const Eigen::MatrixXcd& H, std::complex<double> s) const;
 
  private:

@@ -15,10 +15,10 @@ namespace bielle::mechanism {
 
 class DelayedMeasure;
 
-/// A force or moment on a node along an inertial direction, the number of an input of the model, or an addition to a
+/// A force or moment on a node along an inertial direction, an input of the model by its number, or an addition to a
 /// delayed value.
 struct ResponseInput {
-  std::string name;  ///< name of the model's input; otherwise as it is recorded: "force x at node 'tip'"
+  std::string name;  ///< name of the model's input; of another input the name in the results: "force x at node 'tip'"
   int node = -1;     ///< node index; -1: an input of the model, or `delay`
   bool moment = false;
   Vector3 direction = Vector3::Zero();    ///< unit vector
@@ -31,7 +31,7 @@ struct ResponseOutput {
   int node = -1;  ///< node index; -1: a measure
   bool rotation = false;
   Vector3 direction = Vector3::Zero();
-  const Measure* measure = nullptr;  ///< the measure, if not the one with the name
+  const Measure* measure = nullptr;  ///< measure; nullptr: the measure with the name
 };
 
 struct FrequencyResponseOptions {
@@ -39,7 +39,9 @@ struct FrequencyResponseOptions {
   std::vector<ResponseOutput> outputs;
   std::vector<double> frequencies;  ///< [Hz] >= 0
   std::optional<SteadyRotation> rotation = {};
-  int modes = 0;  ///< number of slowest modes superposed, with the residual of the others; 0: one factorisation each
+  /// Number of slowest modes that are superposed, plus the residual of the other modes; 0: a direct solution at each
+  /// frequency.
+  int modes = 0;
 };
 
 /// Properties and error of a sum over modes.
@@ -52,15 +54,15 @@ struct ModalAccuracy {
 };
 
 struct FrequencyResponse : LinearisedSetting {
-  /// For each frequency (outputs, inputs): the output's complex amplitude per unit of the input, both as Re(x exp(i w
-  /// t)).
+  /// For each frequency (outputs, inputs): complex amplitude of the output per unit of the input, where an amplitude x
+  /// means Re(x exp(i w t)).
   std::vector<Eigen::MatrixXcd> response;
   std::vector<std::string> output_units;
   std::optional<ModalAccuracy> modal;  ///< set for a sum over modes
 };
 
-/// The present state of the session is kept. @throws InputError for names that the model does not have;
-/// ComputationError at a frequency of an undamped mode
+/// Computes the response; the present state of the session is not changed. @throws InputError for names that the model
+/// does not have; ComputationError at a frequency of an undamped mode
 FrequencyResponse compute_frequency_response(Session& session, const FrequencyResponseOptions& options);
 
 }  // namespace bielle::mechanism

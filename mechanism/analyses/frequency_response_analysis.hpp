@@ -6,8 +6,8 @@
 
 namespace bielle::mechanism {
 
-/// Its summary has the numbers "peak" (for each output to each input, outputs first) and "peak_frequency" [Hz], and for
-/// a sum over modes "deviation".
+/// Its summary has the numbers "peak" (for each output and input; all inputs of the first output come first) and
+/// "peak_frequency" [Hz], and for a sum over modes "deviation".
 class FrequencyResponseAnalysis : public Analysis {
  public:
   explicit FrequencyResponseAnalysis(FrequencyResponseOptions options)

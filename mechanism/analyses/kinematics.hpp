@@ -22,12 +22,12 @@ struct KinematicsReport {
   StartReport start;
   long points = 0;
   long events = 0;                       ///< number of events
-  std::string last_event;                ///< name of the last event; empty: there was none
+  std::string last_event;                ///< name of the last event; empty: no event occurred
   bool stopped_by_event = false;         ///< an event stopped the analysis before the end of the duration
   Energy energy;                         ///< stored energies at the end; input and dissipation since the start [J]
   double balance = 0;                    ///< missing energy in the energy balance [J]
   bool elastic = false;                  ///< whether something deforms
-  double left_out = 0;                   ///< omitted part at the end, see QuasiStaticMotion::left_out
+  double left_out = 0;                   ///< omitted inertia part at the end, see QuasiStaticMotion::left_out
   std::vector<std::string> indifferent;  ///< coordinates without drive or load, which stay at rest
 };
 

@@ -33,7 +33,7 @@ class LinearResponse {
   LinearMotion motion(Complex s, const Eigen::VectorXcd& solution) const;
   /// Returns the variations of outputs due to a motion.
   virtual Eigen::VectorXcd values(const std::vector<ResponseOutput>& outputs, const LinearMotion& motion) const = 0;
-  /// Returns the derivative of an output by an input of the model that it contains directly.
+  /// Returns the derivative of an output by an input of the model that appears in it directly.
   virtual double direct(const ResponseOutput& output, const ResponseInput& input) const = 0;
   virtual std::string units(const ResponseOutput& output) const = 0;
   /// Returns the response (outputs, inputs) at the shift, with the outputs' direct dependence on inputs.
@@ -45,7 +45,7 @@ class LinearResponse {
   virtual VectorX right_side(const ResponseInput& input) const = 0;
 };
 
-/// @throws InputError naming the nearest name
+/// Checks that the model has the inputs and outputs. @throws InputError naming the nearest name
 void check_response_names(const Model& model, const std::vector<ResponseInput>& inputs,
                           const std::vector<ResponseOutput>& outputs);
 

@@ -29,11 +29,12 @@ struct LinearisedSetting {
     double displacement = 0, rotation = 0;
     std::string moved = {};
     int orbit_harmonics = 0;
-    /// Number of harmonics that do not resolve the motions about this vibration (HarmonicModes::unresolved).
+    /// Number of harmonics that did not suffice to resolve the motions about this vibration
+    /// (HarmonicModes::unresolved).
     int unresolved = 0;
   };
   std::optional<Turning> turning;
-  /// Delays that are taken as none (describe_delays).
+  /// Delays that are neglected, i.e. taken as zero (describe_delays).
   std::vector<std::string> delays;
 };
 

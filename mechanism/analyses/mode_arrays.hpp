@@ -1,4 +1,4 @@
-// Modes as results: arrays for the sinks, and energies by part.
+// Modes as results: arrays for the sinks, and energies of the parts of the model.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Parts by which modes are named: entries of the model with inertia, those whose names differ by numbers alone
-// together.
+// Parts by which modes are named. A part is an entry of the model with inertia; entries whose names differ in numbers
+// only form one part.
 #pragma once
 
 #include <string>
@@ -11,15 +11,17 @@ namespace bielle::mechanism {
 
 /// Entries with a common name.
 struct ModeGroup {
-  std::string name;                     ///< "tower"; of several entries without their numbers: "blade"
+  std::string name;                     ///< "tower"; for several entries the name without numbers: "blade"
   std::vector<std::vector<int>> nodes;  ///< nodes of each entry, in the order of its members
   bool flexible = false;                ///< whether an entry can deform
-  VectorX kinetic, turning;             ///< kinetic energy in each mode, and its part by rotations of nodes [J]
-  VectorX energy;                       ///< sum of kinetic and |potential| energy in each mode [J]
-  VectorX deformation;                  ///< energy of deformation in each mode [J]
-  VectorX extension, torsion;           ///< of slender members, in each mode [J]
-  VectorX bending_y, bending_z;         ///< about the axes of the section
-  VectorX flap, edge;                   ///< about the softer and the stiffer axis of the section, where they differ
+  /// Kinetic energy in each mode, and the part of it due to rotations of nodes [J].
+  VectorX kinetic, turning;
+  VectorX energy;                ///< sum of kinetic and |potential| energy in each mode [J]
+  VectorX deformation;           ///< energy of deformation in each mode [J]
+  VectorX extension, torsion;    ///< elastic energy of slender members in each mode [J]
+  VectorX bending_y, bending_z;  ///< about the axes of the section
+  /// Energy of bending about the softer and the stiffer axis of the section, if these differ [J].
+  VectorX flap, edge;
 };
 
 /// Returns the groups with kinetic energy in some mode.
@@ -28,7 +30,7 @@ std::vector<ModeGroup> mode_groups(const System& system, const ModesReport& repo
 /// Returns a name with a star in place of each number: "blade_*.blade".
 std::string with_stars(const std::string& name);
 
-/// Returns a name with stars without them, and without words that repeat: "blade". If nothing is left, it is the name.
+/// Removes the stars and repeated words from a name: "blade". If nothing is left, it returns the name itself.
 std::string short_name(const std::string& starred);
 
 }  // namespace bielle::mechanism

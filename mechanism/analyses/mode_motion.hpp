@@ -9,13 +9,13 @@
 
 namespace bielle::mechanism {
 
-/// Share of a motion from which on a word describes it; motions that are more mixed have none.
+/// Smallest share of a motion that is named by a word; a more mixed motion has no word.
 inline constexpr double mode_share = 0.6;
 
 struct ModeMotion {
   std::string family;   ///< "bending"; may be empty
-  std::string motion;   ///< the family with its direction, "bending about y", "fore-aft"; may be empty
-  std::string pattern;  ///< of blades against each other, or the sense of whirl: "collective"; may be empty
+  std::string motion;   ///< family of the motion with its direction, "bending about y", "fore-aft"; may be empty
+  std::string pattern;  ///< pattern of the blades among themselves, or sense of whirl: "collective"; may be empty
   int copies = 1;       ///< number of blades that have patterns
 };
 
@@ -28,7 +28,7 @@ class MotionWords {
  private:
   struct Amplitudes;  ///< motions of the nodes in the mode
   bool turns(const ModeGroup& group) const;
-  /// Returns two or more turning entries of one kind around the axis; nothing if it is none of these.
+  /// Returns the blades if the group is two or more turning entries of one kind around the axis, otherwise nothing.
   std::vector<Blade> blades_of(const ModeGroup& group) const;
   std::optional<Matrix3> standing_axes(const ModeGroup& group) const;
   ModeMotion deformation(const ModeGroup& group, const Amplitudes& amplitudes) const;
@@ -40,8 +40,9 @@ class MotionWords {
   const System& system_;
   const ModesReport& report_;
   const State& state_;
-  Vector3 axis_ = Vector3::Zero();  ///< unit vector of the rotation in its sense; zero without one
-  bool whirls_ = false;             ///< whether senses of whirl are those that an observer at rest sees
+  /// Unit vector of the rotation in the sense of the rotation; zero if nothing rotates.
+  Vector3 axis_ = Vector3::Zero();
+  bool whirls_ = false;  ///< whether senses of whirl are those that an observer at rest sees
 };
 
 }  // namespace bielle::mechanism

@@ -6,7 +6,7 @@
 
 namespace bielle::mechanism {
 
-/// Returns the key `newton` of a static analysis, and of a dynamic one, which has `tangent` as well.
+/// Return the key `newton` of a static analysis, and that of a dynamic one, which also has `tangent`.
 Key newton_key();
 Key dynamic_newton_key();
 

@@ -1,5 +1,5 @@
-// The equations of small motions about the present state of a session, with inputs and outputs, in rest, in motion or
-// in a steady rotation.
+// The equations of small motions about the present state of a session, with inputs and outputs, at rest, in motion or
+// in steady rotation.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,7 @@ namespace bielle::mechanism {
 
 /// Returns the key `rotation` of an analysis.
 Key rotation_key();
-/// Returns the key `joint` of a rotation: the joint behind which a part turns.
+/// Returns the key `joint` of a rotation: the joint that drives the turning part.
 Key turning_joint_key();
 /// Returns the key `state` of such a rotation: `periodic` or `mean`.
 Key turning_state_key();

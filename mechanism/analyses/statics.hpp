@@ -12,8 +12,9 @@
 namespace bielle::mechanism {
 
 struct StaticsOptions {
-  int steps = 1;                            ///< number of equal increments of the load factor; 0: chosen automatically
-  double branch = 0;                        ///< follows branches of load steps, see LoadSteps
+  int steps = 1;  ///< number of equal increments of the load factor; 0: chosen automatically
+  /// Deflection by which load steps follow a branch, see LoadSteps; 0: they do not.
+  double branch = 0;
   std::optional<ContinuationOptions> path;  ///< if set, follows a path past limit points instead of load steps
   NewtonOptions newton;
 };
@@ -28,7 +29,7 @@ struct StaticsReport {
 };
 
 /// Finds the equilibrium under the whole load, or along a path. The state is at rest afterwards.
-/// @throws ComputationError if there is none nearby; the state is then the last equilibrium
+/// @throws ComputationError if there is no equilibrium nearby; the state is then the last equilibrium found
 StaticsReport compute_statics(Session& session, const StaticsOptions& options = {});
 
 }  // namespace bielle::mechanism

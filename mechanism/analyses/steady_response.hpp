@@ -1,4 +1,4 @@
-// Inputs and outputs of equations with constant coefficients, from the state about which they are linearised.
+// Inputs and outputs of equations with constant coefficients, evaluated at the state of the linearisation.
 #pragma once
 
 #include "mechanism/analyses/linear_response.hpp"

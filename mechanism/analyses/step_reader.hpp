@@ -7,7 +7,7 @@
 
 namespace bielle::mechanism {
 
-/// Rejects a step longer than the duration, and too many steps. @param step  [s] > 0
+/// Rejects a step that is longer than the duration, or results in too many steps. @param step  [s] > 0
 /// @param key  key of the entry that the step was read from
 void check_step(const YamlValue& entry, const std::string& key, double step, double duration);
 

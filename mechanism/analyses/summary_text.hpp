@@ -13,9 +13,9 @@ namespace bielle::mechanism {
 
 /// Describes the changes made by the start; empty if there are none.
 std::string format_start(const StartReport& start);
-/// Says that an unknown without support or load keeps its initial value.
+/// Returns the note that an unknown without support or load keeps its initial value.
 std::string format_loose(const std::string& unknown);
-/// Describes the degrees of freedom, constraints that are redundant or nearly so, and joints with undetermined
+/// Describes the degrees of freedom, redundant and nearly redundant constraints, and joints with undetermined
 /// reactions.
 std::string format_mobility(const Session& session);
 /// Returns "the reactions of joints 'a', 'b' and the force of drive 'c' are not unique: the smallest are reported";

@@ -1,4 +1,4 @@
-// The linearised equations about a steady rotation behind a joint, as analyses of small motions use them.
+// The linearised equations about a steady rotation behind a joint, in the form for analyses of small motions.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 namespace bielle::mechanism {
 
 struct TurningEquations {
-  /// @param about  state in this rotation @throws ComputationError if it is not steady
+  /// @param about  state in this rotation @throws ComputationError if the rotation is not steady
   TurningEquations(const System& system, const StandingState& about, const SteadyRotation& rotation);
 
   /// Returns the mechanism at equidistant azimuths of a turn, along the periodic motion if there is one.
@@ -30,9 +30,9 @@ struct TurningEquations {
   /// part at its present azimuth.
   bool negligible;
   /// Vibrations about the mean state by gravity across the axis and unbalance; empty if there are none, or if the
-  /// equations are those about the mean state.
+  /// equations are requested about the mean state.
   std::optional<PeriodicOrbit> orbit;
-  PeriodicEquations periodic;  ///< at a negligible rate those of the present azimuth alone
+  PeriodicEquations periodic;  ///< equations of the harmonics; at a negligible rate those of the present azimuth alone
   /// The equations about the mean state, if there is a periodic motion.
   std::optional<PeriodicEquations> mean_periodic;
   std::vector<char> turning;  ///< for each unknown, whether it belongs to the part

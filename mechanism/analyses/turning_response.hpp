@@ -1,11 +1,11 @@
-// Inputs and outputs of a mechanism of which a part turns, for the equations of its harmonics
+// Inputs and outputs of a mechanism with a turning part, for the equations of its harmonics
 // (solvers/linearised/harmonic_equations.hpp).
 //
 // An input exp(s t) acts at each azimuth psi by its own derivatives of the residual, r(psi); the equations of the
 // harmonics have its means with the functions e_p. An output is the mean over a turn of its variation: the part that
-// has the frequency of the input. Parts with s + i k rate, k = +-1, +-2, .., by which inputs and outputs on the turning
-// part, and unequal blades, modulate the motion, are left out. (N. M. Wereley, S. R. Hall, Proc. 29th IEEE Conf.
-// Decision and Control (1990) 3650: the harmonic transfer function of order 0.)
+// has the frequency of the input. Inputs and outputs on the turning part, and unequal blades, also modulate the motion
+// with the exponents s + i k rate, k = +-1, +-2, ..; these parts are omitted. (N. M. Wereley, S. R. Hall, Proc. 29th
+// IEEE Conf. Decision and Control (1990) 3650: the harmonic transfer function of order 0.)
 #pragma once
 
 #include "mechanism/analyses/steady_response.hpp"
@@ -16,8 +16,8 @@ namespace bielle::mechanism {
 
 class TurningResponse final : public LinearResponse {
  public:
-  /// @param about  mean state in the steady rotation @param harmonics  h
-  /// All arguments but the last must outlive this object.
+  /// @param about  mean state in the steady rotation @param harmonics  h. All arguments but the last must outlive this
+  /// object.
   TurningResponse(const System& system, const StandingState& about, const TurningEquations& turning,
                   const LinearisedEquations& equations, int harmonics);
 

@@ -10,9 +10,9 @@
 // A shape that is thinner than its displacement in a step might pass through another shape undetected. A trial state in
 // which this happens, along the straight line from the position at the step's start, is rejected: the step is
 // shortened. A trial state is also rejected if shapes that touch at either end of the step move by more than half their
-// thickness. A penetration deeper than the skins of both shapes does not determine the outward direction any more, nor
-// does a shape that has passed the middle of the other: the run then ends; it also ends if the middle of a shape has
-// passed a plane.
+// thickness. The outward direction is undetermined if the penetration is deeper than the skins of both shapes, or if a
+// shape has passed the middle of the other: the run then ends. It also ends if the middle of a shape has passed a
+// plane.
 //
 // Memory: [time and middles of the shapes at the last accepted step | with a restitution: damping of each pair, -1
 // while apart | with bristles: x and R of the nodes; the number of bristles, and pair,
@@ -39,8 +39,8 @@ class Contact final : public Component, public CoupledPairs, public OpenContact 
   /// @param pairs  numbers of the shapes that may touch, the smaller first
   Contact(std::string name, std::vector<ContactShape> shapes, std::vector<std::pair<int, int>> pairs, SurfaceLaw law);
 
-  /// Finds the pair with the deepest initial penetration: returns a clause and the depth relative to the size; empty if
-  /// there is none.
+  /// Finds the pair with the deepest initial penetration. Returns a clause for the message, empty if nothing
+  /// penetrates, and the depth relative to the size.
   /// @throws InputError if the direction of the penetration is undetermined
   std::pair<std::string, double> drawn_into_each_other(const Model& model) const;
   void set_remark(std::string remark) { remark_ = std::move(remark); }
@@ -100,8 +100,8 @@ class Contact final : public Component, public CoupledPairs, public OpenContact 
   PairForce::Nearest nearest(const LocalState& state, int pair) const;
   double damping(const LocalState& state, int pair) const;
   bool has_bristles() const { return law_.friction && law_.friction->model == FrictionLaw::Model::lugre; }
-  /// Returns the law of the surfaces; in statics the one without friction: there is no sliding, and bristles keep their
-  /// values.
+  /// Returns the law of the surfaces; in statics the law without friction, because nothing slides and bristles keep
+  /// their values.
   const SurfaceLaw& law_of(const LocalState& state) const { return state.environment().statics ? frictionless_ : law_; }
   /// Returns the bristles of a pair at the last accepted step. The reference is valid until the next call in the same
   /// thread.
@@ -125,7 +125,7 @@ class Contact final : public Component, public CoupledPairs, public OpenContact 
   /// Nearest places with the second shape of the pair moved back by `way`.
   PairForce::Nearest nearest_before(const LocalState& state, int pair, const Vector3& way) const;
   [[noreturn]] void fail_passage(const LocalState& state, int pair, const Vector3& way) const;
-  bool has_surface(int a, int b) const;  ///< whether one of them is a triangulated surface and the other no plane
+  bool has_surface(int a, int b) const;  ///< whether one shape is a triangulated surface and the other is not a plane
   double passage(int a, int b) const;    ///< twice the distance that a pair may move in a step without a check [m]
   double height_of_middle(const LocalState& state, int plane, int other) const;
   std::string shape_name(int k) const;

@@ -10,7 +10,7 @@
 
 namespace bielle::mechanism {
 
-/// "floor.gap": its gradient is that of the pair and the place with the smallest gap.
+/// "floor.gap", the smallest gap; its gradient is that of the pair and the place with this gap.
 class GapMeasure final : public Measure {
  public:
   GapMeasure(std::string name, const Contact& contact) : Measure(std::move(name)), contact_(contact) {}

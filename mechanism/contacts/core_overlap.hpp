@@ -21,12 +21,13 @@ struct CoreOverlap {
   Vector3 place;   ///< a point within both, or nearly so
 };
 
-/// Returns nothing if the cores are apart, or are not both of boxes and capsules.
+/// Returns the overlap of two cores; nothing if they are apart, or if one of them is neither a box nor a capsule.
 std::optional<CoreOverlap> overlap_of_cores(const PlacedShape<double>& first, const PlacedShape<double>& second);
 
 /// Finds the point of an edge from a to b that is nearest to a core, or deepest within it: its distance is a convex
 /// function along the edge, and ternary search is used.
-/// @param skin  skin around the edge [m] @param edge_on_second  the core belongs to the first shape
+/// @param skin  skin around the edge [m] @param edge_on_second  whether the edge is on the second shape and the core
+/// belongs to the first
 Touch<double> deepest_of_edge(const Triple<double>& a, const Triple<double>& b, double skin,
                               const PlacedShape<double>& core, bool edge_on_second);
 

@@ -85,7 +85,7 @@ class OnSurface {
       const Vector3 way = from[disc ? k : 0] - place.foot;
       const bool behind = place.normal.dot(way) < 0;
       if (place.kind == Place::Kind::face) {
-        // A corner that has passed through completely is on the other side.
+        // A corner at this distance behind the surface has passed through it completely.
         if (behind && way.norm() > skin) continue;
         act(pair_.corner_on(side_, corner, PlaneTarget<T>{point_of(surface(), place.foot), turned(place.normal)}, 0));
       } else if (behind) {

@@ -38,17 +38,20 @@ namespace bielle::mechanism {
 struct SurfaceLaw {
   NormalLaw normal;
   std::optional<FrictionLaw> friction;
-  std::optional<FrictionLaw> rolling;  ///< `coulomb` with the arm b [m] as coefficient, w_0 [rad/s] as velocity
+  /// Law `coulomb` with the arm b [m] in place of the coefficient, and w_0 [rad/s] in place of the velocity.
+  std::optional<FrictionLaw> rolling;
 };
 
 /// The bristle of a place of contact at the end of the last accepted step.
 struct Bristle {
-  int id = 0;                       ///< Touch::id
-  Vector3 z = Vector3::Zero();      ///< deflection in the axes of the first node [m]
-  Vector3 place = Vector3::Zero();  ///< place in the axes of the surface's node; without a surface, of the first node
+  int id = 0;                   ///< Touch::id
+  Vector3 z = Vector3::Zero();  ///< deflection in the axes of the first node [m]
+  /// Place in the axes of the surface's node; without a surface, in those of the first node.
+  Vector3 place = Vector3::Zero();
 };
 
-/// The bristles of a pair at the last accepted step, and the position of the second node then, seen from the first.
+/// The bristles of a pair at the last accepted step, and the position of the second node at that time, seen from the
+/// first.
 struct Bristles {
   bool known = false;  ///< whether there was an accepted step
   Vector3 s = Vector3::Zero();

@@ -1,7 +1,7 @@
 // A pair of shapes, compared by features: corners of one with the other as a whole, edges with each other.
 //
 // A corner is a point, or the end of a cylinder (disc_distance.hpp). The edge of a cylinder is its axis, with its
-// radius as the skin: it represents its side where that crosses another edge.
+// radius as the skin: it represents the side of the cylinder at a crossing with another edge.
 #pragma once
 
 #include <limits>
@@ -82,7 +82,7 @@ class PairOfShapes {
     return touch_of(target.from(point), shapes_[side]->skin(), core_skin, side == 1);
   }
 
-  /// Touch of a corner with the other shape as a whole, which is no surface.
+  /// Touch of a corner with the other shape as a whole, which is not a surface.
   Touch<T> corner_on_other(std::size_t side, std::size_t k) const {
     return corner_on(side, k, CoreTarget<T>{*placed_[1 - side]}, shapes_[1 - side]->skin());
   }
@@ -95,7 +95,7 @@ class PairOfShapes {
     return corner_on(side, corner, SegmentTarget<T>{ends[0], ends[1]}, shapes_[1 - side]->skin());
   }
 
-  /// Returns whether an end of a cylinder may touch the other shape, which is no surface.
+  /// Returns whether an end of a cylinder may touch the other shape, which is not a surface.
   bool may_touch(std::size_t side, std::size_t k) const {
     const ContactShape &of = *shapes_[side], &other = *shapes_[1 - side];
     if (of.kind != ContactShape::Kind::cylinder) return true;
@@ -108,7 +108,7 @@ class PairOfShapes {
   void for_each_corner(const Act& act, Among which) const {
     for (const std::size_t side : {0UL, 1UL}) {
       const ContactShape &of = *shapes_[side], &other = *shapes_[1 - side];
-      // For a sphere only its middle is compared, not the corners of the other shape.
+      // A sphere is compared by its middle only; the corners of the other shape are not compared with it.
       if (other.kind == ContactShape::Kind::sphere && (of.kind != ContactShape::Kind::sphere || side == 1)) continue;
       for (std::size_t k = 0; k < of.corners().size(); ++k)
         if (which == Among::all || may_touch(side, k)) act(corner_on_other(side, k), side, k);

@@ -32,9 +32,11 @@ struct Touch {
   T depth{};         ///< penetration p [m]
   Triple<T> normal;  ///< unit vector from the first shape to the second
   Triple<T> place;   ///< halfway between the two surfaces
-  T force{};         ///< elastic force on the second along the normal [N]; may be negative if edges share with corners
-  T load{};          ///< normal force that scales damping and friction, >= 0 [N]
-  int id = 0;  ///< same in all steps: number of the corner or crossing; a corner may touch a surface several times
+  /// Elastic force on the second along the normal [N]; may be negative if an edge and its corners share the force.
+  T force{};
+  T load{};  ///< normal force that scales damping and friction, >= 0 [N]
+  /// Number of the corner or crossing, the same in all steps; several touches of a corner on a surface share it.
+  int id = 0;
 };
 
 template <class T>
@@ -49,7 +51,7 @@ template <class T>
 void find_touches(const PlacedShape<T>& first, const PlacedShape<T>& second, const NormalLaw& law,
                   PairTouches<T>& result);
 
-/// Finds the smallest gap of the two, with its place and normal (depth = -gap); forces are not computed.
+/// Finds the smallest gap of two shapes, with its place and normal (depth = -gap); it does not compute forces.
 Touch<double> find_nearest_place(const PlacedShape<double>& first, const PlacedShape<double>& second);
 
 }  // namespace bielle::mechanism

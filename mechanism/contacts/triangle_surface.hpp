@@ -24,10 +24,11 @@ class TriangleSurface {
 
   const std::vector<Vector3>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  double reach() const { return reach_; }               ///< distance of the farthest point from the origin [m]
-  double size() const { return size_; }                 ///< diagonal of the bounding box [m]
-  const Vector3& middle() const { return middle_; }     ///< middle of the bounding box [m]
-  int open_edges() const { return open_edges_; }        ///< edges of one triangle: the surface ends there
+  double reach() const { return reach_; }            ///< distance of the farthest point from the origin [m]
+  double size() const { return size_; }              ///< diagonal of the bounding box [m]
+  const Vector3& middle() const { return middle_; }  ///< middle of the bounding box [m]
+  /// Number of edges that belong to one triangle only, at which the surface ends.
+  int open_edges() const { return open_edges_; }
   int flipped_edges() const { return flipped_edges_; }  ///< edges between opposite orientations
 
   /// A nearest place to a point: inside of a triangle, on an edge, or at a corner.
@@ -35,15 +36,16 @@ class TriangleSurface {
     enum class Kind { face, edge, corner } kind;
     Vector3 foot;
     /// Outward normal. For an edge it is the sum of its faces' normals; for a corner the sum of those of its faces
-    /// weighted by their angles there: a point is outside if it is on that side (J. A. Baerentzen, H. Aanaes, IEEE
-    /// Trans. Visualization and Computer Graphics 11 (2005) 243-253), however sharp they are.
+    /// weighted by their angles there: a point is outside if it is on the side of this normal (J. A. Baerentzen, H.
+    /// Aanaes, IEEE Trans. Visualization and Computer Graphics 11 (2005) 243-253), for edges and corners of any
+    /// sharpness.
     Vector3 normal;
     Vector3 from, to;  ///< ends of the edge; `from` is the corner
   };
   /// Adds the places that are nearer than `radius` to a point, on both sides of a face.
   void find_nearest(const Vector3& point, double radius, std::vector<Place>& places) const;
 
-  /// Convex features of the surface, which may touch flat parts: see surface_ridges.cpp.
+  /// Convex edge of the surface, which may touch flat parts of another shape: see surface_ridges.cpp.
   struct Ridge {
     Vector3 from, to;
     std::array<int, 2> ends;  ///< indices of points

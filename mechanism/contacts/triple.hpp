@@ -1,4 +1,4 @@
-// Vectors of numbers, which may carry derivatives: geometry that is written once gives values, and values with exact
+// Vectors of numbers, which may carry derivatives: the same code of the geometry computes values, or values with exact
 // derivatives.
 #pragma once
 

@@ -14,11 +14,12 @@ inline std::vector<double> numbers_of(const Vector3& v) { return {v[0], v[1], v[
 
 class Drawing {
  public:
-  /// Tells from which entry the items that are added next come.
+  /// Sets the entry that the items added next belong to.
   /// @param entry  section and name, "joints/main" @param type  as in the file, "hinge"
   /// @param shaped  whether the user has given it shapes
   void begin(const std::string& entry, const std::string& type, bool shaped = false);
-  /// Returns whether the user has given shapes to the entry: its component then adds only what these do not show.
+  /// Returns whether the user has given shapes to the entry: its component then adds only the items that these shapes
+  /// do not show.
   bool shaped() const { return shaped_; }
 
   /// Adds an item. Its entry and type are those of begin, unless it has its own.

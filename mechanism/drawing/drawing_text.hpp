@@ -19,7 +19,7 @@ struct NamedMesh {
   std::shared_ptr<const DrawnMesh> mesh;
 };
 
-/// The meshes of the items, each once: meshes of equal numbers are one.
+/// The meshes of the items without repetitions: meshes with equal numbers are one.
 class DrawnMeshes {
  public:
   explicit DrawnMeshes(const Drawing& drawing);
@@ -33,13 +33,13 @@ class DrawnMeshes {
   std::map<const DrawnMesh*, std::size_t> index_;
 };
 
-/// Facts of the whole mechanism that a drawing names.
+/// Data of the whole mechanism that a drawing contains.
 struct DrawnMechanism {
   std::string name;
   std::array<double, 3> gravity{};  ///< [m/s^2]
   std::vector<std::string> nodes;   ///< names of the model's nodes
-  /// Nodes inside of beams, which are recorded with their element: its results, "elements/blade", and the number of the
-  /// node from the start of the beam.
+  /// Internal nodes of beams, which are recorded with the element: the group of its results, "elements/blade", and the
+  /// number of the node from the start of the beam.
   std::map<int, std::pair<std::string, int>> inner;
 };
 

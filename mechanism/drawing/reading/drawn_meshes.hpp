@@ -12,8 +12,8 @@ namespace bielle::mechanism {
 std::shared_ptr<const DrawnMesh> mesh_of_stl(const std::string& path, double scale);
 
 /// Returns the surface of a geometry (STEP, IGES, BREP) as triangles, made by bielle-reduce. A file that this program
-/// has read before is not read again unless it has changed. @throws InputError if it cannot be read, or if there is no
-/// bielle-reduce
+/// has read before is not read again unless it has changed. @throws InputError if it cannot be read, or if
+/// bielle-reduce is not installed
 std::shared_ptr<const DrawnMesh> mesh_of_geometry(const std::string& path);
 
 /// Returns a ring around z. @param radius  radius of the centre line [m] @param section  radius of the section [m]

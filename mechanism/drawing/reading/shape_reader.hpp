@@ -19,7 +19,7 @@ Key shape_key();
 /// file. @throws InputError
 void read_shapes(const YamlValue& value, const Entry& entry, int node, Model& model);
 
-/// Draws a solid that has been read already by the same shapes; one that is cut out has the role `cut`.
+/// Draws a solid that has already been read, with the same shapes; a solid that is cut out has the role `cut`.
 /// @param solid  bound to its keys @param offset  position of the solid's origin in the axes of the node [m]
 void draw_solid(const YamlValue& solid, const Entry& entry, int node, const Vector3& offset, Model& model);
 

@@ -52,7 +52,7 @@ class AirfoilPolars {
 
 /// Keys of `airfoil` that define coefficients: `lift`, `drag`, `moment`, `polars`.
 std::vector<Key> airfoil_polar_keys();
-/// Reads them from the map of an airfoil. @throws InputError
+/// Reads the coefficients from the map of an airfoil. @throws InputError
 AirfoilPolars read_airfoil_polars(const YamlValue& airfoil);
 
 }  // namespace bielle::mechanism

@@ -90,7 +90,7 @@ class BeamElement : public Component, public SlenderComponent {
   };
   MiddleForces calc_middle_forces(const LocalState& state) const;
   Vector6 middle_forces(const LocalState& state) const;  ///< their values alone
-  /// At each stress point: sigma_xx, tau_xy, tau_xz [Pa] (rows) due to unit resultants in the middle (columns).
+  /// At each stress point: sigma_xx, tau_xy, tau_xz [Pa] (rows) per unit resultant in the middle (columns).
   const std::vector<Eigen::Matrix<double, 3, 6>>& unit_stresses() const { return section_.stress; }
   /// Gives the first element the others of its beam. @param all  from start to end, this one included
   void set_beam(std::vector<const BeamElement*> all) { beam_ = std::move(all); }
@@ -107,7 +107,7 @@ class BeamElement : public Component, public SlenderComponent {
   bool knows_its_shape() const { return !section_.reach.isZero(); }  ///< false if the section is given by constants
   /// Validity of the linear law and of the element length.
   struct Validity {
-    double strain;  ///< largest in the middle, see beam_strain.hpp; first order in the element's own bending
+    double strain;  ///< largest strain in the middle, see beam_strain.hpp; first order in the element's own bending
     double layers;  ///< L/l: bending decays within l = sqrt(EI/N) from an end under the tension N (0 without tension);
                     ///< EI is that of the softer direction
   };
@@ -117,7 +117,7 @@ class BeamElement : public Component, public SlenderComponent {
  private:
   struct Deformation;
   Deformation deformation(const LocalState& state) const;
-  /// Maps J^T f to the physical resultants in the middle; the strain of a constant element has only one set.
+  /// Maps J^T f to the physical resultants in the middle; an element of constant strain has one set of resultants only.
   Matrix6 wrench_to_middle(const Deformation& D) const;
   Eigen::Matrix<double, 6, 12> f_gradient(const Deformation& D) const;  ///< df/dh
   /// Returns d at a state. @throws ComputationError if the relative rotation of the ends has passed 180 degrees since

@@ -1,4 +1,5 @@
-// Strains of beams: their law of resultants is linear, for small strains, but for bending of any size.
+// Strains of beams. The law of the resultants is linear: it holds for small strains, with bending displacements of any
+// size.
 //
 // The definitions use the strain (Gamma, Kappa) in the middle of an element, the elastic centroid o, the farthest fibre
 // (b, h) from it along y and z, and the shear r per twist rate:
@@ -17,7 +18,7 @@
 namespace bielle::mechanism {
 
 /// The step recorder records the largest strain of a beam element over all steps, and whether its length resolves
-/// bending under tension. The element that exceeds a bound most writes the summary of its beam.
+/// bending under tension. The summary of a beam is written by the element that exceeds a bound most.
 class BeamStrainWatch final : public StepRecorder {
  public:
   explicit BeamStrainWatch(const BeamElement& element) : element_(element) {}

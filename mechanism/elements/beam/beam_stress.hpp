@@ -16,7 +16,7 @@
 
 namespace bielle::mechanism {
 
-/// Name of the largest von Mises stress at all points of an element, or of all elements of a beam.
+/// Name of the largest von Mises stress at all stress points of an element, or of all elements of a beam.
 inline constexpr const char* largest_beam_stress = "von_mises.max";
 
 /// @param sigma  sigma_xx, tau_xy, tau_xz [Pa] @returns [Pa]
@@ -28,11 +28,11 @@ inline double von_mises_stress(const Vector3& sigma) {
 /// points.
 std::vector<std::string> beam_stress_names(std::size_t points);
 
-/// @param measure  one of `beam_stress_names` @returns nullptr for any other
+/// Makes the measure of a name. @param measure  one of `beam_stress_names` @returns nullptr for any other name
 std::unique_ptr<Measure> make_beam_stress(const std::string& name, const BeamElement& element,
                                           const std::string& measure);
 
-/// Returns the largest von Mises stress of several elements. @param elements  they have stress points
+/// Returns the largest von Mises stress of several elements. @param elements  elements with stress points
 std::unique_ptr<Measure> make_largest_stress(const std::string& name, std::vector<const BeamElement*> elements);
 
 }  // namespace bielle::mechanism

@@ -50,7 +50,7 @@ class DistributedLoad final : public SpanLoad {
   void declare(Declaration& declaration) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_break_points(std::vector<double>& times) const override;
-  /// The values are those in the middle of the element.
+  /// The formulas of time are evaluated in the middle of the element.
   std::vector<Formula> time_formulas() const override;
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
   void describe(const LocalState& state, Description& description) const override;
