@@ -2,20 +2,18 @@
 //
 // The coordinates y and z are from the centroid, and the shear modulus is G = 1.
 // clang-format off
-//     torsion by a unit twist rate:   tau = grad omega + (-z, y),   div tau = 0,
-//     flexure by a shear force V:     tau = grad Phi,   div tau = -c.(y,z),   [I_z I_yz; I_yz I_y] c = V,
-// clang-format on
-// The boundary condition is tau.n = 0.
-// Flexure is that without lateral contraction (Poisson's ratio 0), whose stresses do no work on the twist: the
-// section's compliance for the shear forces and the torque about the shear centre has no coupling terms,
-//     J = int |tau|^2,   F_ij = int grad Phi_i . grad Phi_j,   shear centre from int (y tau_z - z tau_y).
-// The elements are biquadratic, on a grid that is graded towards the corners. J is overestimated, F underestimated; the
-// error, measured by finer grids, is below 2e-4. In a wall of thickness t in a section of size h the stress, of the
-// size t, is a small difference of warping functions of the size h^2: these are computed by iterative refinement with
-// residuals from the stresses of the elements in extended precision, down to t/h = 1e-5 (`thinnest_part`).
-// In a re-entrant corner without fillet the exact stresses are infinite; those of the elements, which are returned
-// there, grow with the refinement of the grid and have no meaning. References: S. Timoshenko, J. Goodier, Theory of
-// Elasticity, ch. 10 and 11; F. Gruttmann, W. Wagner, Comput. Mech. 27 (2001) 199.
+//     torsion by a unit twist rate:   tau = grad omega + (-z, y),   div tau = 0, flexure by a shear force V:     tau =
+//     grad Phi,   div tau = -c.(y,z),   [I_z I_yz; I_yz I_y] c = V, clang-format on The boundary condition is tau.n =
+//     0. The flexure is the one without lateral contraction (Poisson's ratio 0), whose stresses do no work on the
+//     twist: the section's compliance for the shear forces and the torque about the shear centre has no coupling terms,
+//     J = int |tau|^2,   F_ij = int grad Phi_i . grad Phi_j,   shear centre from int (y tau_z - z tau_y). The elements
+//     are biquadratic, on a grid that is graded towards the corners. J is overestimated, F underestimated; the error,
+//     measured by finer grids, is below 2e-4. In a wall of thickness t in a section of size h the stress, of the size
+//     t, is a small difference of warping functions of the size h^2: these are computed by iterative refinement with
+//     residuals from the stresses of the elements in extended precision, down to t/h = 1e-5 (`thinnest_part`). In a
+//     re-entrant corner without fillet the exact stresses are infinite; those of the elements, which are returned
+//     there, grow with the refinement of the grid and have no meaning. References: S. Timoshenko, J. Goodier, Theory of
+//     Elasticity, ch. 10 and 11; F. Gruttmann, W. Wagner, Comput. Mech. 27 (2001) 199.
 #pragma once
 
 #include <array>
@@ -30,7 +28,7 @@ struct SectionRectangle {
   double y0, y1, z0, z1;
 };
 
-/// The union of rectangles, with its moments; y and z from the centroid.
+/// Union of rectangles, with its moments of area; y and z are measured from the centroid.
 struct RectangleArea {
   /// @param parts  rectangles without overlap, joined along edges
   explicit RectangleArea(std::vector<SectionRectangle> parts);
@@ -46,7 +44,8 @@ struct RectangleArea {
   double thinnest_part() const;
 };
 
-/// Fineness of the grid: size of cells at a corner relative to the thinnest wall, and growth from cell to cell.
+/// Fineness of the grid: size of the cells at a corner relative to the thinnest wall, and growth factor from cell to
+/// cell.
 struct SectionGrid {
   double first = 1.0 / 32, growth = 1.6;
 };
@@ -56,7 +55,7 @@ class SaintVenant {
   /// Walls (and parts that project from them) down to this fraction of the section's size are accurate.
   static constexpr double thinnest_part = 1e-5;
 
-  /// @throws ComputationError if rounding makes the solution inaccurate: parts far thinner than `thinnest_part`
+  /// @throws ComputationError if rounding makes the solution inaccurate, for parts far thinner than `thinnest_part`
   explicit SaintVenant(const RectangleArea& area, const SectionGrid& grid = {});
 
   double J() const { return J_; }                                ///< torsion constant [m^4]
@@ -64,8 +63,8 @@ class SaintVenant {
   const Vector2& shear_centre() const { return shear_centre_; }  ///< position relative to the centroid [m]
 
   /// Returns shear stresses (tau_xy, tau_xz) [Pa] (rows) due to unit shear forces V_y, V_z at the shear centre [1/m^2]
-  /// and to a unit torque about it [1/m^3] (columns), at a point relative to the centroid; between elements it is their
-  /// mean.
+  /// and to a unit torque about it [1/m^3] (columns), at a point relative to the centroid; on the boundary between
+  /// elements it is the mean of both.
   /// @throws std::domain_error outside of the section
   Eigen::Matrix<double, 2, 3> shear_stress(const Vector2& point) const;
 
@@ -87,7 +86,7 @@ class SaintVenant {
   /// @returns residuals of the weak forms (rows: nodes)
   Eigen::Matrix<double, Eigen::Dynamic, 3> evaluate(const Matrix2& I_inverse);
   Differences differences(const Cell& cell) const;
-  /// Stresses of the three problems (rows y, z). @param v_u,v_w  slopes of the shape functions there
+  /// Stresses of the three problems (rows y, z). @param v_u,v_w  slopes of the shape functions at the point
   static Stresses stresses(const Cell& cell, const Differences& differences, const Vector9& v_u, const Vector9& v_w,
                            const Vector2& place);
 

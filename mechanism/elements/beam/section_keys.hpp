@@ -11,7 +11,7 @@ const KeyTable& shape_section_keys();
 const KeyTable& constants_section_keys();
 /// The keys of a section by 6x6 matrices.
 const KeyTable& matrices_section_keys();
-/// Returns the forms of a beam's section: one of them, or a pair.
+/// Returns the forms of the key `section` of a beam: one of these maps, or a pair of them.
 KeyForms section_forms();
 
 }  // namespace bielle::mechanism

@@ -1,4 +1,4 @@
-// Outlines of cross sections, by which beams are drawn.
+// Outlines of cross sections, for drawings of beams.
 #pragma once
 
 #include <string>

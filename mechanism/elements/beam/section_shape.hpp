@@ -36,7 +36,7 @@ struct SectionConstants {
   Vector2 shear_centre = Vector2::Zero();  ///< position [m]
 };
 
-/// Returns stresses sigma_xx, tau_xy, tau_xz [Pa] (rows) due to unit resultants (n, m) about the node line (columns).
+/// Returns stresses sigma_xx, tau_xy, tau_xz [Pa] (rows) per unit resultant (n, m) about the node line (columns).
 /// @param point   relative to the centroid [m]
 /// @param offset  offset of the centroid from the node line [m]
 /// @param shear   shear stress at the point
@@ -67,7 +67,7 @@ const std::vector<std::string>& section_shape_names();
 VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value);
 std::unique_ptr<SectionShape> make_section_shape(const std::string& shape, const VectorX& dimensions);
 
-/// Whether a point relative to the centroid [m] is in a shape, boundary included. The check is cheap.
+/// Tells whether a point relative to the centroid [m] is in a shape, boundary included. The check is cheap.
 bool shape_contains(const std::string& shape, const VectorX& dimensions, const Vector2& point);
 
 /// Returns the largest distance of a point of a shape from its centroid along y and along z [m].
@@ -75,7 +75,7 @@ Vector2 shape_reach(const std::string& shape, const VectorX& dimensions);
 /// Returns the largest shear strain due to a unit twist rate [m]: for shapes made of walls about sqrt(2 J/A).
 double shear_of_twist(const std::string& shape, const VectorX& dimensions, const SectionConstants& constants);
 
-/// True for i, t, l, box: these consist of rectangles, and are computed by finite elements.
+/// Tells whether a shape is i, t, l or box; these consist of rectangles, and are computed by finite elements.
 bool is_made_of_walls(const std::string& shape);
 RectangleArea wall_area(const std::string& shape, const VectorX& dimensions);
 SectionConstants wall_constants(const RectangleArea& area, const SaintVenant& solution);

@@ -1,4 +1,4 @@
-// Loads per length on an element of a beam: the points of their integral, the section there, and the forces at the
+// Loads per length on an element of a beam: integration points, the section at each of them, and the forces at the
 // nodes.
 //
 // At z in [0, 1] of an element between nodes A and B (section axes S_k = R_k R_Sk, psi = log(S_A^T S_B), length L of
@@ -62,7 +62,7 @@ Vector3 span_angular_velocity(const BeamSpan& span, const SpanSection& at, const
 struct SpanForce {
   Vector3 f, n;
 };
-/// Returns the part of the residual of both nodes that a load at one point makes.
+/// Returns the contribution of a load at one point to the residual of both nodes.
 Vector12 span_rows(const BeamSpan& span, const SpanPoint& point, const SpanSection& at, const SpanForce& load,
                    const LocalState& state);
 
@@ -101,7 +101,7 @@ class SpanLoad : public Component, public TimeDependent {
  protected:
   /// @param beam  name of the beam @param ends  ends of the pieces of the integral, from 0 to 1
   SpanLoad(std::string beam, const BeamSpan& span, const std::vector<double>& ends);
-  /// Divides the integral anew. @param ends  as for the constructor
+  /// Replaces the division of the integral into pieces. @param ends  as for the constructor
   void divide(const std::vector<double>& ends) { points_ = span_points(span_, ends); }
   /// Returns force and moment per length at a point, multiplied by the load factor.
   virtual SpanForce load(const LocalState& state, const SpanPoint& point, const SpanSection& at) const = 0;

@@ -15,11 +15,11 @@ struct LinearBlock {
   MatrixX D;  ///< (outputs, inputs): direct feed-through
 };
 
-/// Returns x' = u: the user's own differential equation with its right-hand side u. The output is x.
+/// Returns x' = u: a differential equation of the user with the right-hand side u. The output is x.
 LinearBlock integrator();
 /// Returns y' = (u - y)/T. @param time_constant  T > 0 [s]
 LinearBlock first_order_filter(double time_constant);
-/// Returns the same with T = 0: y = u. Its single state decays by itself, and is not used.
+/// Returns the filter with T = 0: y = u. Its single state decays by itself, and has no effect on y.
 LinearBlock no_filter();
 /// Returns y'' + 2 d w y' + w^2 y = w^2 u, w = 2 pi frequency. Its states are y, y'/w; its outputs y, y'.
 /// @param frequency  > 0 [Hz] @param damping  d >= 0 [-]
@@ -33,7 +33,7 @@ LinearBlock second_order_filter(double frequency, double damping);
 /// 1980, 2.1.
 LinearBlock realisation(const std::vector<double>& numerator, const std::vector<double>& denominator);
 
-/// Returns G of x = G u, if all rates are zero; no value if A is singular (an integrator).
+/// Returns G of the state at rest, x = G u, in which all rates are zero; no value if A is singular (an integrator).
 std::optional<MatrixX> rest_of(const LinearBlock& block);
 
 }  // namespace bielle::mechanism

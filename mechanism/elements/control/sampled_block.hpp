@@ -2,8 +2,8 @@
 // values until the next instant, or until `delay` after it. Samples whose outputs are still delayed wait in a ring,
 // which is part of the memory.
 //
-// Samplers of one instant act in the order of the file, as the statements of a program: a formula sees the outputs of
-// the blocks above it as they are at this instant, and its own and those of the blocks below as they were before.
+// Blocks with the same instant are evaluated in the order of the file, like the statements of a program: a formula
+// reads the new outputs of the blocks above it, and the previous outputs of its own block and of the blocks below it.
 #pragma once
 
 #include <memory>

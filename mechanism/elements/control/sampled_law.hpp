@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 
 /// The last stage of a sampled block: steps of a converter, then limits.
 struct OutputStage {
-  double quantum = 0;  ///< outputs are rounded to whole multiples of it; 0: they are not
+  double quantum = 0;  ///< outputs are rounded to whole multiples of this; 0: no rounding
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
   double operator()(double y) const;
 };
@@ -26,7 +26,7 @@ class SampledLaw {
   virtual std::string about() const = 0;  ///< "PID controller"
 };
 
-/// y_k = C x_k + D u_k,  x_(k+1) = A x_k + B u_k. A block without states passes its input on.
+/// y_k = C x_k + D u_k,  x_(k+1) = A x_k + B u_k. A block without states returns its input.
 class SampledLinear final : public SampledLaw {
  public:
   SampledLinear(LinearBlock block, std::string about) : block_(std::move(block)), about_(std::move(about)) {}
@@ -42,9 +42,9 @@ class SampledLinear final : public SampledLaw {
 
 /// A PID controller with the period h of the samples e_k of its input, its gains P, I, D and the filter's T:
 ///     y_k = P e_k + S_k + d_k,   S_k = S_(k-1) + I h (e_k + e_(k-1))/2,   (T + h) d_k = T d_(k-1) + D (e_k - e_(k-1))
-/// The first sample is taken as its own predecessor. While the output is beyond a limit, S keeps its value if its
-/// change would lead further beyond (anti-windup by conditional integration).
-/// Reference: K. J. Astrom, T. Hagglund, Advanced PID Control, 2006, ch. 3 and 13.
+/// At the first sample, e_(k-1) is set to e_k. While the output is beyond a limit, S keeps its value if its change
+/// would move the output further beyond it (anti-windup by conditional integration). Reference: K. J. Astrom, T.
+/// Hagglund, Advanced PID Control, 2006, ch. 3 and 13.
 class SampledPid final : public SampledLaw {
  public:
   SampledPid(const PidGains& gains, double period) : gains_(gains), h_(period) {}

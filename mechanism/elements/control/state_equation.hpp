@@ -1,7 +1,7 @@
 // The rates of a control block: adds -(A x + B u) to the equations x' + .. = 0 of its unknowns, with formulas u of time
-// and state. A user's own differential equation is x' = u, where u may depend on x.
+// and state. A differential equation of the user is x' = u, where u may depend on x.
 //
-// In a static analysis the rates are zero, except for unknowns that this does not determine (State::held).
+// In a static analysis the rates are zero, except for unknowns that this condition does not determine (State::held).
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ namespace bielle::mechanism {
 class StateEquation final : public Component, public TimeDependent {
  public:
   /// @param rest   G of a start at rest, x = G u at the start, instead of the start values of the unknowns
-  /// @param about  the block in words, for `--check`: "first-order filter, 0.01 s"
+  /// @param about  description of the block, for `--check`: "first-order filter, 0.01 s"
   StateEquation(const StateUnknowns& unknowns, LinearBlock block, std::optional<MatrixX> rest, std::string about);
   /// Reads one more input, after the model has been read.
   void read_input(const YamlValue& formula, Model& model);

@@ -17,7 +17,7 @@ class StateOutput final : public Measure, public TimedMeasure {
     double factor;
     StateFormula input;
   };
-  /// @param references  the unknowns first, then the references of the inputs
+  /// @param references  references of the unknowns first, then those of the inputs
   /// @param c           row vector over the unknowns
   StateOutput(std::string name, const StateUnknowns& unknowns, References references, VectorX c,
               std::vector<Through> through, std::string units);

@@ -1,4 +1,4 @@
-// Reads the section `states`: a user's own differential equations and control blocks.
+// Reads the section `states`: differential equations of the user, and control blocks.
 //
 //     x:      {rate: "-(x - main.angle)/0.1", start: 0, units: rad}
 //     smooth: {filter: main.angle, time_constant: 0.01}      {filter: .., frequency: 20, damping: 0.7}

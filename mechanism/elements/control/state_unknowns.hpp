@@ -16,7 +16,8 @@ class StateUnknowns final : public Component {
  public:
   /// @param type    name of the type for the user: "filter" @param names  names of the unknowns, for messages: "value",
   ///                "x2"
-  /// @param start   for each @param units  units of all unknowns @param scale  their typical size, in their units
+  /// @param start   start value of each unknown @param units  units of all unknowns @param scale  their typical size,
+  /// in their units
   StateUnknowns(std::string type, std::string name, std::vector<std::string> names, VectorX start, std::string units,
                 double scale);
   Eigen::Index size() const { return start_.size(); }

@@ -1,4 +1,4 @@
-// The formulas of a force and of a moment: three components each, of time and state.
+// The formulas of a force and of a moment: each has three components, which depend on time and state.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ class ForceFormulas {
 
   bool has_force() const { return has_force_; }
   bool has_moment() const { return has_moment_; }
-  /// Computes the components with the load factor, along the axes in which they are given.
+  /// Computes the components with the load factor, in the axes in which the formulas are given.
   void evaluate(const LocalState& state, Vector3& force, Vector3& moment) const;
   /// Returns a component, of the force (0 to 2) or of the moment (3 to 5).
   const StateFormula& component(std::size_t k) const { return components_[k]; }

@@ -19,7 +19,7 @@ namespace bielle::mechanism {
 class Load : public Component, public TimeDependent {
  public:
   /// @param at        point of application [m], node axes
-  /// @param follower  components are along the node's axes, not along the inertial ones
+  /// @param follower  whether components are along the node's axes instead of the inertial ones
   Load(std::string name, int node, const Vector3& at, bool follower);
   /// Reads the components, after the model has been read: three formulas each. @param moment  whether they are those of
   /// the moment

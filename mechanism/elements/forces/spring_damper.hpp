@@ -16,8 +16,9 @@
 
 namespace bielle::mechanism {
 
-/// See the head of this file. The direction is undefined if the points coincide: this is only permitted for a linear
-/// spring of free length zero without damper; otherwise a ComputationError is thrown. The tangents are exact.
+/// See the head of this file. The direction is undefined if the points coincide: coinciding points are only permitted
+/// for a linear spring of free length zero without damper; otherwise a ComputationError is thrown. The tangents are
+/// exact.
 ///
 /// For energies see laws/force_law.hpp.
 class SpringDamper : public Component, public TimeDependent {
@@ -46,8 +47,8 @@ class SpringDamper : public Component, public TimeDependent {
 
   /// Returns the elongation [m] and its rate [m/s].
   std::pair<double, double> elongation(const LocalState& state) const;
-  /// Gradients of both over the twelve unknowns of the nodes by positions; the gradient of the rate by velocities
-  /// equals that of the elongation by positions.
+  /// Gradients of elongation and rate over the twelve unknowns of the nodes by positions; the gradient of the rate by
+  /// velocities equals that of the elongation by positions.
   struct Gradients {
     double e, v;
     Eigen::Matrix<double, 12, 1> e_gradient, v_gradient;

@@ -20,7 +20,7 @@ struct MassProperties {
 MassProperties operator+(const MassProperties& a, const MassProperties& b);
 /// Multiplies the mass of a body; a negative factor makes a cut-out.
 MassProperties operator*(double factor, const MassProperties& body);
-/// Transforms a body at a frame: described in A, result in B. @param H_BA  frame A in B
+/// Transforms a body that is described in frame A to frame B. @param H_BA  frame A in B
 MassProperties placed(const Frame& H_BA, const MassProperties& body);
 
 // Homogeneous solids of density 1 kg/m^3 about the middle of their axis. Lengths are in [m], and z is the axis.

@@ -32,8 +32,8 @@ class RigidBody final : public Component {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// Outputs `centre` of mass (3) [m], `momentum` (3) [N s], `angular_momentum` (3) [N m s] about the inertial origin:
-  /// inertial components.
+  /// Outputs, in inertial components: `centre` of mass (3) [m], `momentum` (3) [N s], `angular_momentum` (3) [N m s]
+  /// about the inertial origin.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   /// Attributes `node`; `mass` [kg], `centre` x y z [m], `inertia` about the centre xx yy zz xy xz yz [kg m^2], in the
@@ -45,8 +45,8 @@ class RigidBody final : public Component {
 
   int node() const { return node_; }
   const MassProperties& properties() const { return properties_; }  ///< in the node's axes
-  /// Adds inertia about the node's origin for rotations on which nothing acts, so that they have an equation; it is no
-  /// property of the body. @param inertia  node axes [kg m^2]
+  /// Adds inertia about the node's origin for rotations on which no component acts, so that their equations are
+  /// regular; it is not a property of the body. @param inertia  node axes [kg m^2]
   void add_idle_inertia(const Matrix3& inertia) { J_ += inertia; }
 
  private:

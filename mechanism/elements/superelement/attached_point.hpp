@@ -1,5 +1,4 @@
-// A node of the mechanism that is fixed on a point inside a superelement: the place of a load, a spring's end, a
-// sensor.
+// A node of the mechanism that is fixed on a point inside a superelement, for a load, the end of a spring, or a sensor.
 //
 // The point moves with the reduced displacement field: T_P (6,n) gives its displacement and its rotation, body axes, in
 // terms of the linear coordinates. Six constraints with multipliers lambda (force, moment on the body; body axes) hold

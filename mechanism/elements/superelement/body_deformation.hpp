@@ -15,11 +15,12 @@ struct BodyDeformation {
   VectorX eps;         ///< linear coordinates, in the layout of corotated_frame.hpp
   double elastic = 0;  ///< energy [J]
   /// Acceleration minus gravity as a linear field in space: (4 i + j), direction i in body axes times 1 [m/s^2], x, y,
-  /// z [1/s^2] from the centre of mass. It is that of the body's frame, and of points that move rigidly with it.
+  /// z [1/s^2] from the centre of mass. It is the acceleration of the body's frame and of points that move rigidly with
+  /// this frame.
   Eigen::Matrix<double, 12, 1> acceleration = Eigen::Matrix<double, 12, 1>::Zero();
 };
 
-/// The first of the step recorders of a body: it computes the deformation that the others use.
+/// The first of the step recorders of a body: it computes the deformation for the others.
 class DeformationReader final : public StepRecorder {
  public:
   using Read = std::function<void(const LocalState& state, BodyDeformation& deformation)>;

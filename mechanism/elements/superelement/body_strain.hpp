@@ -1,12 +1,12 @@
-// Strains of a superelement, by all measures of strain at places distributed over it: stretch, shear, bending, torsion.
+// Strains of a superelement at places distributed over it, of all kinds: stretch, shear, bending, torsion.
 //
-// A strain with the principal values e1 >= e2 >= e3 has as its size the largest of |e1|, |e3| and two thirds of the
-// largest shear, e1 - e3: a bar that is stretched by e has the size e, one that is sheared by gamma has 2/3 gamma. The
-// mean over the body contains the strains that do not cancel, stretch and uniform shear: linear elasticity has an error
-// of first order in it.
+// The size of a strain with the principal values e1 >= e2 >= e3 is the largest of |e1|, |e3| and two thirds of the
+// largest shear, e1 - e3: it is e for a bar that is stretched by e, and 2/3 gamma for a bar that is sheared by gamma.
+// The mean over the body contains the strains that do not cancel, stretch and uniform shear: the error of linear
+// elasticity is of first order in this mean.
 //
-// Files without strains (`/reduced/strain`) give no estimate: the line between two interfaces becomes shorter by
-// bending, without strain.
+// Files without strains (`/reduced/strain`) give no estimate, because bending shortens the distance of two interfaces
+// without strain.
 #pragma once
 
 #include "mechanism/elements/superelement/superelement_body_matrices.hpp"

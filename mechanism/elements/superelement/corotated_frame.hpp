@@ -32,7 +32,7 @@ namespace bielle::mechanism {
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Interfaces closer to each other than this fraction of the body's radius of gyration coincide.
+/// Interfaces count as coincident if they are closer to each other than this fraction of the body's radius of gyration.
 inline constexpr double coincident_interfaces = 1e-3;
 
 /// An interface as seen from its body.
@@ -45,7 +45,8 @@ struct BodyPoint {
   int theta = -1;                       ///< first row of its rotation; -1: its rotations do not act
 };
 
-/// The frame and quantities for its derivatives, at given nodes. The object is reused from one evaluation to the next.
+/// The frame and the quantities that its derivatives require, at given nodes. The object is reused from one evaluation
+/// to the next.
 struct CorotatedGeometry {
   Frame frame;
   VectorX q;               ///< local coordinates
@@ -68,17 +69,17 @@ class CorotatedFrame {
   const Matrix6X& A_transposed() const { return At_; }
 
   /// Solves the conditions for the nodes and amplitudes of `state` (node k is point k).
-  /// @throws ComputationError if there is no such frame (the nodes are far from any rigid placement of the body)
+  /// @throws ComputationError if no such frame exists (the nodes are far from any rigid placement of the body)
   void solve(const LocalState& state, CorotatedGeometry& geometry) const;
 
   /// Returns the rigid placement closest to the nodes in the least-squares sense: the initial guess of the iteration.
   Frame closest_placement(const LocalState& state) const;
-  /// Explains why there is no frame: the distance of the interfaces from that placement.
+  /// Explains for a message why no frame exists: returns the distance of the interfaces from the closest placement.
   std::string misfit(const LocalState& state, CorotatedGeometry& geometry) const;
 
  private:
   void update(const LocalState& state, CorotatedGeometry& geometry) const;
-  /// Returns the last three columns of A^T V; the first three, [T; M], are constant.
+  /// Returns the last three columns of A^T V; the first three columns are constant.
   Eigen::Matrix<double, 6, 3> turning(const CorotatedGeometry& geometry) const;
   std::vector<BodyPoint> points_;
   Matrix6X At_;                                        ///< A^T

@@ -1,5 +1,6 @@
-// The numbers of a local state that an evaluation of a superelement reads. Residual, tangent, energies and records of
-// an accepted step refer to the same state, or to states with the same positions: one evaluation serves all of them.
+// Copy of the numbers of a local state that an evaluation of a superelement reads. Residual, tangent, energies and
+// records of an accepted step refer to the same state, or to states with the same positions: one evaluation serves all
+// of them.
 #pragma once
 
 #include "mechanism/model/state.hpp"
@@ -8,10 +9,10 @@ namespace bielle::mechanism {
 
 class KnownState {
  public:
-  /// The first numbers in which a state differs from the one before.
+  /// First group of numbers in which a state differs from the previous one.
   enum class Change { positions, velocities, others, none };
 
-  /// Compares a state with the one before, number by number, and keeps it.
+  /// Compares a state with the previous one, number by number, and stores it.
   Change next(const LocalState& state) {
     collect_unknowns(state);
     const Change change = compare();

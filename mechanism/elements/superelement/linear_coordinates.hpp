@@ -23,7 +23,8 @@ namespace bielle::mechanism {
 class LinearCoordinates {
  public:
   /// Solves q = eps - g(eps) by Newton's method. Only the first call allocates memory.
-  /// @throws ComputationError if there is no solution near q: the body is deformed beyond the theory of second order
+  /// @throws ComputationError if there is no solution near q: the body is then deformed beyond the range of the theory
+  /// of second order
   void solve(const SuperelementMatrices& body, const VectorX& q);
 
   const VectorX& eps() const { return eps_; }
@@ -49,7 +50,7 @@ class LinearCoordinates {
   PrestressGradient gradient_;   ///< G(eps)^T
   MatrixX interfaces_by_modes_;  ///< the part of gradient_.interfaces due to the modes
   SmallLU factors_;              ///< factors of I - G(eps), rows of the interfaces
-  MatrixX J_;                    ///< its inverse, after set_excess; before, the matrix that is factorised
+  MatrixX J_;                    ///< matrix that is factorised; after set_excess its inverse
   MatrixX excess_;
 };
 

@@ -1,4 +1,4 @@
-// Bodies of the same file share its matrices in memory.
+// Matrices of superelements, which bodies of the same file share in memory.
 #pragma once
 
 #include <memory>

@@ -1,11 +1,12 @@
-// Completeness of the stress of a superelement: the part of its response to its own inertia that its modes lack.
+// Completeness of the stress of a superelement: the part of its response to its own inertia that its modes do not
+// contain.
 //
 // With fixed interfaces, the body responds to the accelerations c of its motion (including gravity) by a static
-// deformation of the energy c^T W c / 2, of which modes and residual vectors lack c^T D c / 2
-// (`/reduced/inertia_answer` of the file). The lacking part is orthogonal in stiffness to the space of the basis, with
-// the energy V: the body lacks the fraction sqrt(D / (V + D)) of its stress, in the energy norm (the root of the mean
-// square). Both energies are the largest of the motion, since stress is used where it is large, and accelerations
-// precede the stress that they cause.
+// deformation of the energy c^T W c / 2, of which modes and residual vectors do not contain c^T D c / 2
+// (`/reduced/inertia_answer` of the file). The missing part is orthogonal in stiffness to the space of the basis, with
+// the energy V: the fraction sqrt(D / (V + D)) of the stress of the body is missing, in the energy norm (the root of
+// the mean square). Both energies are the largest of the motion, since stress is used where it is large, and
+// accelerations precede the stress that they cause.
 //
 // Accelerations are means of two steps: accelerations that alternate from step to step are oscillations of the scheme.
 // The estimate contains neither vibrations of omitted modes nor the local stress due to loads inside the body.
@@ -21,7 +22,7 @@ namespace bielle::mechanism {
 
 class StressCompleteness final : public StepRecorder {
  public:
-  /// @param answer  not empty @param deformation  updated before each `add`
+  /// @param answer  of the file, not empty @param deformation  updated before each `add`
   StressCompleteness(std::string body, const InertiaAnswer& answer, std::shared_ptr<const BodyDeformation> deformation);
 
   void begin() override;

@@ -9,16 +9,17 @@
 // corotated_frame.hpp; coordinates: linear_coordinates.hpp; matrices: superelement_body_matrices.hpp; forces:
 // superelement_body_motion.hpp.
 //
-// Prestress: Linear elasticity lacks the stiffening of a body under tension and the shortening of a bent body. The
-// file's geometric stiffness provides both: that of the centrifugal field inside H, that of interface loads in the
-// relation of eps to the positions of the interfaces, which makes V a potential of third order without memory.
+// Prestress: linear elasticity contains neither the stiffening of a body under tension nor the shortening of a bent
+// body. The file's geometric stiffness provides both: the part of the centrifugal field is contained in H, that of
+// interface loads in the relation of eps to the positions of the interfaces, which makes V a potential of third order
+// without memory.
 //
 // Limits: strains and rotations within the body are small (to about 0.2 rad from the mean of its interfaces; larger
 // bending requires several superelements); load patterns do not prestress it; the membrane forces of a plate that bends
 // by more than its thickness are missing; damping acts only on eps.
 //
 // Reference: A. Cardona, M. Geradin, Modelling of superelements in mechanism analysis, IJNME 32 (1991) 1565, for the
-// role of a superelement among nodes; the inertia is a different one (their nodal velocities are not Galilean
+// role of a superelement among nodes; the inertia differs from that paper (whose nodal velocities are not Galilean
 // invariant).
 #pragma once
 
@@ -52,14 +53,15 @@ struct SuperelementPlacement {
   struct Load {
     std::string pattern;  ///< name of the pattern in the file
     Expression factor;    ///< factor as a function of t
-    bool follows = true;  ///< directions rotate with the body (a pressure); otherwise they are fixed in space
+    bool follows = true;  ///< whether directions rotate with the body (a pressure); otherwise they are fixed in space
   };
   std::vector<Load> loads;
   std::vector<std::string> node_names;  ///< names for the results file
   BodyFrame frame = BodyFrame::mean;
-  std::size_t frame_interface = 0;                       ///< interface for BodyFrame::carried
-  MatrixX damping;                                       ///< in the file's coordinates, instead of the file's; or empty
-  std::shared_ptr<const SuperelementMatrices> matrices;  ///< shared by bodies of one file; created if null
+  std::size_t frame_interface = 0;  ///< interface for BodyFrame::carried
+  /// Damping matrix in the file's coordinates, which replaces the file's; empty: the file's is used.
+  MatrixX damping;
+  std::shared_ptr<const SuperelementMatrices> matrices;  ///< matrices shared by the bodies of one file; created if null
   SuperelementPlace file;                                ///< file of the superelement
   std::optional<double> largest_error;  ///< relative error of its deformation beyond which a run fails (validity.hpp)
 };
@@ -71,14 +73,15 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
     std::string name;
     int node = 0;  ///< node of the model
     PointPlace place;
-    std::array<bool, 6> residual{};  ///< forces and moments on it, body axes, whose static response the basis contains
+    /// Whether the basis contains the static response to each force and moment on the point, body axes.
+    std::array<bool, 6> residual{};
   };
   /// @throws InputError if arrays of the superelement are inconsistent or a pattern does not exist
   SuperelementBody(std::string name, const Superelement& superelement, SuperelementPlacement placement);
 
   ~SuperelementBody() override;
 
-  /// Carries one more node. It is called while the model is read.
+  /// Attaches one more node to the body. It is called while the model is read.
   void attach(Point point) { points_.push_back(std::move(point)); }
 
   void declare(Declaration& declaration) const override;
@@ -120,11 +123,11 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   class Loan;
   /// Returns working memory with the frame and the linear coordinates at a state.
   Loan evaluate_positions(const LocalState& state) const;
-  /// Returns the same with the motion and the attached points.
+  /// Returns working memory with positions, the motion and the attached points.
   Loan evaluate_motion(const LocalState& state) const;
-  /// Returns the same with motion and forces.
+  /// Returns working memory with positions, motion and forces.
   Loan evaluate(const LocalState& state) const;
-  /// Computes further parts of an evaluation unless they are known.
+  /// Computes further parts of an evaluation unless they have been computed before.
   void complete_velocities(const Loan& work, const LocalState& state) const;
   void complete_products(const Loan& work) const;
   void complete_mean_turning(const Loan& work, const LocalState& state) const;
@@ -134,7 +137,7 @@ class SuperelementBody : public Component, public TimeDependent, public MeshFiel
   /// Writes the outputs that do not require the mesh. @returns the local coordinates among the values
   const double* write_small_outputs(const LocalState& state, double* values) const;
 
-  /// Describes one piece of a cut body, which is one of several in its entry.
+  /// Describes one of the pieces of a body that one entry of the file cuts.
   void describe_piece(Description& description) const;
   void describe_attachments(Description& description) const;  ///< describes interfaces with their nodes, and loads
   std::string describe_modes() const;

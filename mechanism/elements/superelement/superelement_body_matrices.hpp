@@ -10,11 +10,12 @@
 // so that a body whose frame moves with nu_0 = (v_0, Om_0) (body components) has, with s = U nu_0 + epsdot,
 //     T = s^T M~ s / 2 + s^T G(Om_0) eps + eps^T H(Om_0) eps / 2,   G(Om) = Om_k G_k,   H(Om) = Om_k Om_l H_kl:
 // the exact kinetic energy of the reduced displacement field. The inertia of foreshortening, which that field lacks, is
-//     - eps^T K_sigma(Om_m) eps / 2,   K_sigma(Om) = Om_k Om_l K_sigma,kl,   Om_m = Lambda s,
-// subtracted from it: geometric stiffness of the free body under the centrifugal field of unit Om_k Om_l (the sum is
-// over all nine pairs k, l). Lambda, the last three rows of (U^T M~ U)^-1 U^T M~, gives the mean angular velocity of
-// the body; that of the frame would only be correct if fast motions of the interfaces did not rotate it: their small
-// mass would become negative. These matrices do not depend on the position of the body: bodies of one file share them.
+//     - eps^T K_sigma(Om_m) eps / 2,   K_sigma(Om) = Om_k Om_l K_sigma,kl,   Om_m = Lambda s, subtracted from it:
+// geometric stiffness of the free body under the centrifugal field of unit Om_k Om_l (the sum is over all nine pairs k,
+// l). Lambda, the last three rows of (U^T M~ U)^-1 U^T M~, gives the mean angular velocity of the body. The angular
+// velocity of the frame must not be used instead: fast motions of the interfaces rotate the frame, and the small mass
+// of the interfaces would become negative. These matrices do not depend on the position of the body: bodies of one file
+// share them.
 #pragma once
 
 #include <array>
@@ -29,7 +30,7 @@ namespace bielle::mechanism {
 /// Index of the pair (k, l) in the order 11 22 33 23 13 12.
 inline constexpr int pair_index(int k, int l) { return k == l ? k : 6 - k - l; }
 
-/// K_r x for each interface row r: the rows of the interfaces and of the modes.
+/// Products K_r x for each interface row r, divided into the rows of the interfaces and those of the modes.
 struct PrestressGradient {
   MatrixX interfaces;  ///< (rows, rows): column r
   MatrixX modes;       ///< (modes, rows): column r
@@ -53,7 +54,7 @@ struct SuperelementMatrices {
   double mass = 0;                    ///< mass of the displacement field [kg]
   Vector3 centre = Vector3::Zero();   ///< centre of mass, body axes
   Matrix3 inertia = Matrix3::Zero();  ///< inertia about the centre
-  /// Interfaces as in the file: X, and R_ref of nodes with the body's axes.
+  /// Interfaces in the order of the file: X, and R_ref for nodes with the body's axes.
   std::vector<BodyPoint> points;
   std::vector<Direction> directions;  ///< directions of the file's interface coordinates
   MatrixX kept;                       ///< projector of the interface rows on the kept directions (rows, rows)
@@ -73,10 +74,10 @@ struct SuperelementMatrices {
   Eigen::Matrix<double, 6, 6> rigid;  ///< U^T M~ U
   /// M U, Lambda^T, G_1 U, G_2 U, G_3 U side by side (n, 27)
   MatrixX rigid_columns;
-  /// Column j: column j of each K_r; first the rows of the interfaces of all of them, one below the other, then the
-  /// rows of the modes; (n rows, n), empty if the file has none.
+  /// Column j contains column j of every K_r: first the rows of the interfaces of all K_r, one below the other, then
+  /// the rows of the modes; (n rows, n), empty if the file has no geometric stiffness.
   MatrixX load_stiffness;
-  /// Column r: the lower half of K_r by columns, twice its entries off the diagonal; (n (n + 1)/2, rows)
+  /// Column r contains the lower half of K_r by columns, with off-diagonal entries doubled; (n (n + 1)/2, rows)
   MatrixX load_stiffness_forms;
   MatrixX strains;  ///< (6 (q + 1), n) strain at places, then its mean, see Superelement; may be empty
   std::vector<std::string> pattern_names;
@@ -84,20 +85,20 @@ struct SuperelementMatrices {
 
   bool stiffened_by_spin() const { return spin[0].size() > 0; }
   Eigen::Index interface_rows() const { return kept.rows(); }
-  /// Number of interface rows with a geometric stiffness: all or none.
+  /// Returns the number of interface rows with a geometric stiffness: all rows, or 0.
   Eigen::Index prestress_rows() const { return load_stiffness.size() > 0 ? interface_rows() : 0; }
   Eigen::Index products() const { return stacked.rows() / size(); }  ///< number of matrices in `stacked`
   /// Computes K_r x. @param x  (n)
   void multiply_load_stiffness(const VectorX& x, PrestressGradient& product) const;
   /// Computes K_r x for an x that is zero in the rows of the interfaces. @param x  (modes)
   void multiply_load_stiffness_by_modes(const Eigen::Ref<const VectorX>& x, PrestressGradient& product) const;
-  /// interfaces += the rows of the interfaces of K_r x for an x that is zero in the modes. @param x  (rows)
+  /// Adds to `interfaces` the rows of the interfaces of K_r x for an x that is zero in the modes. @param x  (rows)
   void add_load_stiffness_interfaces(const Eigen::Ref<const VectorX>& x, MatrixX& interfaces) const;
-  /// modes += the rows of the modes of K_r x for an x that is zero in the modes. @param x  (rows)
+  /// Adds to `modes` the rows of the modes of K_r x for an x that is zero in the modes. @param x  (rows)
   void add_load_stiffness_modes(const Eigen::Ref<const VectorX>& x, MatrixX& modes) const;
-  /// forms += x^T K_r x (rows). @param products  a buffer for the products of the entries of x
+  /// Adds x^T K_r x for each r to `forms` (rows). @param products  a buffer for the products of the entries of x
   void add_load_stiffness_forms(const VectorX& x, VectorX& products, Eigen::Ref<VectorX> forms) const;
-  /// X += sum over r of weights_r K_r
+  /// Adds the sum over r of weights_r K_r to X.
   void add_load_stiffness(const Eigen::Ref<const VectorX>& weights, MatrixX& X) const;
   /// Transforms a matrix with columns of the file's coordinates to the present layout.
   MatrixX columns_in_rows(const MatrixX& file_matrix) const;

@@ -29,10 +29,10 @@ using MatrixX3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 struct ActingLoad {
   const SuperelementMatrices::Pattern* pattern = nullptr;
   double factor = 0;
-  bool follows = true;  ///< directions rotate with the body's frame; otherwise they are fixed in space
+  bool follows = true;  ///< whether directions rotate with the body's frame; otherwise they are fixed in space
 };
 
-/// Working memory of one body, kept from one evaluation to the next: only the first one allocates memory.
+/// Working memory of one body, kept from one evaluation to the next, so that only the first one allocates memory.
 struct SuperelementMotion {
   using Columns = Eigen::Map<const MatrixX>;
 
@@ -47,7 +47,7 @@ struct SuperelementMotion {
   VectorX r, load, phi, force, node_force;
   Vector6 rigid_load;  ///< U^T f + [0; m]
   std::vector<ActingLoad> loads;
-  VectorX attached_force;   ///< force on eps due to nodes attached to points (n); empty: there are none
+  VectorX attached_force;   ///< force on eps due to nodes attached to points (n); empty: no node is attached
   Vector6 attached_wrench;  ///< their force on the frame
 
   /// Solves for the frame and the linear coordinates. @throws ComputationError
@@ -62,7 +62,7 @@ struct SuperelementMotion {
   void set_loads(const SuperelementMatrices& body);
   /// Computes Om_m, after set_velocities and set_products.
   void set_mean_turning(const SuperelementMatrices& body);
-  /// Computes the forces of the motion, after everything above.
+  /// Computes the forces of the motion, after all of the functions above.
   /// @param damping  C~
   void set_forces(const SuperelementMatrices& body, const MatrixX& damping);
 

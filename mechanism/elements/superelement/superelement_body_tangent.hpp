@@ -1,4 +1,4 @@
-// The exact tangent of a superelement; only superelement_body.cpp uses it.
+// The exact tangent of a superelement; for superelement_body.cpp only.
 //
 // Increments dz^ of the node triads (body axes) move the frame by dnu = Sigma D dz^ and the nodes relative to it by
 // delta = dz^ - U_c dnu; dphi_0 is the rotation in dnu, L = [Sigma; I - V Sigma]. The changes in F = Q^T D^T force are
@@ -32,7 +32,7 @@ namespace bielle::mechanism {
 class SuperelementTangent {
  public:
   /// @param damping  C~
-  /// @param motion   motion with its forces set; with its products, if the tangent wants M alone
+  /// @param motion   motion with its forces set; only its products are required if the tangent requests M alone
   void add(const SuperelementMatrices& body, const MatrixX& damping, SuperelementMotion& motion,
            const LocalState& state, const std::vector<AttachedPoint>& points, LocalTangent& tangent);
 

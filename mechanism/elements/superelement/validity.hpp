@@ -5,19 +5,20 @@
 // other. For bars, straight and curved by up to 46 degrees, bent by forces until they are displaced by 5 to 45 % of
 // their length, it is 0.002 to 0.0075 theta^2, and less under moments and twist
 // (tests/benchmarks/superelement/test_validity.cpp). The estimate is 0.006 theta^2. If not all rotations of an
-// interface act, its rotation is that of the line to it, times one and a half: the value for a bar under a force there.
-// Such a bar has an error of 0.05 theta^2.
+// interface act, its rotation is taken as one and a half times that of the line to it, which is correct for a bar under
+// a force at this interface. The error of such a bar is 0.05 theta^2.
 //
 // If it is bent in its modes (by its own inertia, load patterns, loads at points inside), the body does not become
-// shorter by bending, as it should by the square of the deformation: the error is of first order in the angle theta by
-// which places of the body are rotated relative to each other. For a bar that is fixed at one end it is 0.4 theta
-// (shortening of the free end under a force there: 4/15 theta^2 L, deflection 2/3 theta L; under its weight 0.43
-// theta). Between interfaces, whose distance does become smaller, 0.03 theta remains (bar with clamped ends that
-// approach each other, places at the quarters).
+// shorter by bending, although it should by the square of the deformation: the error is of first order in the angle
+// theta by which places of the body are rotated relative to each other. For a bar that is fixed at one end it is 0.4
+// theta (under a force at its free end, which approaches the fixed end by 4/15 theta^2 L and deflects by 2/3 theta L;
+// under its weight 0.43 theta). Between interfaces, whose distance does become smaller, an error of 0.03 theta remains
+// (bar with clamped ends that approach each other, at its quarter points).
 //
-// If its mean strain is e (stretch, shear) it has an error of about e, since elasticity is linear (a material whose
-// true stress is linear in the strain per present length differs by 1.1 e, one of Green's strain by 1.5 e). Strains of
-// 2 % anywhere give a warning too, for any mean: bending and twist strain stout bodies long before they rotate.
+// If its mean strain is e (stretch, shear), its error is about e, because elasticity is linear (a material whose true
+// stress is linear in the strain per present length differs by 1.1 e, a material that is linear in Green's strain by
+// 1.5 e). Strains of 2 % anywhere give a warning too, whatever the mean is: in stout bodies, bending and twist cause
+// large strains at small rotations.
 #pragma once
 
 #include <memory>
@@ -34,19 +35,20 @@ namespace bielle::mechanism {
 /// Largest angles of interfaces relative to each other [rad].
 struct BodyTurn {
   double of_interfaces = 0;  ///< interfaces whose rotations act
-  double of_lines = 0;       ///< lines to interfaces whose rotations do not all act, e.g. of a bar under a force there
+  /// Largest angle of the lines to interfaces whose rotations do not all act, e.g. of a bar under a force at its end.
+  double of_lines = 0;
 };
 BodyTurn largest_turn(const std::vector<BodyPoint>& points, const LocalState& state);
 /// Returns the largest rotation of a place relative to another in the modes, at the state's amplitudes [rad].
 /// @param mode_turns  (3 q, amplitudes), see Superelement
 double largest_turn_of_modes(const MatrixX& mode_turns, const LocalState& state);
 
-/// Quantities for the validity of a body, in addition to its interfaces.
+/// Quantities from which the validity of a body is estimated, in addition to its interfaces.
 struct ValidityMeasures {
   double gyration = 0;        ///< radius of gyration of the body [m]
   const MatrixX& mode_turns;  ///< as above; may be empty
   BodyStrain strain;
-  std::optional<double> most;  ///< relative error beyond which a run fails; or none
+  std::optional<double> most;  ///< relative error beyond which a run fails; no value: no limit
 };
 
 /// Records the largest estimate over all steps of an analysis, and its time.

@@ -1,5 +1,5 @@
-// The volume of a cylinder's chamber as a function of its length, V(l): a piston of one area, or of several stages one
-// after the other.
+// The volume of a cylinder's chamber as a function of its length, V(l): for a piston of one area, or of several stages
+// that extend one after the other.
 //
 // dV/dl changes from one stage to the next by 10 x^3 - 15 x^4 + 6 x^5 over a short distance. Beyond the stroke dV/dl is
 // constant.

@@ -1,4 +1,4 @@
-// Reports if a cylinder without stops has left its stroke.
+// Step recorder that reports a cylinder without stops that has left its stroke.
 #pragma once
 
 #include "mechanism/hydraulics/actuators/cylinder.hpp"

@@ -14,8 +14,8 @@ namespace bielle::mechanism {
 
 class RecoveredOutputs {
  public:
-  /// Each function throws InputError if the superelement does not contain the data to recover it, and describes how it
-  /// would.
+  /// Each function throws InputError if the superelement does not contain the data to recover it, and the message
+  /// describes how to make one that does.
   void add_field(const std::string& field, const Superelement& body);
   /// Adds a field of stress at the node nearest to a place, recorded as "<field>_at_<name>".
   void add_point(const std::string& field, const std::string& name, const MeshPlace& place, const Superelement& body);
@@ -37,7 +37,7 @@ class RecoveredOutputs {
  private:
   struct Field {
     RecoveredField field;
-    std::size_t offset;  ///< offset of its first number among the described values
+    std::size_t offset;  ///< offset of the first number of the output among the described values
   };
   struct Point {
     RecoveredField field;

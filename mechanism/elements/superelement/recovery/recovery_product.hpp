@@ -1,8 +1,8 @@
 // Products of a recovery matrix with the local coordinates of several instants ("frames") at once.
 //
-// One frame reads the whole matrix for two operations per number: memory bandwidth limits the speed, at some 50 MB for
-// 24,000 nodes. Therefore frames are collected, and a part of the matrix that fits into the cache is used for all of
-// them, eight frames at a time.
+// The product for one frame reads the whole matrix, some 50 MB for 24,000 nodes, and performs two operations per
+// number, so that memory bandwidth limits its speed. Therefore frames are collected, and a part of the matrix that fits
+// into the cache is used for all of them, eight frames at a time.
 #pragma once
 
 #include <vector>
@@ -33,19 +33,20 @@ class FrameBlock {
 
  private:
   std::vector<double> values_;
-  Eigen::Index begin_ = 0;  ///< offset of a cache line: loads across two lines take twice as long
+  /// Index of the first value that begins a cache line: loads across two lines take twice as long.
+  Eigen::Index begin_ = 0;
   Eigen::Index coordinates_ = 0;
   int frames_ = 0;
 };
 
-/// values[frames_abreast * r + f] = row `begin + r` of the matrix times the coordinates of frame f. Sums are over the
-/// coordinates in their order, so that a frame's numbers are identical bit by bit for any neighbouring frames, any
-/// division of the rows, and any number of threads.
+/// Computes values[frames_abreast * r + f] = row `begin + r` of the matrix times the coordinates of frame f. Sums are
+/// over the coordinates in their order, so that a frame's numbers are identical bit by bit for any neighbouring frames,
+/// any division of the rows, and any number of threads.
 /// @param count  number of rows, a multiple of 3
 void multiply_rows(const RecoveryMatrix& matrix, Eigen::Index begin, Eigen::Index count, const double* group,
                    double* values);
 
-/// Returns the number of threads for a number of products: one if starting others takes longer.
+/// Returns the number of threads for a product of this size; one if starting more threads takes longer than they save.
 int recovery_threads(Eigen::Index rows, Eigen::Index coordinates, int frames);
 
 }  // namespace bielle::mechanism

@@ -3,10 +3,10 @@
 //   von_mises         the largest equivalent stress
 //   principal_stress  the largest principal stress (most tensile) and the least (most compressive)
 //
-// They are determined for the whole body (`all`) and for each volume group, each with its node, place and time; the
-// first in time is taken if values are equal, then the first node. No field is stored: local coordinates are collected,
-// and the stress of all nodes is computed for several steps at once. It is identical bit by bit to the fields in a
-// results file, however the steps are collected.
+// They are determined for the whole body (`all`) and for each volume group, each with its node, place and time; among
+// equal values the earliest is taken, then the first node. No field is stored: local coordinates are collected, and the
+// stress of all nodes is computed for several steps at once. The stress is identical bit by bit to the fields in a
+// results file, for any grouping of the steps.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ class StressPeaks : public StepRecorder {
  private:
   enum Kind { von_mises_stress, largest_principal, least_principal, kinds };
   using Peaks = std::vector<std::array<StressPeak, kinds>>;  ///< for each region
-  /// Several steps are evaluated at once; each waits for those after it.
+  /// Number of steps that are collected and evaluated together.
   static constexpr int together = 16;
 
   bool wants(const std::string& name) const;
@@ -65,8 +65,8 @@ class StressPeaks : public StepRecorder {
   std::vector<std::string> wanted_;
   bool von_mises_, principal_;  ///< whether they are requested
   Coordinates coordinates_;
-  /// The whole body, `all`, then the volume groups; a group with the name `all` that is not the whole is called
-  /// `all_volume`.
+  /// Names of the whole body, `all`, then of the volume groups; a group that is named `all` but is not the whole body
+  /// is called `all_volume`.
   std::vector<std::string> regions_;
   std::vector<std::size_t> said_with_whole_;  ///< groups that contain all nodes
   std::vector<int> group_begin_,

@@ -19,11 +19,11 @@ struct StressRecovery {
   std::vector<std::string> groups;           ///< names of the volume groups
   std::vector<std::vector<int>> group_rows;  ///< indices in `nodes` for each group, ascending
 
-  /// @throws InputError if the superelement file contains no stress; the message describes how it would
+  /// @throws InputError if the superelement file contains no stress; the message describes how to make one that does
   explicit StressRecovery(const Superelement& body);
 
   int size() const { return static_cast<int>(nodes.size()); }
-  /// Returns the same for one node, without groups. @param row  index in `nodes`
+  /// Returns the recovery of one node only, without groups. @param row  index in `nodes`
   StressRecovery alone(int row) const;
   /// Returns the index in `nodes` of the node nearest to a point of the mesh [m].
   /// @throws InputError if the distance of the point from all of them exceeds the mesh size there
