@@ -22,7 +22,7 @@ namespace bielle::mechanism {
 
 class StressCompleteness final : public StepRecorder {
  public:
-  /// @param answer  of the file, not empty @param deformation  updated before each `add`
+  /// @param answer  inertia answer of the file, not empty @param deformation  updated before each `add`
   StressCompleteness(std::string body, const InertiaAnswer& answer, std::shared_ptr<const BodyDeformation> deformation);
 
   void begin() override;
