@@ -386,8 +386,7 @@ double FormulaTree::value_and_gradient(std::span<const double> arguments, std::s
     bool as_jets = evaluation.at_kink;
     for (std::size_t i = 0; i < part.size(); ++i) {
       part[i] = varies(found) ? found.gradient[static_cast<Eigen::Index>(i)] : 0;
-      as_jets |= !std::isfinite(part[i]);  // a jet omits constant factors, so that they do not become NaN times
-                                           // infinity
+      as_jets |= !std::isfinite(part[i]);  // a jet has exact zeros for derivatives of constants
     }
     if (as_jets)
       for (std::size_t i = 0; i < part.size(); ++i) part[i] = formula_number::first(jet(arguments, first + i));
