@@ -13,7 +13,7 @@ namespace bielle::reduce {
 void reduce_matrices_of(const MatrixBody& body, const std::string& output, const CommonOptions& common,
                         Progress& progress);
 
-/// The same for a file without a body file. @param output  empty: the name of the file with the ending .h5
+/// Does the same for a file without a body file. @param output  empty: the name of the file with the ending .h5
 /// @param units  units of its numbers; empty: SI, or those that the file declares
 void reduce_from(const std::string& path, std::string output, const std::string& units, const CommonOptions& common);
 

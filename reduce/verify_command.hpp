@@ -11,7 +11,7 @@ namespace bielle::reduce {
 struct VerifyRequest {
   std::string path;                    ///< a superelement, a matrix file, or a file of another program
   std::optional<std::string> against;  ///< another one of the same body
-  std::string units;                   ///< of those that declare none: "mm-t-s"; empty: SI
+  std::string units;                   ///< units of the files that declare none: "mm-t-s"; empty: SI
 };
 
 /// Prints the report on standard output.

@@ -107,7 +107,7 @@ void read_recovery(const YamlValue& value, ReductionOptions& options) {
 void read_parameters(YamlValue root) {
   if (const auto given = root.find("parameters"))
     for (const auto& [name, value] : given->entries())
-      root.set_parameter(name, value.number());  // may use those above it
+      root.set_parameter(name, value.number());  // a parameter may use those above it
 }
 
 BodyFile read(const YamlValue& file) {

@@ -26,10 +26,10 @@ KeyForm tie_form();
 /// Returns the form of a list of directions.
 KeyForm directions_form();
 
-/// `rigid`, `average` or `free`. @throws InputError for other words
+/// Reads the word of a tie: `rigid`, `average` or `free`. @throws InputError for other words
 Tie read_tie(const YamlValue& value);
 
-/// Returns a list of x, y, z, rx, ry, rz. @param tie  nodes of free ones have no rotations
+/// Reads a list of x, y, z, rx, ry, rz. @param tie  the nodes of a free tie have no rotations
 std::array<bool, 6> read_directions(const YamlValue& value, Tie tie = Tie::rigid);
 
 /// Returns the words of directions: x, y, z, rx, ry, rz.

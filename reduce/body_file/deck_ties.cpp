@@ -43,7 +43,7 @@ DeckTie read_deck_tie(const YamlValue& value, double metres) {
   return tie;
 }
 
-/// Upper-case letters and single spaces, as decks compare names.
+/// Returns a name in upper case with single spaces: decks compare names in this form.
 std::string folded(const std::string& text) {
   std::string result;
   for (const char c : text)

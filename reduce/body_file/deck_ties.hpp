@@ -39,14 +39,14 @@ struct DeckMass {
   std::string refusal;                                 ///< the reason why it cannot be used; empty: it can, as follows
   double mass = 0;                                     ///< in the file's unit of mass
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< its centre [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   ///< about its centre, in the file's unit of mass times m^2
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   ///< name of the tie that carries it; empty: `place` may be set
   std::string tie;                                     ///< name of the tie that carries it; or
   std::optional<Eigen::Vector3d> place = {};           ///< node of the solid that carries it [m]
-  /// Tells whether it has mass or inertia; one without needs neither tie nor place.
+  /// Tells whether it has mass or inertia. A mass without either needs neither tie nor place.
   bool has_effect() const { return mass != 0 || !inertia.isZero(0); }
 };
 
-/// The ties and point masses of a file; none of a file that is no deck.
+/// The ties and point masses of a file. Both lists are empty if the file is no deck.
 struct Deck {
   std::vector<DeckTie> ties;
   std::vector<DeckMass> masses;
@@ -73,14 +73,14 @@ class DeckReader {
 
   /// Returns the mass that a key names, with a request for the nodes, the surface or the place that carries it.
   /// @param name  the name that it gets @param kilograms  per unit of the file
-  /// @throws InputError at the key, as `read`, and for values of no body
+  /// @throws InputError at the key, as `read`, and for values that no body can have
   MassRequest read_mass(const YamlValue& from, const std::string& name, double kilograms);
 
   /// Returns all masses that have an effect, by their own names.
   /// @param key  the key `masses`, which stands in messages @throws InputError as `read_mass`
   std::vector<MassRequest> read_masses(const YamlValue& key, double kilograms);
 
-  /// Sentences of the reader, and about interfaces that had one node in the file.
+  /// Returns the notes of the reader, and sentences about interfaces that were the same node in the file.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

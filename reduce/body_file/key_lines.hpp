@@ -13,7 +13,7 @@ namespace bielle::reduce {
 /// A file name and the line of each key path.
 class KeyLines {
  public:
-  KeyLines() = default;  ///< for requests from no file: it leaves messages as they are
+  KeyLines() = default;  ///< for requests that come from no file: messages stay as they are
   explicit KeyLines(const YamlValue& root);
   /// `rod.yaml:17: message`, with the line of the subject or else of the nearest key that encloses it. The message
   /// stays as it is if the file contains neither.

@@ -28,7 +28,7 @@ struct WithSecond {
 template <int N, int order, int most>
 using SecondDerivatives = std::conditional_t<order == 2, WithSecond<N, most>, NoSecond<N, most>>;
 
-/// @tparam N      how many increments; Eigen::Dynamic: at most `most`, and none for constants (of order 1 alone)
+/// @tparam N      number of increments; Eigen::Dynamic: at most `most`, or none for constants (order 1 only)
 /// @tparam order  1 or 2
 template <int N, int order, int most = N>
 struct AutoDiff : SecondDerivatives<N, order, most> {
@@ -46,7 +46,8 @@ struct AutoDiff : SecondDerivatives<N, order, most> {
   requires(order == 2) AutoDiff(double v, const Gradient& g, const Matrix& S)
       : SecondDerivatives<N, order, most>{S}, value(v), gradient(g) {}
 
-  /// Along a motion: fdot = g . v, and fddot = g . a + v . S v.
+  /// Derivatives with respect to time along a motion with rates v and accelerations a: fdot = g . v, fddot = g . a + v
+  /// . S v.
   double rate(const Gradient& v) const { return gradient.dot(v); }
   double acceleration(const Gradient& v, const Gradient& a) const requires(order == 2) {
     return gradient.dot(a) + v.dot(this->second * v);
@@ -113,11 +114,11 @@ struct AutoDiff : SecondDerivatives<N, order, most> {
     else
       return Gradient::Zero();
   }
-  /// Returns whether a number of a dynamic number of increments has none.
+  /// Tells whether a number with a dynamic number of increments is a constant, which has no gradient.
   static bool is_constant(const AutoDiff& a) { return is_dynamic && a.gradient.size() == 0; }
 };
 
-// A template of its number calls these for both.
+// A formula that is a template of its number type calls these functions for `double` and for `AutoDiff`.
 using std::atan2;
 using std::pow;
 using std::sqrt;
@@ -187,7 +188,7 @@ AutoDiff<N, order, most> pow(const AutoDiff<N, order, most>& f, double n) {
   const double power = std::pow(f.value, n), p1 = n * power / f.value;
   return compose(f, power, p1, (n - 1) * p1 / f.value);
 }
-/// In (-pi, pi]. @param s,c  not both zero
+/// Returns the angle of sine s and cosine c, up to a common positive factor, in (-pi, pi].
 template <int N, int order, int most>
 AutoDiff<N, order, most> atan2(const AutoDiff<N, order, most>& s, const AutoDiff<N, order, most>& c) {
   const double w = s.value * s.value + c.value * c.value, s_w = s.value / w, c_w = c.value / w;

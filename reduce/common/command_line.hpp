@@ -22,7 +22,7 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 /// Parses the command line.
 /// @returns false when `--help`, `--version` or `--explain` was given and has been printed: the program ends with
 /// status 0
-/// @throws InputError in one line, naming the nearest option where one is unknown
+/// @throws InputError with a message of one line, which names the nearest option if one is unknown
 bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
 /// Processors that this process may run on, at least 1.

@@ -9,8 +9,8 @@
 
 namespace bielle {
 
-/// Returns a number with its noun: "1 step", "3 steps", "0 steps". @param plural  where it is not the noun with an s:
-/// `counted(n, "degree of freedom", "degrees of freedom")`
+/// Returns a number with its noun: "1 step", "3 steps", "0 steps". @param plural  needed if it is not the noun with an
+/// s: `counted(n, "degree of freedom", "degrees of freedom")`
 template <std::integral Count>
 std::string counted(Count count, std::string_view noun, std::string_view plural = {}) {
   if (count == Count{1}) return fmt::format("1 {}", noun);

@@ -8,8 +8,8 @@
 
 namespace bielle {
 
-/// Whether a message begins with its subject, the key that it is about. A message about a whole section of the input,
-/// which names keys itself or needs no name, hides it.
+/// Whether a message begins with its subject, the key that it is about. A message about a whole section of the input
+/// hides its subject if it names keys itself or needs no name.
 enum class Subject { shown, hidden };
 
 /// `subject: message`, or the message alone if the subject is empty or hidden.

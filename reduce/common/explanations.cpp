@@ -16,7 +16,7 @@ namespace bielle {
 
 namespace {
 
-/// Share of the words of a message that a pasted text must have to be taken for it.
+/// A pasted text counts as a message if it has this share of the message's words.
 constexpr double likely = 0.75;
 
 /// The text with one blank in place of blanks and line breaks, none at its ends.

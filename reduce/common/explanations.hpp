@@ -29,8 +29,8 @@ std::vector<std::string_view> explanation_pages();
 
 std::vector<Explanation> read_explanations(const std::vector<std::string_view>& pages);
 
-/// Returns the explanation of a message of the program; of several the one whose message has the most letters. A null
-/// pointer if there is none. Line breaks in the message count as blanks.
+/// Returns the explanation of a message of the program, or a null pointer if there is none. If several fit, it is the
+/// one whose message has the most letters. Line breaks in the message count as blanks.
 const Explanation* explanation_of(const std::vector<Explanation>& explanations, const std::string& message);
 
 /// Returns the answer to `--explain TEXT` for terminals. TEXT is a name, a message or a good part of one, or words that

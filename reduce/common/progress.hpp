@@ -28,10 +28,11 @@ class Progress {
   /// Returns a message with the place of its subject in the input file before it.
   using Locator = std::function<std::string(const std::string& subject, const std::string& message)>;
 
-  /// @param located  for warnings with a subject; without it they are shown as they are
+  /// @param located  adds the place of its subject to a warning; without it warnings are shown as they are
   explicit Progress(bool quiet = false, Locator located = {});
   ~Progress();
-  /// Returns the report of a part of the work, which shows no phases and no notes, and warnings with the part's name.
+  /// Returns a report for a part of the work. It shows no phases and no notes, and puts the part's name before
+  /// warnings.
   Progress of_part(const std::string& name) const;
   void start(const std::string& phase);  ///< ends the running phase, if any
   /// Returns whether `update` would show something now.
@@ -41,7 +42,7 @@ class Progress {
   void finish();  ///< ends the running phase
   /// Prints a line that stays, e.g. a warning, in spite of `quiet`.
   void warn(const std::string& message);
-  /// Prints a warning about a key of the input. @param subject  as of a `Failure`
+  /// Prints a warning about a key of the input. @param subject  key of the input, as in a `Failure`
   void warn(const std::string& subject, const std::string& message, Subject is = Subject::shown);
   void note(const std::string& message);  ///< a line that stays, unless quiet
   /// Ends the running phase and takes over the phases that another process has shown.

@@ -24,7 +24,7 @@ void solve_definite(const Eigen::MatrixXd& L, Eigen::MatrixXd& B);
 /// Numbers of eigenvalues by their sign.
 struct EigenvalueSigns {
   Eigen::Index negative = 0;
-  Eigen::Index unknown = 0;  ///< zero to rounding, so that nothing is known of their sign; all where A is not finite
+  Eigen::Index unknown = 0;  ///< zero to rounding, so that their sign is unknown; all eigenvalues if A is not finite
 };
 
 /// Counts the eigenvalues of a symmetric matrix by L D L^T with interchanges (Bunch and Kaufman): D has the signs of A

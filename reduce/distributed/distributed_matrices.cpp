@@ -92,7 +92,7 @@ class DistributedMatrices : public BodyMatrices {
     try {
       order(channel_, Command::forget);
       channel_.receive_outcome();
-    } catch (const ComputationError&) {  // the ranks are gone, and with them what they had
+    } catch (const ComputationError&) {  // the ranks have ended, and their matrices with them
     }
   }
   DistributedMatrices(const DistributedMatrices&) = delete;

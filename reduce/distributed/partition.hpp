@@ -20,7 +20,7 @@ struct SolidPart {
 /// @param parts  >= 1; there may be more than cells
 std::vector<std::vector<int>> divided_cells(const Solid& solid, int parts);
 
-/// By coating: the (first) cell of each of its faces.
+/// Returns, for each coating, the (first) cell of each of its faces.
 using CoatedCells = std::vector<std::vector<int>>;
 CoatedCells coated_cells(const Solid& solid);
 

@@ -36,7 +36,7 @@ class CellFields {
     }
   }
 
-  /// The same from the strains by displacements, (6, 3 N).
+  /// Sets A eps at point p from the strains by displacements, (6, 3 N), in place of the gradients.
   void set_strain(Eigen::Index p, const Eigen::Matrix<double, 6, 6>& A, const Eigen::Matrix<double, 6, 3 * N>& strain) {
     transposed_.template middleCols<6>(6 * p).noalias() = strain.transpose() * A.transpose();
   }

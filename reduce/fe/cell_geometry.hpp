@@ -80,8 +80,8 @@ struct CellRule {
   std::size_t size() const { return values.size(); }
 };
 
-/// Jacobian dx_i/dxi_k at point p [m]. Coefficient by coefficient, here and below: Eigen would pack factors of this
-/// size into blocks, which takes longer than their product.
+/// Jacobian dx_i/dxi_k at point p [m]. It is computed coefficient by coefficient, here and below: Eigen would pack
+/// factors of this size into blocks, which takes longer than their product.
 template <int N>
 Eigen::Matrix3d jacobian_at(const CellRule<N>& rule, std::size_t p, const CellPoints<N>& x) {
   return x.lazyProduct(rule.local_gradients[p]);

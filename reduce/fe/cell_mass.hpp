@@ -52,7 +52,7 @@ class CellMass {
     add_dense_product({x.data(), 3, N, 3, false}, {gradients_.data(), N, 3 * points, N, false}, maps.data(), 3);
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_points, 1> jacobians(points);
     for (Eigen::Index p = 0; p < points; ++p) jacobians(p) = maps.template middleCols<3>(3 * p).determinant();
-    // A coefficient that is no number makes a least one that is no number, and an inverted cell.
+    // If a coefficient is NaN, so is the least one, and the cell counts as inverted.
     least_jacobian = jacobians.template minCoeff<Eigen::PropagateNaN>();
     const Pairs pairs = products_ * jacobians;
     return symmetric(pairs);

@@ -1,4 +1,4 @@
-// How the stiffness of cells is integrated, where there is a choice.
+// Integration rules of the stiffness of cells, for the types that have more than one.
 #pragma once
 
 namespace bielle::reduce {

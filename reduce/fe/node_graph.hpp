@@ -44,7 +44,7 @@ class CellPlaces {
   void from(int a, std::int64_t own, const Visit& visit) const {
     walk(own, nodes_[a], visit);
   }
-  /// The same for all nodes of the cell.
+  /// Visits all nodes b of the cell, in the same way.
   template <class Visit>
   void all(int a, const Visit& visit) const {
     walk(graph_.starts[nodes_[a]], -1, visit);
@@ -80,7 +80,7 @@ struct NodeMatrix {
 
   /// (m (x) I_k) x: node a owns k consecutive rows of x. @param x  (k points, any)
   RowMatrix multiply(const RowMatrix& x, int rows_per_node, int threads = 1) const;
-  /// The same into y, which has the size of x.
+  /// Computes the same product into y, which has the size of x.
   void multiply_into(const RowMatrix& x, int rows_per_node, RowMatrix& y, int threads = 1) const;
 };
 

@@ -41,8 +41,8 @@ struct Solid {
 Solid make_solid(const Mesh& mesh, const std::map<std::string, Material>& materials,
                  const std::map<std::string, std::string>& regions, Integration integration = Integration::standard);
 
-/// Mass, its centre and the inertia about it, integrated over the cells and coatings; of a lumped mass those of its
-/// nodes, whose mass is that of the integral and whose centre and inertia differ from it by the mesh.
+/// Mass, its centre and the inertia about it, integrated over the cells and coatings. For a lumped mass matrix they are
+/// sums over the nodes: the mass is that of the integral, while centre and inertia have an error of the mesh.
 struct MassProperties {
   double mass = 0;                                    ///< [kg]
   double volume = 0;                                  ///< [m^3]
@@ -52,7 +52,7 @@ struct MassProperties {
 
 MassProperties mass_properties(const Solid& solid, int threads = 1);
 
-/// Tells of each point whether it belongs to a solid cell.
+/// Tells for each point whether it belongs to a solid cell.
 std::vector<bool> points_of_solid(const Solid& solid);
 /// Returns the points of solid cells, ascending.
 std::vector<int> nodes_of_solid(const Solid& solid);

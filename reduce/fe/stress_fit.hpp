@@ -56,7 +56,7 @@ class PatchFit {
   PatchFit(const Solid& solid, const StressSamples& samples, Eigen::Index terms, std::size_t least_cells)
       : solid_(solid), samples_(samples), terms_(terms), least_cells_(least_cells) {}
 
-  /// @param coefficients  memory for those of all vertices
+  /// @param coefficients  memory for the coefficients of all vertices
   FittedStress fit(const Surroundings& around, int threads, double* coefficients) const;
 
  private:

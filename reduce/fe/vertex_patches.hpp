@@ -17,7 +17,8 @@ struct Surroundings {
 /// @param material  number in `solid.materials`
 Surroundings surroundings(const Solid& solid, int material);
 
-/// The cells around a vertex, and further around their vertices until there are as many as requested or no more.
+/// Returns the cells around a vertex, then those around their vertices, and so on, until there are `least` cells or no
+/// more.
 /// @param vertex  number in `around.vertices`; @param least  cells
 std::vector<int> patch_of(const Solid& solid, const Surroundings& around, std::size_t vertex, std::size_t least);
 

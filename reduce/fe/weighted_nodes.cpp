@@ -32,7 +32,8 @@ void check_not_in_line(const SurfaceIntegrals& nodes, const std::string& name) {
 
 SurfaceIntegrals sum_over_nodes(const Mesh& mesh, std::vector<int> nodes, const Eigen::VectorXd& weights) {
   SurfaceIntegrals result;
-  Eigen::Index heaviest = 0;  // the origin of the sums: its distance from the centroid may be tiny, its weight huge
+  Eigen::Index heaviest = 0;  // origin of the sums, for accuracy: its distance from the centroid may be tiny, and its
+                              // weight huge
   weights.maxCoeff(&heaviest);
   const Eigen::Vector3d origin = mesh.points.col(nodes[static_cast<std::size_t>(heaviest)]);
   const Eigen::Matrix3Xd from_origin = mesh.points(Eigen::all, nodes).colwise() - origin;

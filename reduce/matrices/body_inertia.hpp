@@ -1,7 +1,7 @@
-// The inertia components S_kl of foreign matrices, by which a mechanism knows the inertia of large rotations.
+// The inertia components S_kl of foreign matrices, from which a mechanism computes the inertia of large rotations.
 //
-// M~ alone does not tell them: S_kl = integral of rho u_k u_l needs the directions of the motion inside. They come, in
-// this order, from
+// They do not follow from M~ alone: S_kl = integral of rho u_k u_l depends on the directions of the motion inside. They
+// are taken from the first of these sources that exists:
 //   the file      where it has them;
 //   its shapes    with point masses: S_kl = sum over points of m u_k u_l, rotary inertia as a cloud of mass;
 //   the nodes     a block of M between two nodes is that of mass at rigid clouds around them. With unknowns of a

@@ -37,7 +37,7 @@ struct CommonMotions {
   Eigen::MatrixXd a, b;  ///< (rows, motions) [m]
 };
 
-/// @param length  by which rotations are multiplied [m]
+/// @param length  factor that makes rotations comparable with displacements [m]
 CommonMotions common_motions(const PlacedMotions& a, const PlacedMotions& b, const CommonPlaces& common, double length);
 
 /// Values of the unknowns of another set in these motions (n,motions); nothing if an unknown has no counterpart.

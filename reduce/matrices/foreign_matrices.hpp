@@ -27,11 +27,11 @@ struct ForeignMatrices {
   std::string nodes;                                 ///< another file with the nodes (a deck, a table); empty: none
   std::string unknowns;                              ///< another file with the order of the unknowns; empty: none
   std::string format;                                ///< its name in tools/guide/exchange.md; empty: known by the file
-  std::map<std::string, std::string> names;          ///< of matrices in the file: "stiffness" -> "KAAX"
+  std::map<std::string, std::string> names;          ///< names of the matrices in the file: "stiffness" -> "KAAX"
   std::vector<std::int64_t> interfaces;              ///< numbers of nodes that become interfaces; empty: not told
   std::map<std::string, MatrixQuantity> quantities;  ///< recovered quantities by name
   std::string units;  ///< units of its numbers, "mm-t-s"; empty: SI, or those that the file declares
-  /// Whether the requests are keys of a body file, whose names messages then show in place of those of options.
+  /// Whether the requests are keys of a body file. Messages then name these keys instead of options.
   bool in_body_file = false;
 };
 

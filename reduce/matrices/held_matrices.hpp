@@ -38,7 +38,7 @@ class HeldMatrices {
   SparseColumns mass_;          // (m,m)
   Eigen::MatrixXd conditions_;  // C (m, averages)
   std::unique_ptr<Factor> factor_;
-  Eigen::MatrixXd answers_;      // to the conditions' forces (m, averages)
+  Eigen::MatrixXd answers_;      // response of the interior to unit forces of the conditions (m, averages)
   Eigen::MatrixXd multipliers_;  // inverse of C^T answers: multipliers for unit violations
   FactorStatistics no_statistics_;
 };

@@ -27,7 +27,7 @@ struct ImpliedPositions {
 /// @returns nothing if fewer than two nodes have all displacements, or without rotations fewer than four
 std::optional<ImpliedPositions> implied_positions(const MatrixStudy& study, const Eigen::MatrixXd& motions);
 
-/// The similarity f Q x + o that maps points to others best, most of which agree.
+/// The similarity x -> f Q x + o that maps points to others best; a minority of the points may disagree.
 struct Similarity {
   double factor = 1;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();

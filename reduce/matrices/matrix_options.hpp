@@ -37,7 +37,8 @@ struct NodePoint {
   std::string subject;                   ///< "points.tip"
 };
 
-/// Names of the rows of a recovered quantity: of all rows in order, or of some by their number from 1.
+/// Names of the rows of a recovered quantity: a list for all rows in order, or names of some rows by their number from
+/// 1.
 struct QuantityRows {
   std::vector<std::string> all;
   std::vector<std::pair<std::string, std::int64_t>> chosen;
@@ -47,7 +48,7 @@ struct QuantityRows {
 struct MatrixOptions {
   std::string name;  ///< name of the body; empty: that of the file
   std::string input_text;
-  /// None: the nodes that the file declares as interfaces, or else all nodes.
+  /// If the list is empty, the interfaces are the nodes that the file declares, or else all nodes.
   std::vector<NodeInterface> interfaces;
   ModeRequest modes;                   ///< without a request: all modes of a small body
   std::vector<double> damping_ratios;  ///< as in ReductionOptions; without both: the file's damping, if it has one

@@ -83,12 +83,13 @@ Eigen::VectorXd largest_entries(const SparseColumns& matrix);
 /// @returns their number
 Eigen::Index remove_empty_unknowns(MatrixSet& set);
 
-/// Returns a square of a frequency that the body has at least, by the diagonals: the least one of scalars, otherwise
-/// the median of the unknowns; 0 if no unknown has both stiffness and mass [rad^2/s^2].
+/// Returns a square of a frequency that serves as a scale [rad^2/s^2], by the ratios of the diagonals: the least one of
+/// the scalars, otherwise the median of the unknowns; 0 if no unknown has both stiffness and mass.
 double reference_eigenvalue(const MatrixSet& set);
 
-/// Clears rows and columns of the stiffness that are rounding: those of the interfaces of a body that is held
-/// statically determinate. With their own mass they would vibrate at less than 1e-4 of a frequency that the body has.
+/// Clears rows and columns of the stiffness that consist of rounding errors. The interfaces of a body that is held
+/// statically determinate have such rows: with their own mass they would vibrate at less than 1e-4 of a frequency of
+/// the body.
 void clear_rounding(MatrixSet& set);
 
 /// Displacements or rotations of all nodes in body axes, in terms of the unknowns: (3 nodes, n), rows x y z of the

@@ -18,8 +18,8 @@ namespace bielle::reduce {
 /// Without a request all modes of at most this many interior unknowns are kept.
 inline constexpr Eigen::Index most_unasked_modes = 300;
 
-/// Reduces the matrices of a body, or takes over those of a reduced one. The superelement has no stress and no
-/// geometric stiffness, but that of the file for the spin that the request gives.
+/// Reduces the matrices of a body, or takes over those of a reduced one. The superelement has no stress, and no
+/// geometric stiffness except that of the file, which belongs to the spin in the request.
 /// @param set  as read; changed: empty unknowns are taken out, matrices made symmetric to rounding
 /// @throws InputError about requests that do not fit, matrices that are not symmetric, that hold the body to the
 /// ground,

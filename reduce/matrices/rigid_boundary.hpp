@@ -10,14 +10,15 @@
 
 namespace bielle::reduce {
 
-/// K~ of the kept directions without the forces of rigid motions, which are the digits of a text file.
+/// Returns K~ of the kept directions without the forces of rigid motions, which come from the few digits of a text
+/// file.
 /// @param condensed  (b,b) as computed
-/// @throws InputError if these forces are more than that: the matrices are held to the ground, or do not belong to the
-///         positions of the nodes
+/// @throws InputError if these forces are larger than such digits explain: the matrices are held to the ground, or do
+///         not belong to the positions of the nodes
 Eigen::MatrixXd boundary_stiffness(const MatrixSet& set, const NodeTies& ties, const Eigen::MatrixXd& condensed,
                                    const MassProperties& body);
 
-/// Displacements (3p,N) whose rigid motions are exact: the columns of the interfaces lose theirs and get the geometric
+/// Returns displacements (3p,N) with exact rigid motions: those of the interface columns are replaced by the geometric
 /// ones.
 void put_exact_rigid_motions(const std::vector<Interface>& interfaces, const MassProperties& body,
                              const Eigen::Matrix3Xd& points, Eigen::MatrixXd& displacement);

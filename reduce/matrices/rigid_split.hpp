@@ -30,16 +30,16 @@ using RestMoments = std::array<std::array<Eigen::RowVectorXd, 3>, 3>;
 struct RestInertia {
   std::array<Eigen::MatrixXd, 6> components;  ///< (N,N)
   RestMoments moments;
-  Eigen::MatrixXd open;  ///< the part of M~ of the rest (N,N) without known directions, of which each got a third
+  Eigen::MatrixXd open;  ///< part of the rest's M~ without known directions (N,N); each direction got a third of it
 };
 
-/// Returns whether no direction has negative kinetic energy. Matrices of beams with inertia of torsion alone have,
-/// since no cloud of mass turns about one axis only.
+/// Tells whether the kinetic energy is not negative in any direction. It is negative for matrices of beams whose only
+/// rotary inertia is that of torsion, since no cloud of mass has an inertia about a single axis.
 bool is_semidefinite(const std::array<Eigen::MatrixXd, 6>& components);
 
-/// Returns the rest of components that may not add up to M~. In the basis of M~ and their sum (eigenvalues l, 1 where
-/// they add up) motions with l above one half are scaled by l^-1/2, the others get the missing 1 - l in thirds.
-/// Components of which one has negative energy tell nothing.
+/// Returns the rest of components that may not add up to M~. In the basis of M~ and their sum (eigenvalues l, 1 if they
+/// add up) motions with l above one half are scaled by l^-1/2, the others get the missing 1 - l in thirds. Components
+/// with a negative energy are not used.
 RestInertia rest_inertia(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::MatrixXd& mass,
                          const RigidSplit& split);
 
@@ -48,7 +48,7 @@ RestInertia rest_inertia(const std::array<Eigen::MatrixXd, 6>& components, const
 std::array<Eigen::MatrixXd, 6> joined_inertia(const RigidSplit& split, const RestInertia& rest,
                                               const Eigen::MatrixXd& mass);
 
-/// Components that add up to M~ but for the digits of a text file, made to do so exactly.
+/// Returns components that add up to M~ exactly, from those that do so except for the digits of a text file.
 std::array<Eigen::MatrixXd, 6> normalised_inertia(const std::array<Eigen::MatrixXd, 6>& components,
                                                   const Eigen::MatrixXd& mass);
 

@@ -28,8 +28,8 @@ constexpr double frequency_limit = 1e-2;
 constexpr double shape_limit = 0.1;
 /// Modes whose frequencies differ less count together, since any combination of them is a mode: 1 %.
 constexpr double multiple = 1e-2;
-/// Counterparts whose MAC differs less look alike at the common places: 0.01. The one of the nearest frequency is
-/// meant.
+/// Counterparts whose MAC differs by less than 0.01 look alike at the common places. The one with the nearest frequency
+/// is taken.
 constexpr double alike = 1e-2;
 constexpr double same_place = 1e-4;  // in lengths of the body
 

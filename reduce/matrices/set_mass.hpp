@@ -12,8 +12,8 @@ struct SetMass {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();     ///< [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    ///< about the centre, body axes [kg m^2]
   Eigen::Matrix3d at_origin = Eigen::Matrix3d::Zero();  ///< about the origin
-  /// Largest entry that a rigid body cannot have, relative to the mass: of mass between directions, and of symmetric
-  /// coupling of mass and moment, in lengths of the body.
+  /// Largest entry that the mass matrix of a rigid body does not have, relative to the mass: coupling of mass between
+  /// two directions, or the symmetric part of the coupling of mass and moment, divided by the length of the body.
   double odd = 0;
 
   double mass() const { return along.mean(); }

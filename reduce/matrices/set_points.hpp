@@ -35,8 +35,8 @@ std::vector<SetPoint> set_points(const MatrixSet& set, const PointMotions& motio
                                  const std::vector<NodePoint>& requests);
 
 /// Appends residual vectors for the loads that points request, and for those of inertia. @returns their number
-/// @param inertia  (n,k) loads of the body's own inertia, of which nothing may be left
-/// @throws InputError about a request of a point of whose loads nothing is left
+/// @param inertia  (n,k) loads of the body's own inertia; it is no error if nothing is left of them
+/// @throws InputError about the request of a point if nothing is left of its loads
 Eigen::Index add_residual_vectors(const MatrixSet& set, const NodeTies& ties, const HeldMatrices& held,
                                   const std::vector<SetPoint>& points, const Eigen::MatrixXd& inertia,
                                   MatrixBasis& basis);

@@ -101,7 +101,7 @@ void verify_presence(const MatrixStudy& study, VerifiedSubject& subject) {
 }  // namespace
 
 void add_finding(VerifiedSubject& subject, Check check, const std::string& fault) {
-  if (!std::isfinite(check.value)) check.value = 1e300;  // a number that is none passes no check
+  if (!std::isfinite(check.value)) check.value = 1e300;  // a value that is not a number fails its check
   const bool passed = check.passed();
   subject.findings.push_back({std::move(check), passed ? "" : fault});
 }

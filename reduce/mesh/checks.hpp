@@ -39,7 +39,7 @@ std::string stiff_wedges(const Mesh& mesh, const FaceTable& faces);
 /// Returns a sentence if the body is longer than 150 m or smaller than 1 mm, probably because of a wrong unit of
 /// length; else empty.
 std::string implausible_size(const Mesh& mesh);
-std::string implausible_length(double metres);  ///< the same of its largest extent
+std::string implausible_length(double metres);  ///< the same sentence for a body of this largest extent
 
 /// Quality of the solid cells.
 struct MeshQuality {

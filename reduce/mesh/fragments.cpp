@@ -58,7 +58,8 @@ Parts divide_volumes(const std::vector<Entity>& tools) {
   gmsh::vectorpair body, result, surfaces;
   gmsh::model::getEntities(body, 3);
   gmsh::model::getEntities(surfaces, 2);
-  body.insert(body.end(), surfaces.begin(), surfaces.end());  // to learn what becomes of the surfaces
+  body.insert(body.end(), surfaces.begin(), surfaces.end());  // surfaces take part, so that their parts are known
+                                                              // afterwards
   std::vector<gmsh::vectorpair> parts;
   // gmsh 4.8 returns wrong parts if the same call removes the divided entities.
   gmsh::model::occ::fragment(body, tools, result, parts, -1, false, false);

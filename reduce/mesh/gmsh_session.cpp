@@ -67,7 +67,7 @@ std::optional<std::string> failure(const std::function<void()>& work) {
   try {
     work();
     return {};
-  } catch (const std::length_error&) {  // gmsh believes the numbers of a damaged file
+  } catch (const std::length_error&) {  // gmsh allocates memory by the numbers of a damaged file
     reason = "a number of its items is too large";
   } catch (const std::exception&) {
     throw;

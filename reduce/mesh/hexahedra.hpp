@@ -8,7 +8,7 @@
 
 namespace bielle::reduce {
 
-/// Origin of hexahedra.
+/// The way in which hexahedra are made.
 enum class HexahedralMesh {
   prescribed,  ///< the geometry itself prescribes them (transfinite or extruded volumes of a `.geo`)
   structured,  ///< every volume is a block of six faces with four edges each, in which the mesh is a grid

@@ -21,8 +21,9 @@ struct SourceFile {
   bool geometry = false;      ///< to be meshed, by the ending of its name
   bool is_iges = false;       ///< by the ending of its name
   bool carries_unit = false;  ///< STEP and IGES: gmsh converts these to metres
-  std::string unit_note;      ///< "read in mm as length_unit says": what is known of its unit, for people
-  double metres = 1;          ///< per unit of what gmsh then holds (1 for STEP and IGES: gmsh converts these)
+  std::string unit_note;      ///< "read in mm as length_unit says": the origin of its unit, for messages
+  double metres = 1;          ///< metres per unit of the numbers that gmsh holds (1 for STEP and IGES, which gmsh
+                              ///< converts)
   std::unique_ptr<ScratchFolder> folder;  ///< folder of the converted file; lives as long as this object
 };
 

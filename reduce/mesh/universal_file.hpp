@@ -17,9 +17,9 @@ std::optional<double> universal_length_unit(const std::string& path);
 /// number of nodes is wrong
 std::string check_universal_elements(const std::string& path);
 
-/// Writes a copy in which all nodes stand in the global Cartesian system, elements that are left out are missing, as
-/// gmsh fails on some of them, and groups are in a dataset that gmsh reads, under numbers that no physical property of
-/// elements has: gmsh would add the elements of the property to the group.
+/// Writes a copy that gmsh reads correctly. All nodes stand in the global Cartesian system. Elements that are left out
+/// are missing, since gmsh fails on some of them. Groups are in a dataset that gmsh reads, under numbers that no
+/// physical property of elements has: gmsh would add the elements of the property to the group.
 /// @returns false if no change was necessary; the copy is then to be ignored
 /// @throws InputError naming the line, ComputationError if the copy cannot be written
 bool adapt_universal_file(const std::string& source, const std::string& target);

@@ -33,7 +33,7 @@ class FixedInterfaceBody {
 
   Eigen::Index size() const { return freedoms_.size; }  ///< number of unknowns z
   const FactorStatistics& statistics() const;
-  Eigen::Index supports() const { return freedoms_.rigid.cols(); }  ///< r
+  Eigen::Index supports() const { return freedoms_.rigid.cols(); }  ///< r, the number of rigid motions
 
   /// Displacements (3 points, k) of all points: tied points follow the released directions, and points outside the
   /// solid are at rest.
@@ -60,7 +60,7 @@ class FixedInterfaceBody {
   HeldFreedoms freedoms_;
   std::unique_ptr<Factor> factor_;  // factor of K_ii without the supports; null if no unknown is left
   FactorStatistics no_statistics_;
-  Eigen::MatrixXd corrections_;  // K+ C^T, then -N: what lambda and alpha take away
+  Eigen::MatrixXd corrections_;  // K+ C^T, then -N: the columns that lambda and alpha multiply
   Eigen::MatrixXd small_;        // inverse of the matrix of lambda and alpha
 };
 

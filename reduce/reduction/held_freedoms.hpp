@@ -11,7 +11,7 @@
 
 namespace bielle::reduce {
 
-/// Interior coordinates z and symbols are as in held_body.hpp.
+/// Interior coordinates z and symbols are as in fixed_interface_body.hpp.
 struct HeldFreedoms {
   Eigen::Index size = 0;               ///< number of coordinates z
   std::vector<std::int64_t> free;      ///< unknowns x y z of the points that are neither tied nor outside, ascending

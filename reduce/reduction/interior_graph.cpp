@@ -14,7 +14,7 @@ class Carriers {
       for (SparseRows::InnerIterator entry(carried, row); entry; ++entry)
         of_points_[static_cast<std::size_t>(row / 3)].push_back(static_cast<int>(entry.col()));
   }
-  /// Adds those of a point, each once.
+  /// Adds the columns that move a point, each once.
   void add(int point, std::vector<int>& columns) const {
     const std::vector<int>& own = of_points_[static_cast<std::size_t>(point)];
     if (own.empty()) return;

@@ -27,8 +27,8 @@ Eigenpairs requested_modes(const ModeRequest& request, const ShiftInvertProblem&
                            const std::function<Eigenpairs(int count, const EigenpairOptions& options)>& search,
                            Progress& progress, int threads);
 
-/// Cuts the lowest pairs of a body to those that are requested, all of them without a request. Modes below the
-/// frequency that the count leaves out are told.
+/// Cuts the lowest pairs of a body to those that are requested; without a request it keeps all. The user is told about
+/// modes below the frequency limit that the count leaves out.
 void keep_requested(const ModeRequest& request, Eigenpairs& pairs, Progress& progress);
 
 /// @throws InputError if more modes are requested than `inside`, the number of unknowns

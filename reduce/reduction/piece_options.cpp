@@ -40,7 +40,8 @@ std::size_t piece_of_surface(const Mesh& whole, const CutMesh& cut, const std::s
                              const std::string& subject, const std::string& rule) {
   const std::vector<std::size_t> pieces = pieces_with(cut, group);
   if (pieces.empty()) {
-    about(subject, [&] { return integrate_tied(whole, group); });  // says why, but of nodes
+    about(subject, [&] { return integrate_tied(whole, group); });  // throws with the reason, unless the group consists
+                                                                   // of nodes
     throw InputError(subject, fmt::format("its nodes lie in several pieces: {}", rule));
   }
   if (pieces.size() == 1) return pieces.front();

@@ -69,7 +69,7 @@ Range range_of(const Adequacy& found, const Eigen::VectorXd& errors, double most
   return range;
 }
 
-/// Returns a MAC with four digits that promises no more than was found.
+/// Returns a MAC with four digits, rounded down, so that the report does not promise more than was found.
 double rounded_down(double assurance) { return std::floor(1e4 * assurance) / 1e4; }
 
 /// Returns the limit of the modes that would bring a frequency within bounds.

@@ -40,7 +40,7 @@ using EigenIteration =
 
 struct EigenpairOptions {
   EigenMethod method = EigenMethod::automatic;
-  EigenIteration iteration;  ///< in place of the method, where it is given; it names itself
+  EigenIteration iteration;  ///< replaces the method if it is given, and sets the name of the method in the result
   /// Residuals of the eigenpairs of the inverted operator, relative to their eigenvalues.
   double tolerance = 1e-8;
   int restarts = 300;  ///< before giving up

@@ -79,7 +79,7 @@ class KrylovBasis {
   StartVectors random_;
   Eigen::MatrixXd vectors_;            // Q, then F
   Eigen::MatrixXd mass_front_;         // M F
-  Eigen::MatrixXd coupling_of_front_;  // with the block whose image it comes from
+  Eigen::MatrixXd coupling_of_front_;  // coupling of the front with the block by whose product with S M it was made
   Eigen::MatrixXd projected_;          // H, lower triangle, and R in the rows of F
   Eigen::Index size_ = 0, front_ = 0, locked_ = 0;
   Eigen::Index coupled_ = 0;  // the front is coupled with the vectors of Q from this one on

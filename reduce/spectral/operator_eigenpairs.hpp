@@ -33,7 +33,7 @@ struct OperatorEigenpairs {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;   ///< columns of length one
   Eigen::VectorXd residuals;  ///< |T x - mu x| / |mu|, by a new application of T
-  bool all = false;           ///< there are no others
+  bool all = false;           ///< whether these are all eigenpairs of the operator
 };
 
 /// Finds at least the `count` eigenpairs of largest magnitude, or all if there are fewer.

@@ -104,7 +104,7 @@ struct Superelement {
   /// Strain xx yy zz yz xz xy (engineering shears) at places spread over the body, then its mean over the body, body
   /// axes (6 (q + 1),n); a mechanism uses it to judge how far the body is strained; may be empty.
   Eigen::MatrixXd strains;
-  InertiaAnswer inertia_answer;  ///< by it a mechanism judges whether stress is complete; may be empty
+  InertiaAnswer inertia_answer;  ///< a mechanism uses it to judge whether stress is complete; may be empty
   double total_mass = 0;         ///< integrated on the mesh [kg]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< centre of mass [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, body axes [kg m^2]

@@ -33,7 +33,7 @@ TEST_CASE("friction that slips has the tangents of its force, and takes power") 
           const auto K = dense.tangent(state, DenseModel::Part::K), C = dense.tangent(state, DenseModel::Part::C);
           CHECK((moved(&DenseModel::move) - K).cwiseAbs().maxCoeff() < 1e-8 * (1 + K.cwiseAbs().maxCoeff()));
           CHECK((moved(&DenseModel::move_rates) - C).cwiseAbs().maxCoeff() < 1e-8 * (1 + C.cwiseAbs().maxCoeff()));
-          // Its force resists along `direction`, whatever the velocity.
+          // The force of the joint opposes motion along `direction` at any velocity.
           const VectorX r = dense.residual(state), v = dense.rates(state);
           const double power = r.dot(v);
           CHECK_THAT(power, Catch::WithinAbs(dense.energy(state).dissipation, 1e-12 * (1 + std::abs(power))));

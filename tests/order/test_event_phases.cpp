@@ -124,7 +124,7 @@ TEST_CASE("an event at any phase relative to the grid changes reactions by the e
       const std::vector<double> without = rows(sample.text, sample.duration, h, sample.reaction),
                                 coarse = rows(sample.text, sample.duration, 2 * h, sample.reaction);
       const std::size_t n = without.size() / (static_cast<std::size_t>(std::lround(sample.duration / h)) + 1);
-      // The error of steps of 2 h is 4/3 of what they differ by from those of h.
+      // The error of steps of 2 h is 4/3 of the difference between results with 2 h and with h.
       double error = 1e-6 * sample.size;  // accuracy of the accelerations of the shortest steps
       for (std::size_t k = 0; k < coarse.size(); ++k)
         error = std::max(error, 4.0 / 3 * std::abs(coarse[k] - without[(k / n) * 2 * n + k % n]));

@@ -26,7 +26,7 @@ joints: {pivot: {type: hinge, nodes: [ground, bob], axis: [0, 0, 1], position: [
 )yaml");
   TimeIntegration integration(model.system, model.environment(), scheme, model.system.start(0),
                               ConstraintForm::position);
-  // Without start(h): with A_0 = a_0 and the velocity as it is.
+  // There is no start(h): A_0 = a_0, and the velocity stays unchanged.
   for (long k = 0; k < std::lround(1 / h); ++k) integration.step(h);
   const State& state = integration.state();
   const NodeState& bob = model.node(state, "bob");
@@ -57,8 +57,8 @@ TEST_CASE("the pendulum's errors are those of an independent implementation, sch
       const Errors found = errors_at_one_second(row.scheme, h);
       const std::string name = std::string("pendulum.") + row.name + "." + step + ".";
       INFO(row.name << ", h = " << h);
-      // Newmark's multipliers carry what Newton's method left, amplified (weak instability): with tolerances from 1e-6
-      // to 1e-12 the other implementation itself gives 3.584e-3 to 3.587e-3.
+      // Newmark's multipliers contain the remainder of Newton's method, amplified (weak instability): with tolerances
+      // from 1e-6 to 1e-12 the other implementation itself gives 3.584e-3 to 3.587e-3.
       CHECK(found.q == Approx(table(name + "q")).epsilon(2e-4));
       CHECK(found.v == Approx(table(name + "v")).epsilon(2e-4));
       CHECK(found.lambda == Approx(table(name + "lambda")).epsilon(&row == rows ? 3e-3 : 2e-4));

@@ -27,7 +27,7 @@ def fill(rows):
     first, second = c.derivative(1), c.derivative(2)
 
     def along(u, rate):
-        """Unit tangent, |c'|, and what of c'' u'^2 - g is across the wire."""
+        """Unit tangent, |c'|, the part of c'' u'^2 - g across the wire, and the part along it."""
         d = first(u)
         size = np.linalg.norm(d)
         t, pull = d / size, second(u) * rate**2 - gravity

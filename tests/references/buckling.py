@@ -60,7 +60,7 @@ class Hinged:
     def end(self, M, u):
         zero = 0 * u[0]
         bent = self.sign * M / self.rod.bending[2] * self.length
-        # The section carries what acts at the left end, the other way round.
+        # The section carries the load at the left end, with the opposite sign.
         m = np.array([u[1], u[2], zero - self.sign * M])
         z = rods.start([0, 0, 0], upright(np.pi / 4 + bent), m)
         force = np.array([zero, zero, u[0]])

@@ -152,7 +152,7 @@ def fill(rows):
     for name, scheme in schemes.items():
         for h in (0.01, 0.0025):
             for what, error in zip(("q", "v", "lambda"), pendulum_errors(scheme, h)):
-                # Newmark's multipliers carry what Newton's method leaves.
+                # Newmark's multipliers contain the remainder of Newton's method.
                 loose = name == "newmark" and what == "lambda"
                 rows.add(f"pendulum.{name}.{h}.{what}", error, share(error, 2e-3 if loose else 5e-6), "error at 1 s")
     for name, h in (("rho_0.9", 1e-3), ("rho_0.9", 5e-4), ("rho_0.9", 2.5e-4), ("rho_0.8", 1e-3), ("hht", 1e-3)):

@@ -24,7 +24,7 @@ class Linkage:
         self.spring = None
 
     def body(self, mass, inertia):
-        """A body of so much inertia about its centre of mass. @return its number"""
+        """Adds a body with a mass and an inertia about its centre of mass. @return its number"""
         self.mass.append((mass, mass, inertia))
         return len(self.mass) - 1
 

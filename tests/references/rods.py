@@ -151,7 +151,7 @@ def start(x, R, m):
 
 
 def turned(z, Q):
-    """At a corner: the axes of what follows are those of what ends, times Q."""
+    """At a corner, the axes of the rod that follows are those of the rod that ends, times Q."""
     R = z[3:12].reshape(3, 3, -1)
     after = [sum(Q[i, k] * R[i] for i in range(3)) for k in range(3)]
     return np.concatenate([z[:3], *after, z[12:]])

@@ -1,4 +1,4 @@
-"""Tables of reference values: what a script of this folder computes, a test reads by name.
+"""Tables of reference values: a script of this folder computes them, and a test reads them by name.
 
 A row is `name,value,within,meaning`: `within` is the largest amount by which the value may be wrong, in its own unit.
 """

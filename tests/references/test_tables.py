@@ -1,4 +1,4 @@
-"""Tables and scripts belong together, tests read them, and what differs from a table is told."""
+"""Each table belongs to a script and is read by a test, and differences from a table are reported."""
 import glob
 import os
 import re

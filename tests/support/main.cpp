@@ -8,6 +8,6 @@ extern "C" __attribute__((visibility("default"))) const char* __lsan_default_sup
 const char* __lsan_default_suppressions() { return "leak:libgmsh\nleak:libTK\n"; }
 /// A C library handles a refused allocation itself, as without the sanitizer.
 extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
-// gmsh frees with delete what it allocated with new[], where it describes wedges of order 2.
+// gmsh frees memory of new[] with delete when it describes wedges of order 2.
 const char* __asan_default_options() { return "allocator_may_return_null=1:alloc_dealloc_mismatch=0"; }
 #endif

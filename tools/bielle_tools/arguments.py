@@ -150,7 +150,8 @@ def _superelements(results):
 
 
 def names(text, what, known):
-    """`a,b` -> [a, b]; None stays None. The name of a part, `blade_2`, means all its own: `blade_2.root`, `blade_2.tip`.
+    """`a,b` -> [a, b]; None stays None. The name of a part, `blade_2`, stands for all names in it: `blade_2.root`,
+    `blade_2.tip`.
     @raises InputError for names that are not `known`, and if there is none"""
     if text is None:
         return None

@@ -11,7 +11,7 @@ import traceback
 import warnings
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-# The last one: reading does not end.
+# Signals of a crash. The last one means that reading did not terminate.
 CRASHES = (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL, signal.SIGPROF)
 PACKAGES = {"vtkmodules": "vtk9"}  # Debian's packages with other names than their modules
 longest_reading = 0  # [s] of processor time in one call; 0: without limit. A process that crashes alone has one

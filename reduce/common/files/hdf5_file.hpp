@@ -29,7 +29,7 @@ class Hdf5File {
  public:
   static Hdf5File create(const std::string& path);  ///< replaces an existing file
   static Hdf5File open(const std::string& path);    ///< to read. @throws InputError: missing, truncated, no HDF5
-  /// Returns whether the first bytes are those of an HDF5 file, however little follows.
+  /// Tells whether the first bytes are those of an HDF5 file, even if hardly anything follows.
   static bool begins_like_one(const std::string& path);
   static Hdf5File open_to_extend(const std::string& path);  ///< Tells whether a file begins with the signature of HDF5,
                                                             ///< even if it is otherwise incomplete.
@@ -73,7 +73,7 @@ class Hdf5File {
   void write_text(const std::string& dataset, const std::string& text);
   void write_names(const std::string& dataset, const std::vector<std::string>& names);  ///< variable-length UTF-8
 
-  void make_group(const std::string& group);  ///< and those above it; nothing happens when it exists
+  void make_group(const std::string& group);  ///< makes the group and those above it; an existing group stays as it is
   void remove(const std::string& object);     ///< takes a dataset, group or link out of the file
 
   bool has(const std::string& object) const;

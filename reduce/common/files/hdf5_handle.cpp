@@ -52,7 +52,7 @@ Hdf5Id text_transfer_properties(std::size_t count) {
 Hdf5Id access_properties() {
   Hdf5Id properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(properties, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
-  H5Pset_file_locking(properties, true, true);  // but go on where the file system knows no locks
+  H5Pset_file_locking(properties, true, true);  // the file is opened without a lock if the file system has no locks
   return properties;
 }
 

@@ -45,7 +45,7 @@ class Hdf5Id {
 Hdf5Id hdf5_text_type();
 /// Makes a dataspace of fixed size; a scalar for an empty shape.
 Hdf5Id hdf5_space(const Shape& shape);
-std::size_t count_of(const Shape& shape);   ///< the largest number where there are more
+std::size_t count_of(const Shape& shape);   ///< number of values; the largest possible number if there are more
 std::string to_string(const Shape& shape);  ///< "(2, 3)"
 /// Makes properties of a file or group that keeps the order in which its members are created.
 /// @param kind  H5P_FILE_CREATE or H5P_GROUP_CREATE
@@ -65,7 +65,7 @@ void silence_hdf5();
 struct GrowingDataset {
   Hdf5Id dataset;
   int rank = 0;
-  std::array<hsize_t, H5S_MAX_RANK> extent{};  ///< now; extent[0] counts the rows
+  std::array<hsize_t, H5S_MAX_RANK> extent{};  ///< current shape; extent[0] counts the rows
   std::size_t row_size = 1;
 };
 
@@ -124,7 +124,7 @@ struct Hdf5File::Handle {
   /// Returns the number of values in a dataset. Throws if the file is far too small for them.
   std::size_t stored_count(hid_t dataset, const std::string& name) const;
   GrowingDataset growing_from(Hdf5Id dataset, const std::string& name) const;
-  GrowingDataset& growing_dataset(const std::string& dataset);  // opens it when it is not
+  GrowingDataset& growing_dataset(const std::string& dataset);  // opens the dataset unless it is open
 };
 
 }  // namespace bielle

@@ -154,7 +154,7 @@ void fill_free_memory() {
   mallopt(M_PERTURB, never_an_address);
   mallopt(M_TRIM_THRESHOLD, 2 * behind);
   mallopt(M_MMAP_THRESHOLD, 2 * behind);
-  void* volatile filled = std::malloc(behind);  // volatile: compilers leave out memory that nobody uses
+  void* volatile filled = std::malloc(behind);  // volatile, since compilers remove an allocation that is never read
   std::free(filled);
   H5set_free_list_limits(0, 0, 0, 0, 0, 0);  // HDF5 returns all memory at once
 }

@@ -8,7 +8,7 @@ namespace bielle {
 /// A file that ends with the sum of its bytes (byte_sum.hpp) is sound. For any other one, reads all groups, attributes,
 /// types, texts and chunks in a child process, since the HDF5 library crashes, or does not terminate, on some damaged
 /// metadata. A file is checked once until it is written again.
-/// @throws InputError when the walk does not come to its end
+/// @throws InputError if the child process does not read the file to its end or finds a fault
 void check_sound(const std::string& path);
 
 /// Tells whether a file ends with the sum of its bytes, so that its numbers need no check either. It checks the file as

@@ -12,7 +12,7 @@
 
 namespace bielle {
 
-/// Immutable, hence shared by all copies.
+/// The content is immutable, hence shared by all copies.
 struct Expression::Implementation {
   FormulaTree tree;
   std::string text;                    ///< text of the user
@@ -76,7 +76,7 @@ Expression::Expression(const FormulaText& text, const std::vector<std::string>& 
         Implementation{parse_formula(text.replaced, names, shown, constants, folder), text.written, shown, place});
   } catch (const InputError& error) {
     throw InputError(fmt::format("in '{}': {}", shortened(text.written), error.what()));
-  } catch (const ComputationError& error) {  // a table asked outside its range by constants
+  } catch (const ComputationError& error) {  // constants ask a table for a value outside its range
     throw InputError(fmt::format("in '{}': {}", shortened(text.written), error.what()));
   }
 }

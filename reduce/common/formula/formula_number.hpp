@@ -1,6 +1,6 @@
-// The numbers that formulas are evaluated with: plain ones, `Jet` (value and two derivatives along one argument) and
-// `Slopes` (value and first derivatives along several arguments together), with the rules of formulas where a number
-// stands at a border: the piece on the right of the argument counts, and a constant contributes no derivative, however
+// The numbers with which formulas are evaluated: plain ones, `Jet` (value and two derivatives along one argument) and
+// `Slopes` (value and first derivatives along several arguments together). Two rules hold for formulas: at a border
+// between two pieces the piece on the right of the argument counts, and a constant contributes no derivative, however
 // steep a function is.
 #pragma once
 
@@ -18,7 +18,7 @@ class FormulaError : public std::domain_error {
 };
 
 using Jet = AutoDiff<1, 2>;
-/// Borders need second derivatives (the sign of zero), and are left to jets.
+/// At a border the second derivatives are needed (the sign of zero): such points are left to jets.
 using Slopes = AutoDiff<Eigen::Dynamic, 1, 16>;
 
 namespace formula_number {
@@ -39,7 +39,7 @@ inline Slopes argument_with_slopes(double value, std::size_t index, std::size_t 
   return x;
 }
 
-/// Returns the product a b; a zero wins against an infinite other factor.
+/// Returns the product a b, which is zero if one factor is zero and the other infinite.
 inline double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
 /// Sign of x on the right of the point of evaluation.

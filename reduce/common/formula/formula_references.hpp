@@ -16,9 +16,9 @@ namespace bielle {
 /// One reference in a formula.
 struct FormulaReference {
   std::string text;      ///< its first spelling, for messages
-  std::string function;  ///< "distance"; empty of a dotted reference
-  /// Names without quotes: one before the dot, those in the parentheses; texts of the operands of a function of
-  /// formulas.
+  std::string function;  ///< "distance"; empty for a dotted reference
+  /// Names without quotes: the one before the dot, or those in the parentheses. For a function of formulas, the texts
+  /// of its operands.
   std::vector<std::string> subjects;
   std::vector<std::string> path;  ///< the words after the dots: "angle", "rate"
   std::string identifier;         ///< the plain name that stands for it
@@ -29,7 +29,8 @@ struct FormulaReference {
 /// A formula and its references.
 struct FormulaText {
   std::string written;                       ///< by the user
-  std::string replaced;                      ///< with identifiers for references, every character at its place
+  std::string replaced;                      ///< with identifiers in place of references; all other characters keep
+                                             ///< their places
   std::vector<FormulaReference> references;  ///< in the order in which they appear, each once
 };
 

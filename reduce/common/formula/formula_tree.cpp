@@ -149,7 +149,8 @@ struct FormulaTree::Evaluation {
   const FormulaTree& tree;
   std::span<const double> arguments;
   std::size_t along = 0;         ///< the first argument that is followed
-  std::size_t count = 0;         ///< how many: a Jet follows all of them as one, Slopes each by itself
+  std::size_t count = 0;         ///< number of arguments that are followed: a Jet follows all of them as one, Slopes
+                                 ///< each by itself
   mutable bool at_kink = false;  ///< of Slopes
 
   Number of(int index) const {
@@ -327,7 +328,7 @@ struct FormulaTree::Evaluation {
     if (value_of(x) == 0 && value_of(n) < 0) throw FormulaError("division by zero");
     if (!varies(n)) return power(x, value_of(n));
     if constexpr (has_slopes) {
-      at_kink |= !(x.value > 0);  // the jets decide whether there is a logarithm
+      at_kink |= !(x.value > 0);  // the jets decide whether the logarithm exists
       const double f = std::pow(x.value, n.value);
       return compose(x, n, f, n.value * std::pow(x.value, n.value - 1), f * std::log(x.value));
     }
@@ -385,7 +386,7 @@ double FormulaTree::value_and_gradient(std::span<const double> arguments, std::s
     bool as_jets = evaluation.at_kink;
     for (std::size_t i = 0; i < part.size(); ++i) {
       part[i] = varies(found) ? found.gradient[static_cast<Eigen::Index>(i)] : 0;
-      as_jets |= !std::isfinite(part[i]);  // a jet knows what does not vary, whatever it is multiplied by
+      as_jets |= !std::isfinite(part[i]);  // a jet has exact zeros for derivatives of constants
     }
     if (as_jets)
       for (std::size_t i = 0; i < part.size(); ++i) part[i] = formula_number::first(jet(arguments, first + i));

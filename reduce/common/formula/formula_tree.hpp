@@ -89,13 +89,13 @@ class FormulaTree {
   int add_surface(std::shared_ptr<const Surface> function, int first, int second);
   int add(Operation operation, int first, int second = -1, int third = -1);
 
-  /// The term whose value the formula is. Replaces constant parts by their values.
+  /// Declares a term to be the value of the formula, and replaces constant parts by their values.
   /// @throws FormulaError if a constant part that is always evaluated has no value (`1/0`, `step(t, 2, 1)`)
   void set_root(int root);
 
   /// @throws FormulaError
   double value(std::span<const double> arguments) const;
-  /// @param count  how many arguments, from `along` on, grow together at the rate 1
+  /// @param count  number of arguments, from `along` on, that grow together at the rate 1
   Jet jet(std::span<const double> arguments, std::size_t along, std::size_t count = 1) const;
   /// Computes the value and its first derivatives along the first arguments, as many as `gradient` has entries; they
   /// equal those of `jet`.

@@ -28,7 +28,7 @@ class Interpolation {
   /// Reads the two columns of a text file (see read_table).
   static Interpolation from_file(const std::string& path, Kind kind);
 
-  /// @param from_right  at a point, the derivatives on its right (or else left)
+  /// @param from_right  selects the derivatives on the right at a point of the table; otherwise those on the left
   /// @throws ComputationError outside the range of the points (rounding of 1e-9 of the range is tolerated)
   Values operator()(double x, bool from_right = true) const;
   /// Integral of y from the first point to x; exact, over any number of periods. @throws as operator()

@@ -30,7 +30,8 @@ class Surface {
   /// all y, then for the next x the same y.
   static Surface from_file(const std::string& path, Interpolation::Kind kind);
 
-  /// @param x_from_right,y_from_right  on a line of the grid, the derivatives on its right (or else left)
+  /// @param x_from_right,y_from_right  select the derivatives on the right on a line of the grid; otherwise those on
+  ///         the left
   /// @throws ComputationError outside the grid (rounding of 1e-9 of the range is tolerated)
   Values operator()(double x, double y, bool x_from_right = true, bool y_from_right = true) const;
   Interpolation::Kind kind() const { return kind_; }

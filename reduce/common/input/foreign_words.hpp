@@ -7,11 +7,11 @@
 
 namespace bielle {
 
-/// Returns the candidates by which a word of other programs goes here: "hinge" for "revolute"; none if it is no such
-/// word, or none of its candidates fits.
+/// Returns the candidates that mean the same as a word of other programs: "hinge" for "revolute". The list is empty if
+/// the word is unknown or its meaning is not among the candidates.
 std::vector<std::string> names_here(const std::string& foreign, std::span<const std::string> candidates);
 
-/// Returns "; here it is called 'hinge'", or with another word did_you_mean().
+/// Returns "; here it is called 'hinge'"; for a word without a known meaning here, the result of did_you_mean().
 std::string called_here(const std::string& word, std::span<const std::string> candidates);
 
 /// Returns "; here it is called 'rate' or 'speed'". @param names  at least one

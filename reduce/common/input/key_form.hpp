@@ -11,7 +11,7 @@ namespace bielle {
 struct KeyForm;
 struct KeyTable;
 struct YamlNode;
-/// The forms that a value may have; the first that fits is meant.
+/// The forms that a value may have; the first one that fits is taken.
 using KeyForms = std::vector<KeyForm>;
 
 /// One form in which a value is written. The functions below make forms.
@@ -24,7 +24,7 @@ struct KeyForm {
     text,     ///< any text
     word,     ///< one of `words`
     file,     ///< name of a file, relative to the folder of the input file
-    name,     ///< name of something in the model, `of`: "node", "joint"
+    name,     ///< name of something in the model; `of` is its kind: "node", "joint"
     list,     ///< a list
     table,    ///< keys of `table`
     entries,  ///< keys that the user chooses, each with a value of `items[0]`
@@ -35,7 +35,8 @@ struct KeyForm {
     none,         ///< it does not change
     point,        ///< position of a point: three numbers
     vector,       ///< direction, displacement, velocity or force: three numbers
-    axial,        ///< axis of a rotation, angular velocity or moment: three numbers, against a reflected vector
+    axial,        ///< axis of a rotation, angular velocity or moment: three numbers; a mirror reverses them relative to
+                  ///< a reflected vector
     pseudoscalar  ///< angle or other number that changes its sign in a mirror
   };
   Kind kind = Kind::text;
@@ -69,8 +70,8 @@ struct KeyForm {
   /// Returns the range in words: "greater than 0", "between 0 and 1"; empty if every number is allowed.
   std::string range_words() const;
   bool is_numeric() const { return kind == Kind::number || kind == Kind::integer || kind == Kind::formula; }
-  /// Tells whether a node may have this form, as far as it shows: a scalar, a map, or a list of so many items of which
-  /// the first one fits.
+  /// Tells whether a node can have this form, by its kind alone: a scalar, a map, or a list with the right number of
+  /// items of which the first one fits.
   bool fits(const YamlNode& node) const;
 
  private:
@@ -80,7 +81,7 @@ struct KeyForm {
 // -- the form among several; null if there is none
 const KeyForm* form_of(const KeyForms& forms, KeyForm::Kind kind);
 const KeyForm* numeric_form(const KeyForms& forms);
-/// Returns the form that a list has, if none fits that of some list.
+/// Returns the form that fits a list; if none fits, any form of a list.
 const KeyForm* form_of_list(const KeyForms& forms, const YamlNode& list);
 
 namespace keys {

@@ -48,7 +48,7 @@ struct KeyTable {
 
   const Key* find(const std::string& name) const;  ///< null if the table has no such key
   std::vector<std::string> names() const;
-  /// Returns the table of the variant that a map is, or this one.
+  /// Returns the table of the variant that applies to a map, or this table if none does.
   const KeyTable& of_map(const YamlNode& map) const;
 };
 

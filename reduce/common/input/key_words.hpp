@@ -21,9 +21,9 @@ std::string thing_named(const std::string& of);
 /// variants alone is not listed, its variants are.
 std::vector<const KeyTable*> tables_below(const KeyTable& root);
 
-/// Writes the keys of the thing that is named ("hinge", "point_mass"), or of everything ("all"), for a terminal; if
-/// nothing has the name, of all things whose names contain it as words ("sampled": a sampled state), or else whose
-/// sentences do ("tapered": a roller_bearing).
+/// Writes the keys of one thing ("hinge", "point_mass"), or of everything ("all"), for a terminal. If nothing has the
+/// name, it writes those of all things whose names contain it as words ("sampled": a sampled state), or else of those
+/// whose sentences contain it ("tapered": a roller_bearing).
 /// @throws InputError if nothing below the root has the name
 std::string keys_of_named(const KeyTable& root, const std::string& name);
 

@@ -19,7 +19,7 @@ namespace {
 double largest_about(const Expression& formula, const std::vector<double>& break_points) {
   std::vector<double> times = break_points;
   for (std::size_t k = 1; k < break_points.size(); ++k)
-    for (const double part : {0.13, 0.38, 0.62, 0.87})  // no zeros of sines and cosines of whole turns
+    for (const double part : {0.13, 0.38, 0.62, 0.87})  // sines and cosines of whole turns have no zeros here
       times.push_back(break_points[k - 1] + part * (break_points[k] - break_points[k - 1]));
   double largest = 0;
   for (const double time : times) {

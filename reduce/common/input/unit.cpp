@@ -91,7 +91,7 @@ std::string base_of(const Unit& unit) {
   return without_origin[factor] == ' ' ? without_origin.substr(factor + 1) : without_origin;
 }
 
-/// Takes the finite number at the beginning of a text from it; nothing if there is none.
+/// Reads the finite number at the beginning of a text and removes it from the text; returns nothing if there is none.
 std::optional<double> leading_number(std::string_view& text) {
   const char *begin = text.data() + (text.starts_with('+') ? 1 : 0), *end = text.data() + text.size();
   double number = 0;

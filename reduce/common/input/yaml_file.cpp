@@ -125,7 +125,8 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
 }
 
 YamlValue YamlValue::child(const YamlNode& key, std::shared_ptr<const YamlNode> value) const {
-  const int line = value->kind == YamlNode::Kind::null ? key.line : value->line;  // nothing stands somewhere after it
+  const int line = value->kind == YamlNode::Kind::null ? key.line : value->line;  // libyaml puts a missing value on
+                                                                                  // some later line
   YamlValue below(document_, std::move(value), path_of_key(path_, key.scalar), line);
   if (table_) return below.with_forms(key_of_table(key.scalar).forms);
   const KeyForm* form = form_of(forms(), KeyForm::Kind::entries);
@@ -171,7 +172,9 @@ YamlValue YamlValue::keyed(const KeyTable& table) const {
   std::vector<std::string> expected = bound.table_->names();
   if (bound.table_ == &table)
     for (const KeyTable::Variant& variant : table.variants) {
-      if (!variant.value.empty() && has(variant.key)) return bound;  // its reader says that the value is none of them
+      if (!variant.value.empty() && has(variant.key))
+        return bound;  // the reader of the key reports that its value is
+                       // none of the choices
       // The key of the variant may be misspelt.
       if (variant.value.empty() && std::find(expected.begin(), expected.end(), variant.key) == expected.end())
         expected.push_back(variant.key);

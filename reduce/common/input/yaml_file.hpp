@@ -56,8 +56,8 @@ class YamlValue {
   /// @throws InputError at the first key not in `allowed`: `'dampng' is not a key of a hinge; did you mean 'damping'?`
   /// @param of  the thing in words with its article: "a hinge", "the mesh"
   void check_keys(const std::vector<std::string>& allowed, const std::string& of) const;
-  /// Returns this map bound to a table, or to the variant of it that the map is: its values have the forms of the
-  /// table's keys. A value that is a map, and can be nothing but one table, is bound when it is taken out of this one.
+  /// Returns this map bound to a table, or to the variant of it that applies: its values have the forms of the table's
+  /// keys. A value that is a map, and can have one table only, is bound when it is taken out of this map.
   /// @throws InputError at the first key that the table does not have, as check_keys
   YamlValue keyed(const KeyTable& table) const;
 

@@ -116,7 +116,7 @@ class Parser {
     if (yaml_parser_parse(&parser_, event.get()) != 0) return;
     if (parser_.error == YAML_MEMORY_ERROR) throw std::bad_alloc();
     int line = static_cast<int>(parser_.problem_mark.line) + 1;
-    if (parser_.error == YAML_READER_ERROR) {  // bytes that are no text have a place but no line
+    if (parser_.error == YAML_READER_ERROR) {  // libyaml gives a position but no line for bytes that are not text
       const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(parser_.problem_offset, text_.size()));
       line = static_cast<int>(std::count(text_.begin(), end, '\n')) + 1;
     }

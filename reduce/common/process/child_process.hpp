@@ -11,15 +11,15 @@ namespace bielle {
 /// Limits of a child process; 0 means no limit.
 struct ChildLimits {
   int seconds = 0;           ///< processor time
-  std::uint64_t memory = 0;  ///< besides what the parent has already [bytes]; an allocation beyond it fails
+  std::uint64_t memory = 0;  ///< in addition to the memory of the parent [bytes]; an allocation beyond it fails
 };
 
 /// Messages for a child process that sends no answer.
 struct ChildLoss {
   std::string crashed;    ///< the process crashes, is killed or reaches its limit: "'a.msh' cannot be read: .."
-  std::string ended;      ///< something in it ended it in good order before its work was done; default: `crashed`
+  std::string ended;      ///< a library ended the process regularly before the work was done; default: `crashed`
   std::string forbidden;  ///< it tried what `forbid_other_programs` forbids; default: `crashed`
-  std::string subject;    ///< key of the input that they are about; empty if there is none
+  std::string subject;    ///< key of the input that the messages are about; empty if there is none
 
   ChildLoss(const char* sentence) : ChildLoss(std::string(sentence)) {}
   ChildLoss(std::string sentence) : crashed(sentence), ended(sentence), forbidden(std::move(sentence)) {}

@@ -3,9 +3,10 @@
 
 namespace bielle {
 
-/// The less of what the machine has left (Linux: MemAvailable and free swap) and what a limit of the address space
-/// (`ulimit -v`) leaves, and what the process has freed and kept [MB = 1e6 bytes]; infinite where neither is known.
-/// Limits of containers are not seen.
+/// Returns the memory that the process may still allocate [MB = 1e6 bytes]. It is the smaller of the memory left on the
+/// machine (Linux: MemAvailable and free swap) and that left below a limit of the address space (`ulimit -v`), plus the
+/// memory that the process has freed and malloc has kept. It is infinite if neither limit is known. Limits of
+/// containers are not taken into account.
 double free_memory_MB();
 
 }  // namespace bielle

@@ -49,7 +49,7 @@ MumpsFactor::MumpsFactor(Team& team, int size, Entries entries, const std::vecto
   m.id.par = 1;
   m.id.sym = 1;
   m.run(begin);
-  for (const int place : {1, 2, 3}) m.control(place) = -1;  // says nothing itself
+  for (const int place : {1, 2, 3}) m.control(place) = -1;  // MUMPS prints nothing
   m.control(4) = 0;
   m.control(18) = 3;   // entries are distributed
   m.control(14) = 20;  // per cent more workspace than estimated

@@ -74,7 +74,7 @@ Entries Part::interior(const InteriorShare& share) const {
       for (int a = 0; a < by_row.count; ++a) {
         for (int b = 0; b < by_column.count; ++b) {
           const int row = by_row.unknowns[a], column = by_column.unknowns[b];
-          if (i == j && row < column) continue;  // the pair comes the other way round, too
+          if (i == j && row < column) continue;  // the loops meet the pair in the other order, too
           // (i,j) stands for (j,i) as well; if both become one entry of the diagonal, it counts twice.
           const double twice = i != j && row == column ? 2 : 1;
           entries.add(row, column, twice * by_row.weights[a] * by_column.weights[b] * stiffness_.values[p]);

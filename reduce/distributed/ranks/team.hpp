@@ -39,7 +39,7 @@ class Team {
   Order next();
 
   /// Does the work on every rank and returns when all have done it.
-  /// @throws RankFailure on all ranks when it threw on one: the first such rank's
+  /// @throws RankFailure on all ranks if the work threw on any; the failure is that of the first such rank
   void all_or_none(const std::function<void()>& work);
 
   /// Reads blocks from the channel; each rank gets its own.

@@ -46,7 +46,7 @@ TEST_CASE("a conveyor belt takes a block along with the force of friction, and p
       missing = motion.balance();
     });
     CHECK_THAT(late, Catch::WithinAbs(0.5, 1e-4));
-    // Half of what the belt puts in is heat, the other half the block's motion.
+    // Half of the belt's work becomes heat, the other half kinetic energy of the block.
     CHECK_THAT(input, Catch::WithinRel(2 * 0.5 * 2 * 0.25, 1e-2));
     CHECK(std::abs(missing) < 1e-3 * input);
   }

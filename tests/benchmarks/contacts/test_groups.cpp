@@ -75,7 +75,7 @@ TEST_CASE("a heap that is restored goes on as it did, to the last bit") {
 }
 
 TEST_CASE("the error in the energy balance of a heap with a restitution falls with the square of the steps") {
-  // Some 120 impacts of 8 ms, of which friction and the rest of them take 9 of 10 J.
+  // There are some 120 impacts of 8 ms. Friction and the damping of the impacts dissipate 9 of 10 J.
   BallsOnFloor balls;
   balls.along = 6;
   balls.heap = true;

@@ -149,8 +149,8 @@ TEST_CASE("the sought torques are those of drives that make the same motion, wit
 
 TEST_CASE("the force that moves a mass through a spring is found, and so is where its joint has to be") {
   // A slide of mass ma pulls the mass mb by a spring k; mb follows x(t), gravity acts against it. In equilibrium with
-  // its inertia the spring is longer by mb (x'' + g)/k, and the force is (ma + mb) (x'' + g); the slide's acceleration
-  // is that of mb but for what is left out, x''''.
+  // the inertia of mb the spring is longer by mb (x'' + g)/k, and the force is (ma + mb) (x'' + g). The slide's
+  // acceleration is taken to be that of mb: the difference is a term in x''''.
   const double ma = 0.7, mb = 2, k = 4e4, A = 0.1, w = 6;
   const auto model = [&](const std::string& mass, const std::string& drive) {
     return fmt::format(

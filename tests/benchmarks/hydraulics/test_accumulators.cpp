@@ -28,7 +28,8 @@ measures: {{fluid: store.fluid_volume}}
 
 double pressure_of(const Session& session) { return session.read("hydraulics/main/pressure")[0]; }
 
-/// Fluid that is pushed in from the precharge to a pressure: the integral of V dp/B, and what the accumulator takes.
+/// Volume of fluid that is pushed in from the precharge to a pressure: the integral of V dp/B, and the volume that the
+/// accumulator takes.
 double fluid_to(double p) {
   if (p <= precharge) return volume * (p - precharge) / modulus;
   const double taken = gas * (1 - precharge / p);

@@ -42,7 +42,7 @@ const std::string single_acting = lift(
                 m* g / 2e-3),
     "", g);
 
-/// The volume of the rod side is given where the piston starts: 0.8e-3 m^3 less what the stroke ahead takes.
+/// The volume of the rod side is given at the start of the piston: 0.8e-3 m^3 less the volume of the stroke ahead.
 const std::string double_acting_cylinder =
     "piston_areas: [2e-3, 1.2e-3], dead_volumes: [1e-3, 0.2e-3], stroke: [1, 1.5]";
 

@@ -152,7 +152,7 @@ TEST_CASE("where a junction has no pressure the sentence says whether fluid is p
     CHECK_THAT(message, Contains("junction 'j'") && Contains("more fluid is pumped in") && !Contains("drawn"));
   for (const auto& message : {said(out), said_at_rest(out)})
     CHECK_THAT(message, Contains("junction 'j'") && Contains("more fluid is drawn out") && !Contains("pumped in"));
-  // The same situation in the course of a motion.
+  // The same situation, reached during a motion.
   const std::string later =
       circuit("junctions: [j]", "c: {from: tank, to: j, check: {diameter: 0.01}}", "if(t > 0.15, 1e-4, 0)");
   CHECK_THAT(said(later), Contains("t = 0.1") && Contains("more fluid is pumped in"));

@@ -197,7 +197,8 @@ TEST_CASE("a roller turns on its pin, and is dragged by what rubs there") {
     const double x = e * c + R * n_x, y = e * s + R * n_y;
     const double torque = force * (x * std::sin(alpha) - y * std::cos(alpha));
     CHECK(session.read("joints/camshaft/drive_force")[0] == Approx(torque).margin(2e-4));
-    // The roller turns clockwise, relative to the pin by R/r of the cam's rate and what its middle adds.
+    // The roller turns clockwise. Its rate relative to the pin is R/r times that of the cam, plus the rate due to the
+    // motion of its centre.
     const double n_rate = -e * s * speed / root;  // rate of the normal: cos(angle) = -e c/reach
     const double spin = (reach * (n_rate - speed) + speed * r) / r;
     CHECK(V * y1 * speed + mu * pin * force * std::abs(spin) == Approx(torque * speed).epsilon(1e-9));

@@ -404,7 +404,7 @@ TEST_CASE("an elastic one-way clutch winds up by the torque that it holds, and g
   // It lets a wheel go that begins at rest: 2 rad after 1 s forwards and 1 s of braking.
   move_to(wheel("one_way: {stiffness: 800, damping: 40}", 0, "if(t < 1, 4, -4)"), 2e-3, 5,
           [](const Session& session) { CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(2 - 4.0 / 800, 1e-6)); });
-  // A motion that follows another begins with the clutch as it is wound.
+  // A motion that follows another begins with the clutch's present wind-up.
   {
     const auto file = bielle::mechanism::read_mechanism_text(wheel("one_way: {stiffness: 800}", 1, "-4"), "model.yaml");
     Session session(file.model);

@@ -60,7 +60,7 @@ TEST_CASE("masses fall freely from the instant at which their rope with friction
   }
   REQUIRE_FALSE(first);
   CHECK(motion.energy().elastic == 0);
-  // The account of energy closes: what the rope stored is dissipated.
+  // The energy balance closes: the energy stored in the rope is dissipated.
   CHECK(std::abs(motion.balance()) < 1e-3 * motion.energy().kinetic);
 }
 

@@ -1,5 +1,5 @@
-// Ropes that leave their pulleys and come back onto them: the straight way and the way round are told apart, in time
-// and in statics, against plane geometry.
+// Ropes that leave their pulleys and come back onto them: the straight path and the path around the pulley are
+// distinguished, in dynamics and in statics, and compared with plane geometry.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// The same machine in metres and kilograms, in millimetres and tonnes, in kilometres and grams: the same motion.
+// The same machine in metres and kilograms, in millimetres and tonnes, and in kilometres and grams has the same motion.
 //
 // Lengths by L, masses by M, times as they are: forces by M L, moments and energies by M L^2, stiffnesses by M,
 // inertias by M L^2. SI-dependent constants of the program (scalings of constraints, tolerances) would show.

@@ -77,7 +77,7 @@ TEST_CASE("at rest, and at a negligible rate, modes behind a joint are those of 
     CHECK(report.turning->periodicity == Periodicity::negligible);
     check_rates(rates_of(report), expected, 1e-6);
   }
-  // Copies of modes that differ by multiples of a slow rate can hardly be told apart: this is said.
+  // Copies of modes that differ by multiples of a slow rate can hardly be distinguished: the analysis reports this.
   CHECK_THAT(message_of<bielle::ComputationError>([&] { modes_behind(model, 1e-4 * lowest, 20); }),
              Catch::Contains("do not converge"));
 }

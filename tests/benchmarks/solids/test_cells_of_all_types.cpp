@@ -64,7 +64,7 @@ TEST_CASE("Beams of one layer of hex8 bend as they should") {
   const auto ratio = [](const Beam& beam, CellType type, const Eigen::Vector3d& direction, double exact) {
     return tip_displacement(beam, type, direction) / exact;
   };
-  // Those of order 2 measure what is left of the references of beam theory.
+  // Cells of order 2 show the error of the references, which are those of beam theory.
   struct Row {
     CellType type;
     double axial, in_plane, out_of_plane;

@@ -88,8 +88,8 @@ void check_table(const Superelement& body, const std::vector<int>& boundary, int
       const double error = found(k) / full(k) - 1;
       const double exact = table(ends + "." + std::to_string(kept) + ".error_" + std::to_string(k + 1));
       INFO(kept << " modes, frequency " << k + 1 << ": error " << error << ", in closed form " << exact);
-      // The full model bends in three dimensions: what the strip's plane leaves out (its twist by an unsymmetric mesh)
-      // comes to less than 1e-6.
+      // The full model bends in three dimensions. Its motions outside the plane of the strip (twist by an unsymmetric
+      // mesh) come to less than 1e-6.
       CHECK(error > -1e-9);
       CHECK(error == Approx(exact).epsilon(0.03).margin(1e-6));
     }

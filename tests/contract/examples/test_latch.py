@@ -1,4 +1,4 @@
-"""mechanism/examples/latch.yaml: what its events do, and the momentum that its latch keeps."""
+"""mechanism/examples/latch.yaml: the effect of its events, and the momentum that its latch conserves."""
 
 import math
 import unittest

@@ -139,7 +139,7 @@ class LongRuns(CommandTest):
         early = [size for rows, size in sizes if 0.1 * steps / 2 < rows < 0.4 * steps / 2]
         late = [size for rows, size in sizes if rows > 0.8 * steps / 2]
         self.assertTrue(early and late, sizes)
-        # Buffers of rows fill and empty (some MB); a thousandth of what is written would be more than this.
+        # Buffers of rows fill and empty (some MB); a leak of a thousandth of the written rows would exceed this bound.
         self.assertLess(np.median(late), np.median(early) + 4000, sizes)
 
 

@@ -103,7 +103,7 @@ analysis: [{type: eigen}]
             self.assertEqual([name.decode() for name in file["/eigen/name"]], ["rod across the axis, rigid"])
 
     def test_frequencies_of_what_turns_and_of_what_stands_are_told_apart(self):
-        # The shaft is round; the mass on a film stands, and nothing of its motion is seen from the shaft.
+        # The shaft is round. The mass on a film stands still, so that its motion does not appear at the shaft.
         text = self.summary("""\
 nodes: {shaft: {position: [0, 0, 0]}, body: {position: [0, 0, 0], fixed: [z, rx, ry, rz]}}
 elements:

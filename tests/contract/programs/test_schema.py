@@ -1,4 +1,5 @@
-"""JSON schemas of both programs: valid files are valid, and what the programs refuse by a key is invalid there."""
+"""JSON schemas of both programs: valid files are valid, and files that the programs refuse because of a key are
+invalid."""
 
 import glob
 import json

@@ -21,7 +21,7 @@ def turned(time):
 
 
 def driven(steps, when, smooth):
-    """The angle at the end, the torque set before each step as it is at a share `when` of that step."""
+    """The angle at the end; before each step the torque is set to its value at a share `when` of that step."""
     session = bielle.read(WHEEL).session()
     size = DURATION / steps
     motion = session.dynamics(DURATION, size)

@@ -36,7 +36,7 @@ analysis: [{type: static}]
 
 class Models(WithModel):
     def expect_same_refusal(self, kind, status, path):
-        """Python raises what the program prints."""
+        """Python raises the message that the program prints."""
         done = subprocess.run([PROGRAM, path, "-o", os.path.join(self.folder, "out.h5"), "--quiet"], text=True,
                               capture_output=True, stdin=subprocess.DEVNULL)
         self.assertEqual(done.returncode, status, done.stderr)

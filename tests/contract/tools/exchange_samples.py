@@ -45,7 +45,7 @@ def beam(young, density, length, width, turn=None):
 
 
 def turned(seed=3):
-    """Axes of a node: a rotation that leaves none of them where it was."""
+    """Axes of a node: a rotation that moves each of the three axes."""
     axes, _ = np.linalg.qr(np.random.default_rng(seed).standard_normal((3, 3)))
     return axes * np.sign(np.linalg.det(axes))
 

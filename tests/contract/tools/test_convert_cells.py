@@ -313,7 +313,8 @@ class Degenerate(CellConverter):
                 self.assertEqual(sum(len(cells) for cells in group.values()), len(whole))
 
     def test_other_collapsed_edges(self):
-        """All ways of shrinking a set of edges: the volume of what remains is that of the cell, or the cell is refused."""
+        """All ways of shrinking a set of edges: the remaining cell has the volume of the original, or the cell is
+        refused."""
         edges = [[int(c) - 1 for c in edge] for edge in ABAQUS["hexahedron"].split()]
         seen = set()
         for some in itertools.chain(*(itertools.combinations(edges, count) for count in (1, 2, 3, 4))):

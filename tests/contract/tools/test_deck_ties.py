@@ -35,7 +35,7 @@ class Ties(Decks):
             self.assertIn(f"*TIE, NAME=WELD: {common} nodes of 'A.END' and 'B.START' have become common ones (the largest gap was 0)", double.notes)
 
     def test_a_joined_chain_equals_a_long_box(self):
-        """The same cells as those of one instance of six, but for the numbers of the nodes."""
+        """The same cells as those of one instance of six, with other numbers of the nodes."""
         def cells(mesh):
             return sorted(tuple(map(tuple, mesh.points[row].round(9))) for row in mesh.cells["hexahedron20"])
         double = self.read(self.chain())

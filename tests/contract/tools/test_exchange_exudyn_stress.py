@@ -104,7 +104,7 @@ class Pickled(Exchange):
         np.testing.assert_allclose(file.shapes.stress @ rigid, 0, atol=1e-9)
 
     def test_an_object_of_the_file_is_not_made(self):
-        """A name of another object is not looked up, at any depth: nothing of the file runs, and the rest is read."""
+        """A name of another object is not looked up, at any depth: no code of the file runs, and the rest is read."""
         trap = Shell(self.path("ran"))
         for recovery in ({"matrix": trap}, {"matrix": self.stress, "outputVariableType": trap}, trap, [trap]):
             self.assertIsNone(self.found(recovery).shapes.stress)

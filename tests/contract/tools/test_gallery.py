@@ -1,5 +1,5 @@
-"""tools/gallery: machines pass their checks; a moved reference, a missing event, a wrong model and a crash are told by
-name."""
+"""tools/gallery: machines pass their checks; a moved reference, a missing event, a wrong model and a crash are reported
+by name."""
 
 import glob
 import math

@@ -159,7 +159,8 @@ class Loads(unittest.TestCase):
                 theirs = without_rigid(np.array([u[k + 1] for k in range(len(loaded.points))]).ravel())
                 # Tolerance for the part that modes lack: of the axial answer to the speed, 4 % of a small part.
                 self.assertLess(np.abs(theirs - ours).max(), 5e-3 * np.abs(ours).max(), (name, row))
-                # Both average what elements say at a node, each in its way: a few per cent where stress is concentrated.
+                # Both programs average the stresses of elements at a node, each in its way: they differ by a few per
+                # cent at stress concentrations.
                 s = (loaded.body.stress @ q).reshape(-1, 6)[:, [0, 1, 2, 5, 3, 4]]
                 t = np.array([stress[k + 1] for k in loaded.body.stressed])
                 self.assertLess(np.linalg.norm((t - s)[inside]), 0.02 * np.linalg.norm(s[inside]), (name, row))

@@ -1,4 +1,5 @@
-"""Superelements without a surface, as of matrices without cells: lines join their interfaces, and the reason is told."""
+"""Superelements without a surface, such as those of matrices without cells: lines join their interfaces, and the reason
+is reported."""
 
 import os
 import subprocess

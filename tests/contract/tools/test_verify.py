@@ -156,7 +156,7 @@ class Report(InFolder):
         self.check_page(problems)
 
     def check_page(self, problems):
-        """The page holds everything itself, and says what the file for programs says."""
+        """The page is self-contained, and states the same as the file for programs."""
         with open(self.path("page/index.html"), encoding="utf-8") as file:
             page = file.read()
         self.assertIn(f"8 of {len(problems)} problems failed", page)

@@ -54,7 +54,7 @@ def points(study, quantity):
 
 
 def svg(fig):
-    """The text of a figure, without what only a file of its own needs."""
+    """The text of a figure, without the parts that only a file of its own needs."""
     text = io.StringIO()
     with plt.rc_context({"svg.fonttype": "none", "font.family": "sans-serif", "svg.hashsalt": "bielle"}):
         fig.savefig(text, format="svg", metadata={"Date": None, "Creator": None})

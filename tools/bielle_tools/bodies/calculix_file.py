@@ -90,7 +90,8 @@ def three_supports(points):
     axis = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a])
     r = points - points[a]
     c = int(np.argmax(np.linalg.norm(r - np.outer(r @ axis, axis), axis=1)))
-    # b must not turn about a, c not about the line between them: the two best directions of b, the best of c.
+    # b must not turn about a, nor c about the line between them: the two best directions of b and the best one of c are
+    # held.
     along = int(np.argmax(np.abs(axis)))
     normal = np.cross(axis, points[c] - points[a])
     second = [k for k in range(3) if k != along]

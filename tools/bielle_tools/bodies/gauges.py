@@ -14,7 +14,7 @@ from ..mesh.surface_point import SAME_PLACE, nearest_on_surface
 from ..messages import InputError, did_you_mean, note, place as shown
 
 ROSETTES = {"rectangular": np.deg2rad([0.0, 45.0, 90.0]), "delta": np.deg2rad([0.0, 60.0, 120.0])}
-NO_DIRECTION = 1e-3  # sine of the angle to the normal below which a direction says nothing in the surface
+NO_DIRECTION = 1e-3  # below this sine of its angle to the normal, a direction does not determine one in the surface
 
 
 def plane_strain_of(body, place, direction):

@@ -29,8 +29,8 @@ def tie_of_interface(path, name, said):
 
 
 def weighted_nodes(path, name, points, tie, of_deck):
-    """Nodes of the superelement's mesh (points) that a tie of nodes ties, and their weights. @raises InputError if the deck is not
-    that of the mesh any more"""
+    """Nodes of the superelement's mesh (points) that a tie of nodes ties, and their weights. @raises InputError if the
+    deck has changed since the mesh was made"""
     places = of_deck[np.asarray(tie["nodes"]) - 1]
     apart = np.linalg.norm(points[None, :, :] - places[:, None, :], axis=2)
     nodes = apart.argmin(axis=1)

@@ -16,7 +16,7 @@ class BodyMaterials:
     young: list
     poisson: list
     densities: list
-    number: dict   # {cell type: (n) which material, from 0}
+    number: dict   # {cell type: (n) number of the material, from 0}
     density: dict  # {cell type: (n)} [kg/m^3]
 
 

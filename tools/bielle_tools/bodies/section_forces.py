@@ -21,14 +21,15 @@ SMALLEST_PART = 1e-9  # mass of a part relative to that of the body
 
 
 def note_unrecorded_loads(results, element):
-    """Notes that the model may load the body where no result tells it: by load patterns, and at points inside."""
+    """Notes that the model may load the body by loads that the results do not record: load patterns, and forces on
+    points inside."""
     try:
         model = yaml.safe_load(results.text_of("input"))
         entry = results.entry_of(element)
         loads = list(model["elements"].get(entry, {}).get("loads", {}))
         points = [name for name, point in model.get("points", {}).items() if point.get("element") == entry]
     except (yaml.YAMLError, AttributeError, KeyError, TypeError):
-        return  # results of other origin; parts and repetitions have other names
+        return  # the results have another origin; parts and repetitions have other names
     found = [f"the load pattern '{name}'" for name in loads] + [f"the point '{name}'" for name in points]
     if found:
         note(f"{element}: forces of {', '.join(found)} are not recorded: as far as there are any, its sections are wrong")

@@ -17,7 +17,7 @@ from .stress_invariants import von_mises
 
 
 class NoSurface(InputError):
-    """A superelement whose file is whole, but has nothing of a body that could be drawn by its surface."""
+    """The file of a superelement is complete, but has no cells whose surface could be drawn."""
 
 
 class SuperelementBody:

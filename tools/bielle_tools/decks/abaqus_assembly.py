@@ -118,19 +118,19 @@ class Assembly:
         return int(last) + STRIDE * (number or 0)
 
     def other_names(self, name):
-        """Names, upper case, under which a set may stand as well."""
+        """Further names, upper case, by which a set may be stored."""
         local = self._local(name).upper()
         if len(self.instances) == 1:
             return [local, f"{self.instances[0].name.upper()}.{local}"]
         return [local] if self.instances else [local.rpartition(".")[2]]
 
     def _local(self, name):
-        """A name without that of the assembly before it."""
+        """The name without the prefix of the assembly."""
         before, dot, after = name.partition(".")
         return after if dot and before.upper() == self.name.upper() and self._number(before) is None else name
 
     def told(self, number):
-        """A number of a node or element in messages."""
+        """The number of a node or element, as messages show it."""
         k, local = divmod(int(number), STRIDE)
         if k < 0:
             return f"{local} of the assembly"

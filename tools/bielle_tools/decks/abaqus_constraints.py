@@ -51,16 +51,16 @@ class Constraint:
         return self.scope.prefix.upper() if self.scope else ""
 
     def shown(self, name):
-        """A name in messages and among the ties of the body."""
+        """The name of a constraint in messages and among the ties of the body."""
         return (self.scope.shown if self.scope else "") + name
 
     def turned(self, axes):
-        """Axes that are given in the system of the part, in that of the assembly."""
+        """Converts axes (columns) from the system of the part to that of the assembly."""
         return self.scope.turn @ axes if self.scope else axes
 
 
 class Constraints:
-    """All of them, in the order of the file."""
+    """All constraints of a file, in its order."""
 
     def __init__(self):
         self.ties, self.masses, self.transforms, self.orientations = [], [], [], {}

@@ -17,7 +17,8 @@ from .left_out import LeftOut
 
 LABELS = 2**31       # numbers of nodes and elements are less
 STRIDE = LABELS      # numbers of the k-th instance are raised by k times this; those of an assembly's own nodes are lowered by it
-SAME_PLACE = 1e-12   # distance of a node that is given twice, relative to its largest coordinate: by rounding
+SAME_PLACE = 1e-12   # largest distance between two definitions of a node, relative to its largest coordinate: they
+                     # differ by rounding
 CELL_SIDES = ("SPOS", "SNEG", "")  # both sides of a shell or membrane element
 
 
@@ -37,7 +38,8 @@ class Contents:
         self.unknown = LeftOut()  # elements of types that are not read
         self.formulations = {}  # element type with a letter for its formulation -> count
         self.system = None  # origin and axes (columns) that *NODE is given in
-        self.assembly = None  # the one that names entries of sets and surfaces, where several instances stand
+        self.assembly = None  # the assembly, which resolves the names in sets and surfaces if there are several
+                              # instances
         self.notes = []
         self.extras = Extras()
         self.constraints = Constraints()
@@ -187,7 +189,7 @@ class Contents:
         return [np.array(r, dtype=np.int64) for r in rows]
 
     def nodes_of(self, key, notes):
-        """Rows of points; numbers of no node are told, but for reference points of an assembly."""
+        """Rows of points. Numbers without a node are reported, except for reference points of an assembly."""
         labels = self.labels_of("NSET", key)
         missing = [label for label in labels if label not in self.numbers and label > 0]
         if missing:

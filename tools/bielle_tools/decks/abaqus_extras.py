@@ -28,7 +28,7 @@ class Section:
     set: str
     material: str
     oriented: bool
-    turned: bool = False  # with the instance that it belongs to
+    turned: bool = False  # whether its instance has been turned
 
 
 class Extras:

@@ -107,7 +107,8 @@ def _check_faces(mesh, told, names, one, other, main_of):
 
 
 def _main_nodes(count, pairs):
-    """(count) the node that each one becomes: of all that are tied to each other, the first that is a main one alone."""
+    """(count) the node that replaces each one: among all nodes that are tied to each other, the first that belongs to
+    main surfaces only."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
     _, group = connected_components(coo_matrix((np.ones(len(pairs)), pairs.T), shape=(count, count)), directed=False)
@@ -132,7 +133,7 @@ def _renumber(mesh, main_of):
 
 
 def _drop_inner(mesh, names):
-    """Leaves the faces out of tied surfaces that are inside of the body now."""
+    """Removes from tied surfaces the faces that lie inside the body now."""
     count = {}
     for flat, block in solid_faces(_solids(mesh)).items():
         for key in map(tuple, face_keys(flat, block).tolist()):

@@ -140,7 +140,8 @@ class _Reader:
         return list(ties.values())
 
     def masses(self, keyword):
-        """The masses of *MASS or *ROTARY INERTIA, one for each element of its set; a fault of the keyword is that of each."""
+        """The masses of *MASS or *ROTARY INERTIA, one for each element of its set; a fault of the keyword is reported
+        for each."""
         kind = keyword.name.lower()
         try:
             labels = self._elements(keyword, "MASS" if keyword.name == "MASS" else "ROTARYI")

@@ -84,7 +84,8 @@ def read_cards(path, before=None):
     """@param before: a list that receives the lines before BEGIN BULK, in upper case. @returns list of Card, those of included files in
     their place. @raises InputError with file and line."""
     cards, last, end = [], None, ""
-    waiting, early = {}, {}  # by mark: cards whose next line is still to come, in their order, and lines whose card is
+    waiting, early = {}, {}  # by mark: cards that wait for their next line, in order; and lines that came before their
+                             # card
     for path_here, number, line in _bulk_lines(path, before):
         place = f"'{path_here}': line {number}"
         more, name, next_end = _split(line, place)
@@ -158,7 +159,8 @@ def _included(name, path, main, number):
 
 
 def _split(line, place):
-    """The fields of one line after the first, always as many as its format has, the first, and field 10 without its mark of continuation.
+    """Returns the fields of a line after the first one, always as many as its format has; the first field; and field 10
+    without its mark of continuation.
 
     @raises InputError for more fields than a line has"""
     if "," in line:

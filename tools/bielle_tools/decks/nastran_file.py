@@ -78,14 +78,14 @@ def _check_solids(all_cards):
 
 
 def _tell_control(extras, before):
-    """Tells of the executive and the case control section."""
+    """Reports the executive and the case control section."""
     solution = next((" ".join(line.replace("=", " ").split()) for line in before if line.lstrip().startswith("SOL ")), None)
     if before:
         extras.notes.append(f"left out: {counted(len(before), 'line')} before BEGIN BULK, which control an analysis" + (f" ({solution})" if solution else ""))
 
 
 def _tell_supports(extras, all_cards):
-    """Tells of the sets of single-point constraints, which the mechanism or the interfaces take the place of."""
+    """Reports the sets of single-point constraints, which the mechanism or the interfaces replace."""
     cards = {}
     for card in all_cards:
         if card.name in ("SPC", "SPC1"):

@@ -35,7 +35,8 @@ class DeckTies:
 
 
 def read_ties(path):
-    """The ties and point masses of a deck; none of a file that is no deck. @raises InputError with one sentence"""
+    """The ties and point masses of a deck; both lists are empty if the file is no deck. @raises InputError with one
+    sentence"""
     extension = os.path.splitext(path)[1].lower()
     if not os.path.isfile(path):
         raise InputError(f"'{path}' does not exist")

@@ -1,9 +1,9 @@
 """Matrices in text files of Abaqus (.mtx).
 
-Read are substructures (`user_element`), assembled matrices of *MATRIX GENERATE (`abaqus_matrix_input`), each line
-`node, component, node, component, value`, and FORMAT=COORDINATE, `row column value` in the order of the unknowns. Nodes
-come from `options.nodes` or the deck of the same name. Written is a *USER ELEMENT with a deck of its nodes
-(FILE_nodes.inp), in whose set SCALARS are the nodes that carry scalar coordinates.
+The reader accepts substructures (`user_element`), assembled matrices of *MATRIX GENERATE (`abaqus_matrix_input`), each
+line `node, component, node, component, value`, and FORMAT=COORDINATE, `row column value` in the order of the unknowns.
+Nodes come from `options.nodes` or the deck of the same name. The writer makes a *USER ELEMENT with a deck of its nodes
+(FILE_nodes.inp), whose set SCALARS has the nodes that carry scalar coordinates.
 """
 
 import os
@@ -21,7 +21,7 @@ from .user_element import UserElement, read_user_element, write_user_element
 
 
 def recognises(path):
-    """Whether a file is no Matrix Market file."""
+    """Tells whether a file is not a Matrix Market file."""
     return not first_line(path).startswith("%%MatrixMarket")
 
 

@@ -25,7 +25,8 @@ KINDS = {"stiffness": "STIF", "mass": "MASS", "damping": "DMPV"}
 
 
 def recognises(path):
-    """Never: `abaqus_matrices` recognises all forms of Abaqus; this name chooses the form to be written."""
+    """Returns False: `abaqus_matrices` recognises all forms of Abaqus, and this name only chooses the form to be
+    written."""
     return False
 
 
@@ -115,7 +116,7 @@ def _check_free(path, stiffness, unknowns):
 
 
 def _numbered(paths, entries, nodes, options):
-    """The same from lines with rows and columns from 1."""
+    """Place and component of each unknown, and the matrices, from lines with rows and columns counted from 1."""
     indices = {name: whole(paths[name], found[:, :2], "a row or column") - 1 for name, found in entries.items()}
     least = min(int(each.min(initial=0)) for each in indices.values())
     size = max(int(each.max(initial=-1)) for each in indices.values()) + 1

@@ -1,10 +1,10 @@
 """Exudyn's reduced body of a floating frame (.npz, .hdf5): the file of ObjectFFRFreducedOrderInterface.SaveToFile.
 
 modeBasis (3p,m) are the shapes at all nodes, xRef their places, and the other keys inertia integrals with the mass of
-the mesh, which is equal in all directions. postProcessingModes may hold the stress xx yy zz yz xz xy of each node and mode, (p,6m); in an
-.npz file it is a pickled dictionary. Written are all free modes at the nodes and recovery points. (Exudyn,
-FEM.py, GetDictionary; A. Zwoelfer, J. Gerstmayr, "The nodal-based floating frame of reference formulation with modal
-reduction", Acta Mech. 232 (2021) 835.)
+the mesh, which is equal in all directions. postProcessingModes may hold the stress xx yy zz yz xz xy of each node and
+mode, (p,6m); in an .npz file it is a pickled dictionary. The writer stores all free modes at the nodes and recovery
+points. (Exudyn, FEM.py, GetDictionary; A. Zwoelfer, J. Gerstmayr, "The nodal-based floating frame of reference
+formulation with modal reduction", Acta Mech. 232 (2021) 835.)
 """
 
 import os

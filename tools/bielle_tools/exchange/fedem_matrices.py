@@ -1,8 +1,8 @@
 """FEDEM's files of a reduced part: PART_S.fmx holds the stiffness, PART_M.fmx the mass (.fmx).
 
 A file is a tag of 30 letters, a mark of the order of bytes, a checksum, the line `;1.0;` and all numbers of a square
-matrix. It tells no nodes: they come from `options.nodes` or PART_nodes.csv, with 6 unknowns each in their order, then
-amplitudes of modes; `options.unknowns` may name another order. (openfedem: src/vpmUtilities/binaryDB.c,
+matrix. It contains no nodes: they come from `options.nodes` or PART_nodes.csv, with 6 unknowns each in their order,
+then amplitudes of modes; `options.unknowns` may name another order. (openfedem: src/vpmUtilities/binaryDB.c,
 FFaLib/FFaOS/FFaTag.C, vpmReducer/reducer.f90.)
 """
 

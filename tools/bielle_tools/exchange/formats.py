@@ -30,7 +30,8 @@ FORMATS = {
     "fedem": ("fedem_matrices", [".fmx"]),
 }
 
-# Members of `Options`, besides the name of the body, that the reader of a format uses; it uses none if it is not here.
+# Members of `Options`, besides the name of the body, that the reader of a format uses; a format that is not listed uses
+# none.
 TAKES = {
     "dmig": ("nodes", "mass", "names", "quantities"),
     "op4": ("nodes", "mass", "names", "quantities"),

@@ -32,7 +32,7 @@ class FreeModes:
     numbers: np.ndarray     # (p) of the nodes, then of the points
     positions: np.ndarray   # (p,3)
     motions: np.ndarray     # (p,6,n): displacement and rotation of each as functions of the unknowns
-    nodes: int              # count of nodes that are no points
+    nodes: int              # number of nodes, which stand before the recovery points
     body: object            # the MatrixSet in axes of the body
 
 

@@ -66,7 +66,7 @@ def _matrix(path, most):
     if not texts[0].startswith("%%MatrixMarket"):
         raise InputError(f"{path}:1: expected %%MatrixMarket, found '{texts[0][:30]}'")
     body = [text for text in texts[1:] if text.strip() and not text.startswith("%")]
-    if not body:  # for which mminfo would search without an end
+    if not body:  # mminfo would not terminate without a body
         raise InputError(f"'{path}': ends before the counts of rows and columns")
     content = (texts[0].strip() + "\n" + "\n".join(body).translate(FORTRAN) + "\n").encode("utf-8", "replace")
     try:

@@ -10,7 +10,7 @@ from ..messages import InputError, counted
 from . import recovery
 
 COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
-LARGEST = 1e100  # products of three larger numbers are none
+LARGEST = 1e100  # products of three larger numbers overflow
 
 
 @dataclass
@@ -55,7 +55,7 @@ class MatrixSet:
     mass: Any                           # (n,n) scipy.sparse
     axes: np.ndarray | None = None      # (N,3,3) columns: directions of the axes of each node in the body; None: the body's
     damping: Any = None                 # (n,n) scipy.sparse, viscous
-    geometric_stiffness: Any = None     # (n,n) scipy.sparse, of a load that the file does not tell
+    geometric_stiffness: Any = None     # (n,n) scipy.sparse; the file does not name its load
     interfaces: dict[str, int] = field(default_factory=dict)  # rows of nodes that the file itself declares as interfaces, by name
     inertia_components: np.ndarray | None = None  # (6,n,n) S_11 S_22 S_33 S_23 S_13 S_12, if the file has them
     mass_properties: MassProperties | None = None
@@ -64,7 +64,7 @@ class MatrixSet:
     quantities: dict[str, recovery.Quantity] = field(default_factory=dict)  # further recovered numbers, by name
     length_unit: str | None = None      # as `length_unit` of a body file, if the file declares one
     mass_unit: str | None = None        # as `mass_unit` of a body file
-    notes: list[str] = field(default_factory=list)  # whatever was left out
+    notes: list[str] = field(default_factory=list)  # notes on parts that were left out
 
     @property
     def size(self):

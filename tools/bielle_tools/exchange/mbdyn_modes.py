@@ -1,9 +1,9 @@
 """MBDyn's modal joint (.fem): shapes of a body in its floating frame, with their mass, stiffness and inertia invariants.
 
-Written are all free modes at the nodes and recovery points, the global inertia (group 12) and, if the inertia inside is
-known, the invariants 3, 4, 8, 5 and 9 (groups 14 to 18); MBDyn takes lumped masses of nodes (group 11) in their place.
-Read are all of them. (MBDyn Input Manual, "Modal joint"; the invariants are those of its theory manual, as
-mbdyn/struct/modal.cc computes them.)
+The writer stores all free modes at the nodes and recovery points, the global inertia (group 12) and, if the inertia
+inside is known, the invariants 3, 4, 8, 5 and 9 (groups 14 to 18); MBDyn takes lumped masses of nodes (group 11) in
+their place. The reader accepts all of these groups. (MBDyn Input Manual, "Modal joint"; the invariants are those of its
+theory manual, as mbdyn/struct/modal.cc computes them.)
 """
 
 import os

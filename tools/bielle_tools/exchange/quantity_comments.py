@@ -33,7 +33,7 @@ def comments_of(matrix, name, quantity):
 
 
 def told_quantities(path):
-    """Told by the name of the matrix. Comments in another form are comments."""
+    """Returns the Told of each matrix by its name. Comments in any other form are ignored."""
     found, last = {}, None
     for line in lines_of(path):
         head, row = QUANTITY(line), ROW(line)

@@ -19,7 +19,7 @@ from .recovery import converted_quantity
 METRES = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "um": 1e-6, "km": 1e3, "in": 0.0254, "ft": 0.3048}
 KILOGRAMS = {"kg": 1.0, "g": 1e-3, "t": 1e3, "lb": 0.45359237, "slug": 14.593902937206365, "slinch": 175.12683524647638}
 SECONDS = {"s": 1.0, "ms": 1e-3}
-# Names of systems of units, which say a force or nothing of the mass.
+# Other names of systems of units, which contain a unit of force or none of mass.
 ALIASES = {"si": "m-kg-s", "mks": "m-kg-s", "m-n-s": "m-kg-s", "n-m-s": "m-kg-s", "cgs": "cm-g-s", "mpa": "mm-t-s", "mm-n-s": "mm-t-s",
            "n-mm-s": "mm-t-s", "mm-ton-s": "mm-t-s", "mm-tonne-s": "mm-t-s", "mm-mg-s": "mm-t-s", "mm-kn-ms": "mm-kg-ms",
            "kn-mm-ms": "mm-kg-ms", "in-lbf-s": "in-slinch-s", "lbf-in-s": "in-slinch-s", "ips": "in-slinch-s", "ft-lbf-s": "ft-slug-s",

@@ -276,7 +276,7 @@ def circuit(results, at):
             place = f"hydraulics/{name}/{quantity}"
             columns = columns_of(results, place)
             if not columns or (quantity == "flow" and results.has(f"hydraulics/{name}/pressure")):
-                continue  # net flows of places say what their pressures do
+                continue  # the pressures show the same as net flows of places
             units = results.units(place)
             names = column_names(results, place) if len(columns) > 1 else [""]
             shown = range(len(columns)) if len(columns) <= 6 else (0, len(columns) - 1)

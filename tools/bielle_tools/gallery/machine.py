@@ -33,12 +33,12 @@ class Check:
 
     @property
     def difference(self):
-        """Difference relative to the reference; not a number if the value is none."""
+        """Difference relative to the reference; NaN if the value is not a number."""
         return (self.value - self.reference) / abs(self.reference)
 
     @property
     def passed(self):
-        """Tells whether the value is near enough; one that is no number is not."""
+        """Tells whether the value is near enough, which NaN is not."""
         return abs(self.difference) <= self.within
 
 

@@ -34,7 +34,7 @@ def telling_moment(path):
         width = np.array([np.sort(np.ptp(scene.bounds(rows[[k]]), axis=0))[1] for k in range(len(rows))])  # second longest side
         score = moved / max(moved[near].max(), LEAST) + WIDE * width / max(width.max(), 1e-12 * size)
         best = int(np.argmax(np.where(near, score, -1)))
-        if moved[best] < LEAST and moved.max() >= LEAST:  # it leaves within a row
+        if moved[best] < LEAST and moved.max() >= LEAST:  # the machine moves away within one row
             best = 0
         return float(results.time[rows[best]]), bool(near[best] and moved[best] >= LEAST)
 

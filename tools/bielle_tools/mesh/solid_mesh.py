@@ -152,14 +152,15 @@ def _check_blocks(raw):
 
 
 def repeated_numbers(labels):
-    """How many elements have the number of another one. @param labels  the numbers of each block, not positive for none"""
+    """Number of elements that share their number with another one. @param labels  numbers of the elements of each
+    block; not positive: the element has none"""
     given = np.concatenate([np.zeros(0, np.int64), *labels])
     given = given[given > 0]
     return len(given) - len(np.unique(given))
 
 
 def _tell_repeated_numbers(labels, notes):
-    """The numbers of elements are those of later messages, unless instances of parts repeat them."""
+    """Later messages name elements by these numbers, unless instances of parts repeat them."""
     repeated = repeated_numbers(labels)
     if repeated:
         notes.append(f"{counted(repeated, 'element')} {'has' if repeated == 1 else 'have'} the number of another one (of another instance): messages "

@@ -1,4 +1,4 @@
-"""The camera: where it looks from, and how near it may be so that the motion fills the picture but stays in it."""
+"""The camera: its direction, and the shortest distance at which the whole motion stays in the picture."""
 
 import numpy as np
 

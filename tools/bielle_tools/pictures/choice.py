@@ -1,4 +1,4 @@
-"""Which parts of a scene are hidden."""
+"""The choice of the parts of a scene that are hidden."""
 
 import fnmatch
 

@@ -17,7 +17,7 @@ LONGEST_START = 30  # [s]
 
 
 def missing():
-    """A sentence on the package that is missing to draw; empty if there is all."""
+    """Names the package that is missing for drawing, in a sentence; empty if there is none."""
     if importlib.util.find_spec("vtkmodules") is None:
         return f"drawing needs VTK (Debian package python3-vtk9): run {installation('python3-vtk9')}"
     return "" if shutil.which("Xvfb") else f"drawing needs the program Xvfb (Debian package xvfb): run {installation('xvfb')}"

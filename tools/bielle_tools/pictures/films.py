@@ -66,7 +66,7 @@ def _write_gif(shot, file, seconds):
 
 
 def _packed(picture):
-    """A picture in a hundredth of its memory."""
+    """Compresses a picture to about a hundredth of its memory. @returns its data and its size"""
     return zlib.compress(picture.tobytes(), 1), picture.size
 
 
@@ -109,7 +109,7 @@ def _pixels(picture):
 
 
 def _svg(picture):
-    """The pixels in a file that programs for vector graphics open."""
+    """Returns the pixels as an SVG file, which programs for vector graphics open."""
     png = io.BytesIO()
     picture.save(png, "PNG")
     width, height = picture.size

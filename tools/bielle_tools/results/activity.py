@@ -31,7 +31,8 @@ class Activity:
                     self._starts[name] = acts
 
     def acts(self, entry):
-        """(rows) whether the entry `joints/rope` acts; None if it always does. At the time of an event it acts no more, or acts."""
+        """(rows) whether the entry `joints/rope` acts; None if it always does. A row at the time of an event has the
+        state after it."""
         section, _, name = entry.partition("/")
         if section not in RELEASABLE or (name not in self._changes and self._starts.get(name, True)):
             return None

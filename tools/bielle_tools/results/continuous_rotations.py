@@ -102,8 +102,8 @@ def _nearer_ones(angles, mirror, before):
     """Returns the angles of each row or their complement, whichever is nearer to the row before, plus turns."""
     rows = angles if before is None else np.vstack([before, angles])
     other = np.column_stack([rows[:, 0] + np.pi, mirror - rows[:, 1], rows[:, 2] + np.pi])
-    # The two sets of a row are as far from one set of the row before as, exchanged, from its other set: a change from one
-    # to the other is seen without knowing which of the two the row before has.
+    # The two sets of a row are as far from one set of the row before as, in exchange, from its other set. A change from
+    # one set to the other is therefore seen without knowing which of the two the row before has.
     change = _distance(other[1:], rows[:-1]) < _distance(rows[1:], rows[:-1])
     taken = np.concatenate([[False], np.cumsum(change) % 2 == 1])
     rows = np.unwrap(np.where(taken[:, None], other, rows), axis=0)

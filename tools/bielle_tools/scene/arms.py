@@ -28,7 +28,7 @@ def arms_of(builder, items):
         pieces = [piece for piece in pieces if piece is not None]
         if pieces:
             entry, kind = boxes[0][:2] if boxes else (f"nodes/{node}", "node")
-            with contextlib.suppress(InputError):  # a node that is not recorded is told elsewhere
+            with contextlib.suppress(InputError):  # the node is not recorded, which is reported elsewhere
                 found.append(builder.rigid({"entry": entry, "type": kind}, t.merged(pieces), place=Place(node)))
     return found
 

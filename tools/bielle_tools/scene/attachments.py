@@ -20,7 +20,7 @@ def attachments(items, motion):
                 if item["shape"] not in NOT_ATTACHED or item["shape"] in CARRIED and node != place.node:
                     found.setdefault(node, []).append(position)
         except (InputError, KeyError, TypeError, ValueError, AttributeError, ArithmeticError):
-            continue  # it is told when the item is built
+            continue  # the error is reported when the item is built
     found.pop("ground", None)
     return found
 

@@ -21,7 +21,8 @@ class FlexibleBodies:
         self.results, self.superelements, self._kept = results, superelements or {}, {}
         scenery = getattr(results, "scenery", None)
         self._source = getattr(scenery, "base", None) or results
-        self.has_rows = scenery is None or scenery.base is not None  # a mode without rows of its state has told so
+        self.has_rows = scenery is None or scenery.base is not None  # a mode without rows of its state has already been
+                                                                     # reported
 
     def part(self, name, kind, colour, opacity, symbol):
         """The instance that the element `name` is. symbol: size of symbols [m]. @raises InputError"""

@@ -23,7 +23,7 @@ def marks_of(scene, rows):
             try:
                 facts = {**_distance(scene, item, _acting(scene, item["entry"], rows)), **_redundancy(scene.results, item["entry"])}
             except (InputError, KeyError, TypeError, ValueError, AttributeError):
-                continue  # it is told when the item is built
+                continue  # the error is reported when the item is built
             found.update({item["entry"]: facts} if facts else {})
     check = check_of(scene.results)
     for entry in check.redundant if check else ():

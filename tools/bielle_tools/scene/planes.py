@@ -38,7 +38,7 @@ def drawn_planes(items, extent):
             try:
                 place = place_of(item)
             except (TypeError, ValueError, AttributeError):
-                continue  # it is told when the item is built
+                continue  # the error is reported when the item is built
             plane = DrawnPlane(item, place.node, np.array(place.position), rotated(np.array(place.rotation), np.array([0.0, 0, 1])))
             if "size" in item or not any(plane.repeats(other, extent) for other in found):
                 found.append(plane)

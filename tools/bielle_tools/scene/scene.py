@@ -96,7 +96,7 @@ class Scene:
                 if item["shape"] in ("beam", "superelement"):
                     first += self._element_points(item)
             except (InputError, KeyError, TypeError, ValueError, AttributeError, ArithmeticError):
-                continue  # it is told when the item is built
+                continue  # the error is reported when the item is built
         builder.attached = attachments(self.items, self.motion_of_nodes)
         points = np.array(first + [row for path in paths for row in path]).reshape(-1, 3)
         points = points[np.isfinite(points).all(axis=1)]
@@ -139,7 +139,7 @@ class Scene:
             try:
                 found += [0.5 * float(np.min(np.ptp(np.asarray(section["outer"], float), axis=0))) for section in item["sections"]] if item["shape"] == "beam" else []
             except (KeyError, TypeError, ValueError, ArithmeticError):
-                continue  # it is told when the item is built
+                continue  # the error is reported when the item is built
         return [half for half in found if 0 < half < LARGEST]
 
     def _element_points(self, item):
@@ -155,7 +155,7 @@ class Scene:
             return
         try:
             parts = builder.parts(item)
-            for part in parts:  # a part whose motion cannot be read is told here, not while it plays
+            for part in parts:  # a part whose motion cannot be read is reported here, not during playback
                 (part.frame if isinstance(part, FlexiblePart) else part.motion)(self.rows[:1])
             self.released.apply(item, parts)
         except (InputError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:

@@ -126,7 +126,8 @@ class Gathered:
         return take(self.take, time, values)
 
     def _is_one_column(self, results):
-        """Tells whether a dataset, of which the words pick one column, is taken from; else any quantity."""
+        """Tells whether the number is taken from one column of a dataset, which the words pick; otherwise it is taken
+        from any quantity."""
         return results.has(self.place) and (bool(self.columns) or self.take not in OVER_ALL)
 
     def _of_quantity(self, results):

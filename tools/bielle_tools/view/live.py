@@ -34,7 +34,7 @@ def serve(paths, port, page):
     except OSError as error:
         raise InputError(f"port {port} cannot be used: {error.strerror}") from None
     with server:
-        handler.kept = _first(paths, build)  # wrong input is told before the address
+        handler.kept = _first(paths, build)  # wrong input is reported before the address is printed
         print(f"http://127.0.0.1:{server.server_address[1]}/  (Ctrl-C ends it)", flush=True)
         server.serve_forever()
 
@@ -58,7 +58,7 @@ def copies(paths):
         copied = []
         for number, path in enumerate(paths):
             if not os.path.isfile(path):
-                copied.append(path)  # its absence is told where it is read
+                copied.append(path)  # a missing file is reported by its reader
                 continue
             own, around = os.path.join(folder, str(number)), os.path.dirname(os.path.abspath(path))
             os.mkdir(own)

@@ -127,5 +127,5 @@ def _file(path):
 
 
 def _harmless(script):
-    """A script that ends no element before its own."""
+    """Replaces end tags in a script, which would end its element early."""
     return script.replace("</script", "<\\/script")

@@ -1,4 +1,4 @@
-// Joints and what moves on lines, curves and beams, as they are drawn.
+// Drawings of joints, and of the parts that move on lines, curves and beams.
 #include <fstream>
 
 #include "tests/support/temporary_folder.hpp"

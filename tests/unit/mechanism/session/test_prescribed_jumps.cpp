@@ -1,4 +1,4 @@
-// Prescribed motions with corners: bodies are accelerated and stopped by impulses, and the user is told.
+// Prescribed motions with corners: impulses accelerate and stop bodies, and the user gets a warning.
 #include <catch2/catch.hpp>
 
 #include "mechanism/io/mechanism_file.hpp"

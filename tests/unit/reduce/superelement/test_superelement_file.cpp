@@ -78,7 +78,7 @@ Superelement sample() {
   return body;
 }
 
-/// Nothing but what every superelement has: one interface, no modes.
+/// The least superelement: one interface, no modes.
 Superelement smallest() {
   Superelement body;
   body.interfaces.resize(1);

@@ -198,7 +198,7 @@ TEST_CASE("cones and rings agree with sums of thin slices") {
   const MassProperties thin = ring(2, 1e-4);
   CHECK(error(thin.inertia / thin.mass, MatrixX(Vector3(2, 2, 4).asDiagonal())) < 1e-8);
   CHECK_THAT(thin.mass, Catch::WithinRel(4 * M_PI * M_PI * 1e-8, 1e-14));
-  // A thick one: sums over its volume, of which the turn around the axis is done exactly.
+  // A thick ring: sums over its volume, in which the integral around the axis is exact.
   double mass = 0, polar = 0, across = 0;
   const int n = 400;
   for (int i = 0; i < n; ++i)

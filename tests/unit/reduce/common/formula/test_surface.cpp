@@ -1,4 +1,4 @@
-// Tables of two variables: polynomials that they reproduce, derivatives, and what is wrong with files.
+// Tables of two variables: polynomials that they reproduce, derivatives, and errors in files.
 #include <cmath>
 #include <string>
 #include <vector>
