@@ -1,4 +1,5 @@
-// Entries of a part that is moved, turned or mirrored: what they would take from the inertial axes is written out.
+// Entries of a part that is moved, turned or mirrored: axes that they would take from the inertial ones are written
+// explicitly.
 #pragma once
 
 #include <functional>
@@ -12,8 +13,8 @@ namespace bielle::mechanism {
 /// Returns the frame of a node of the model.
 using NodeFrame = std::function<Frame(const YamlNode& name, const std::string& path)>;
 
-/// Refuses an entry that has no meaning in a part that is turned or mirrored: directions of a node that are held along
-/// inertial axes, and what cannot be mirrored.
+/// Refuses an entry that has no meaning in a part that is turned or mirrored: a node with directions that are held
+/// along inertial axes, or an entry that cannot be mirrored.
 /// @param section  "nodes", "elements", ..
 /// @param entry    as the part writes it
 void check_placed(const YamlNode& entry, const std::string& section, const Scope& scope, const std::string& path);

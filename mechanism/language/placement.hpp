@@ -1,4 +1,4 @@
-// Place of a part in the mechanism: where vectors of its file go.
+// Place of a part in the mechanism: it maps vectors of the part's file to inertial axes.
 #pragma once
 
 #include "mechanism/math/se3.hpp"
@@ -9,8 +9,8 @@ namespace bielle::mechanism {
 /// A rigid motion after a reflection, from the axes in which a part is written to the inertial ones.
 ///
 /// A mirrored node has the axes M R M (M = the reflection), which are right-handed again: components along its own axes
-/// are reflected like those of the part. Vectors of a translation (`polar`) are reflected; those of a rotation
-/// (`axial`) as well, and turned round, so that angles, angular velocities and moments about them keep their signs.
+/// are reflected like those of the part. Vectors of a translation (`polar`) are reflected; vectors of a rotation
+/// (`axial`) are reflected and reversed, so that angles, angular velocities and moments about them keep their signs.
 struct Placement {
   Frame frame;        ///< frame of the part's axes, in inertial ones
   int mirrored = -1;  ///< axis that is normal to the plane of the reflection; -1: none

@@ -42,7 +42,7 @@ struct Scope {
   std::string text(const YamlNode& node, const std::string& path) const;
   /// Evaluates a number or formula of parameters; a number may have a unit.
   double number(const YamlNode& node, const std::string& path) const;
-  /// Evaluates a number of an entry in the model; nothing for a formula of time or of the state.
+  /// Evaluates a number of an entry in the model. Returns no value for a formula of time or of the state.
   std::optional<double> constant(const YamlNode& node, const std::string& path) const;
 
  private:

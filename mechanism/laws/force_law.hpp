@@ -55,7 +55,7 @@ class ForceLaw {
   /// on.
   void add_measures(const LocalState& state, double x, double v, const Eigen::Ref<const VectorX>& direction, int row,
                     LocalTangent& tangent) const;
-  /// Returns V(x) [J]; not for an actuator.
+  /// Returns V(x) [J]. An actuator has no such energy.
   double elastic_energy(const LocalState& state, double x) const;
   void add_break_points(std::vector<double>& times) const;
   /// Describes the law in words: "stiffness 10 N/m", "force 3*e + v N". @param turning  whether the coordinate is an

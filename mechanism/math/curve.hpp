@@ -26,7 +26,8 @@ class Curve {
   Place operator()(double u) const;
   bool closed() const { return closed_; }
   double end() const { return knots_.back(); }  ///< largest u, which begins with 0; the period of a closed curve
-  /// Arc length from u = 0, negative before it: Gauss quadrature on sixteen parts of each piece.
+  /// Returns the arc length from u = 0, which is negative for u < 0, by Gauss quadrature on sixteen parts of each
+  /// piece.
   double arc_length(double u) const;
   /// Returns the parameter of the point of the curve that is closest to a given point.
   double nearest(const Vector3& point) const;

@@ -1,8 +1,8 @@
-// A measure as it was a time T before: y(t) = x(t - T).
+// The value of a measure at a time T before the present one: y(t) = x(t - T).
 //
-// At times before the motion x is taken to have been as it was at its beginning. In a static analysis no time passes:
-// y = x, and the past begins anew. A delay that is shorter than a step reaches into the step: the value depends on the
-// present one, with its exact derivative. A jump of x comes back after T: a step ends there (Echo).
+// At times before the motion x has its value at the beginning of the motion. In a static analysis no time passes: y =
+// x, and the history of x begins again. A delay that is shorter than a step depends on the end of the step: the
+// derivative of y by the present value of x is exact. A jump of x comes back after T: a step ends there (Echo).
 #pragma once
 
 #include <string>

@@ -5,9 +5,9 @@
 //   euler.a, .b, .c     R = Rz(a) Rx(b) Rz(c), b in [0, pi] [rad]
 //   bryant.a.rate, ..   their rates [rad/s]
 //
-// A function of the state knows no turns: values are principal ones, which jump where they leave their domain. At the
-// singularity of the middle angle, first and last angle have no derivatives and no rates: a computation that needs them
-// ends the run with an error.
+// A function of the state cannot count turns: its values are principal ones, and jump at the limits of their domain. At
+// the singularity of the middle angle, first and last angle have no derivatives and no rates: a computation that needs
+// them ends the run with an error.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // Interface of components whose constraint rows also vanish in wrong positions, such as axes that point in opposite
-// directions: an assembly looks for another position then.
+// directions: an assembly then searches for another position.
 #pragma once
 
 #include <string>

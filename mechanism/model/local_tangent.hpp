@@ -2,8 +2,8 @@
 //
 // A local matrix takes blocks. They are stored either in a dense matrix of the component's own size, or in the global
 // sparse matrix: then each block is weighted and added directly to its place. A component that gathers its entries from
-// many points requests the whole dense matrix instead of writing blocks; a component that never does declares it
-// (Declaration::in_blocks) and is then given sparse targets.
+// many points requests the whole dense matrix instead of writing blocks; a component that never needs the whole matrix
+// declares it (Declaration::in_blocks) and is then given sparse targets.
 #pragma once
 
 #include <cassert>

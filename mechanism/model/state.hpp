@@ -79,7 +79,8 @@ struct Slots {
   int first_order_row() const { return amplitude_row() + amplitudes; }
   int multiplier_row() const { return first_order_row() + first_orders; }
   int reference_row(int k) const { return reference_rows[static_cast<std::size_t>(k)]; }
-  /// Appends the component's view of another. The other's slots must be complete and must not move.
+  /// Appends the slots of another component that this one refers to. The other's slots must be complete and must not
+  /// move.
   void refer_to(const Slots& other) {
     references.push_back(&other);
     reference_rows.push_back(size());

@@ -1,4 +1,4 @@
-// Messages of readers, for users without a file.
+// Adapts messages of readers to users who pass text instead of a file.
 #pragma once
 
 #include <string>

@@ -20,7 +20,7 @@ namespace bielle::mechanism {
 ///   conformal: [..]                    4 tan(angle/4) times the axis (Wiener-Milenkovic)
 const std::vector<Key>& orientation_keys();
 
-/// Returns them for an orientation relative to the inertial axes.
+/// Returns the keys of an orientation relative to the inertial axes.
 const std::vector<Key>& inertial_orientation_keys();
 
 /// Returns the rotation (own axes -> inertial axes) of an entry; identity if it has none of the keys.
@@ -29,7 +29,7 @@ Matrix3 read_orientation(const YamlValue& entry);
 
 /// Returns the keys of an inertial frame: `position` and those of an orientation.
 std::vector<Key> frame_keys();
-/// Returns those of a frame in the axes of a node.
+/// Returns the keys of a frame in the axes of a node.
 std::vector<Key> own_frame_keys();
 
 /// Reads `position` with an orientation, of a map that is bound to a table with `frame_keys`.

@@ -21,8 +21,8 @@ struct StartMotion {
   Vector3 at(const Vector3& place) const { return v + omega.cross(place - x); }
 };
 
-/// Returns the motion as given in the file; for a carried node by its carrier, for driven directions by their motion at
-/// time zero.
+/// Returns the motion that the file gives. That of a carried node follows from its carrier, that of driven directions
+/// from their prescribed motion at time zero.
 StartMotion start_motion(const Model& model, int node);
 
 /// Sets a node's start velocity; held directions are not changed. @param motion  motion of the node, at its position

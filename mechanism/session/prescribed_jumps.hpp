@@ -1,5 +1,5 @@
-// Prescribed motions whose rate jumps, like that of a table at its corners: impulses stop or accelerate the bodies
-// there, which are impossible for a real machine and are not visible as forces in the results.
+// Prescribed motions whose rate jumps, like that of a table at its corners. Impulses stop or accelerate the bodies
+// there: a real machine cannot exert them, and they are not visible as forces in the results.
 #pragma once
 
 #include <string>

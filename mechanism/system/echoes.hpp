@@ -17,7 +17,7 @@ class Echoes {
   void note_jump(State& state, const Environment& environment, double time) const;
   /// Returns the first time after `after` at which an earlier jump comes back [s]; infinity if none does.
   double next(const State& state, const Environment& environment, double after) const;
-  /// Makes all of them pass present values on, for small motions about a state.
+  /// Makes all echoes return present values, for small motions about a state.
   void forget(State& state) const;
 
  private:

@@ -61,7 +61,7 @@ class IdleConstraints {
   struct Switched {
     std::size_t member;
     int row, multiplier;  ///< local row of the component, and index among all multipliers
-    bool by_itself;       ///< its component switches it; otherwise only the activity of its entry
+    bool by_itself;       ///< whether its component switches it; otherwise only the activity of its entry does
   };
   std::vector<Switched> switched_;
   /// Places of the row and the diagonal of each multiplier that may be idle; empty if there are none.

@@ -37,11 +37,11 @@ class HarmonicShapes {
   VectorX weights(double rate, int h) const;
   /// @param u  amplitudes of harmonics (columns) @param s  exponent
   HarmonicSizes sizes(const Eigen::MatrixXcd& u, std::complex<double> s) const;
-  /// Sense of the motion of the turning part around the axis: 1 if its pattern runs forwards, -1 backwards, between for
-  /// sums of both; NaN if less than a tenth of its motion runs around, or without a standing part.
+  /// Returns the sense of the motion of the turning part around the axis: 1 if its pattern runs forwards, -1 backwards,
+  /// a value between for sums of both; NaN if less than a tenth of its motion runs around, or without a standing part.
   double whirl(const HarmonicSizes& sizes) const;
-  /// Whether two modes with as many harmonics are one motion: their exponents, or the conjugate of one, differ by a
-  /// multiple of i rate, and their harmonics are the same.
+  /// Returns whether two modes with as many harmonics are one motion: their exponents, or the conjugate of one, differ
+  /// by a multiple of i rate, and their harmonics are the same.
   /// @param alike  square of the cosine between shapes of one exponent from which on they are the same: two modes of an
   /// exponent may be any two of its shapes, which are nearly parallel by chance
   bool are_same(const Eigen::MatrixXcd& u, std::complex<double> s, const Eigen::MatrixXcd& other,

@@ -49,10 +49,10 @@ std::vector<TrackedMode> begin_tracks(const ModeSample& sample, int count);
 /// Finds the same modes at the next state. Each mode of the sample is assigned to at most one of them.
 std::vector<TrackedMode> follow_tracks(const std::vector<TrackedMode>& before, const ModeSample& sample);
 
-/// As `follow_tracks`, across a change that mixes shapes at once, however small it is: at rest a rotor that is nearly
-/// the same in all directions vibrates in planes, and whirls at any speed; gravity across the axis makes its blades
-/// differ at rest alone. The modes of a set are the same as a whole if as many modes after it are in its space; within
-/// it each one continues as the mode that is most similar.
+/// Does the same as `follow_tracks` across a change that mixes shapes at once, however small it is: a rotor that is
+/// nearly the same in all directions vibrates in planes at rest, and whirls at any speed; gravity across the axis makes
+/// its blades differ only at rest. The modes of a set are identified as a whole if as many modes after the change are
+/// in the space of the set; within it each one continues as the mode that is most similar.
 /// @param from  the sample that the tracks were found in
 std::vector<TrackedMode> follow_mixed_tracks(const std::vector<TrackedMode>& before, const ModeSample& from,
                                              const ModeSample& sample);

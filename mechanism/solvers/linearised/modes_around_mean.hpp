@@ -1,9 +1,9 @@
 // Modes about a periodic motion, searched for around the exponents of the mean equations.
 //
-// The slower the rotation, the closer together lie the copies of a motion, and the more harmonics a motion has whose
-// frequency is modulated over a turn. Its shape is then a sum of copies of modes of the mean equations. It represents
-// that mode of the mean of which it has most, with the copy in which the mean of the harmonics of this mode is nearest
-// to zero: its exponent is next to the mean of the modulated frequency.
+// At a slower rotation the copies of a motion are closer together, and a motion whose frequency is modulated over a
+// turn has more harmonics. Its shape is then a sum of copies of modes of the mean equations. It represents the mode of
+// the mean equations that has the largest part in it, with the copy in which the mean of the harmonics of this mode is
+// nearest to zero: its exponent is next to the mean of the modulated frequency.
 #pragma once
 
 #include "mechanism/solvers/linearised/harmonic_continuation.hpp"

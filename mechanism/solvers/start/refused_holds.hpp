@@ -21,7 +21,7 @@ namespace bielle::mechanism {
 /// Returns the active holds of a state.
 std::vector<int> active_holds(const System& system, const State& state);
 
-/// Returns whether new holds stop more than the coordinates that have come to rest: if one does, the joint is at a dead
+/// Returns whether new holds stop more than the coordinates that have come to rest. If one does, the joint is at a dead
 /// centre, or all connected parts come to rest. This is never the case in chains without loops.
 bool holds_stop_more(const System& system, const Environment& environment, const State& state,
                      const std::vector<int>& new_holds, KktMatrix& saddle);

@@ -1,4 +1,4 @@
-// Sought efforts for known positions and velocities: rigid parts.
+// Sought efforts for known positions and velocities of mechanisms of rigid parts.
 #pragma once
 
 #include "mechanism/solvers/constraints/kkt_matrix.hpp"

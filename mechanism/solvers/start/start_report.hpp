@@ -30,18 +30,19 @@ struct CarriedPart {
 };
 
 struct StartReport {
-  double largest_displacement = 0;     ///< largest by the assembly of positions [m]
-  std::string displaced_node;          ///< name of that node
-  double largest_rotation = 0;         ///< [rad]
-  double velocity_change = 0;          ///< largest change of a nodal velocity [m/s]
-  double angular_change = 0;           ///< largest change of a nodal angular velocity that was not zero [rad/s]
-  double impulse_work = 0;             ///< work of drives and supports that cause this change [J]
-  double settled = 0;                  ///< largest displacement of a node by static equilibrium, if requested [m]
-  std::string settled_node;            ///< name of that node
-  int unstable = 0;                    ///< number of motions for which that equilibrium has a negative stiffness
-  std::string unstable_motion;         ///< unknown with the largest part in one of them: "x at node 'tip'"
-  std::string loose;                   ///< unknown without support or load, which keeps its initial value; empty: none
-  double balanced = 0;                 ///< largest displacement of a node without mass, to balanced forces [m]
+  double largest_displacement = 0;  ///< largest by the assembly of positions [m]
+  std::string displaced_node;       ///< name of that node
+  double largest_rotation = 0;      ///< [rad]
+  double velocity_change = 0;       ///< largest change of a nodal velocity [m/s]
+  double angular_change = 0;        ///< largest change of a nodal angular velocity that was not zero [rad/s]
+  double impulse_work = 0;          ///< work of drives and supports that cause this change [J]
+  double settled = 0;               ///< largest displacement of a node by static equilibrium, if requested [m]
+  std::string settled_node;         ///< name of that node
+  int unstable = 0;                 ///< number of motions for which that equilibrium has a negative stiffness
+  std::string unstable_motion;      ///< unknown with the largest part in one of them: "x at node 'tip'"
+  std::string loose;                ///< unknown without support or load, which keeps its initial value; empty: none
+  /// Largest displacement of a node without mass to the position where its forces balance [m].
+  double balanced = 0;
   std::string balanced_node;           ///< name of that node
   std::string unbalanced;              ///< an unknown without mass whose forces could not be balanced; empty: none
   std::vector<std::string> held;       ///< first-order unknowns that static equilibrium does not determine

@@ -31,9 +31,9 @@ class StaticTangent {
   bool try_factor(const State& state, const Environment& environment);
   void solve(const Eigen::Ref<const VectorX>& r, Eigen::Ref<VectorX> delta) const { linear_.solve(r, delta); }
   const NewtonMatrix& linear() const { return linear_; }
-  /// Returns whether a solution with the last factors is along motions that only e D holds. With P = (K + e D)^-1 e D,
-  /// which preserves such motions and reduces others by e D/K, the criterion is |P delta| > |delta|/2 in the norm of D:
-  /// no length is involved. @param delta  (dofs or more)
+  /// Returns whether a solution with the last factors is along motions that only e D resists. With P = (K + e D)^-1 e
+  /// D, which preserves such motions and reduces others by e D/K, the criterion is |P delta| > |delta|/2 in the norm of
+  /// D: no length is involved. @param delta  (dofs or more)
   bool runs_loose(const VectorX& delta) const;
   /// e D (dofs) if there was an indifferent motion, otherwise null.
   const VectorX* held() const { return held_.size() > 0 ? &held_ : nullptr; }
