@@ -208,7 +208,7 @@ class Expander {
     --depth_;
   }
 
-  /// @returns the placement in the surroundings; of a part `at` a node the one in the model
+  /// @returns the placement in the surroundings; for a part `at` a node, the placement in the model
   Placement placement_of(const YamlValue& entry, const YamlNode& tree, const std::string& path) const {
     Placement placement;
     placement.frame = read_frame(entry);

@@ -86,7 +86,7 @@ bool is_same_when_placed(const YamlNode& motion, const Placement& placement) {
 
 Tree make_vector(const Vector3& v, const YamlNode& place) { return make_numbers({v[0], v[1], v[2]}, place); }
 
-/// Reads three numbers of an entry in the model; nothing if they are something else.
+/// Reads three numbers of an entry in the model. Returns no value if the entry has another form.
 std::optional<Vector3> read_vector(const YamlNode& list, const Scope& scope, const std::string& path) {
   if (list.kind != YamlNode::Kind::sequence || list.items.size() != 3) return {};
   Vector3 v;

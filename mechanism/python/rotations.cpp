@@ -41,7 +41,7 @@ Shape item_shape() {
   return {M::RowsAtCompileTime, M::ColsAtCompileTime};
 }
 
-/// "item (2, 0): ", nothing where there is one item alone.
+/// "item (2, 0): ", or an empty text if there is only one item.
 std::string place_of_item(std::size_t item, const Shape& leading) {
   if (leading.empty()) return "";
   std::string text;

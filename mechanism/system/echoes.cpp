@@ -11,7 +11,7 @@ Echoes::Echoes(const System& system) : system_(system) {
     if (const auto* echo = dynamic_cast<const Echo*>(members[m].component.get())) echoes_.push_back({echo, m});
 }
 
-/// Changes the memory of all echoes; each sees that of the others as it was before.
+/// Changes the memory of all echoes; each echo uses the unchanged memory of the others.
 template <class Change>
 void Echoes::change_memory(State& state, const Change& change) const {
   if (none()) return;

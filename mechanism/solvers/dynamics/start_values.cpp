@@ -46,7 +46,8 @@ bool resolved(const SchemeStep& step, const VectorX& j, double h) {
     acceleration[kind] = std::max(acceleration[kind], std::abs(step.rates().a[i]));
     rate[kind] = std::max(rate[kind], std::abs(j[i]));
   }
-  // Parts that turn in place have rounding errors alone as rates of translations, and the reverse.
+  // Parts that turn in place have only rounding errors as rates of translations, and parts that only translate have
+  // them as rates of rotations.
   constexpr double rounding = 1e-9;
   const double length = model_length(step.state());
   double &along = rate[static_cast<std::size_t>(Kind::translation)],

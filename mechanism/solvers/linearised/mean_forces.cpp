@@ -20,7 +20,7 @@ MeanForces::MeanForces(const System& system, const Environment& environment, con
   if (part) turning_ = part->turning_unknowns(system);
 }
 
-/// Returns the component of gravity normal to the axis; zero if rounding alone makes it.
+/// Returns the component of gravity normal to the axis. Returns zero if this component is only a rounding error.
 Vector3 MeanForces::crosswise(const State& state) const {
   if (!part_) return Vector3::Zero();
   const Vector3 axis = part_->axis(state), g = environment_.gravity, normal = g - axis * axis.dot(g);

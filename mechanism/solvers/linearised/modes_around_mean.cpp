@@ -89,8 +89,8 @@ class SearchAround {
     }
   }
 
-  /// Whether a motion decays about as a mode of the mean does: a slow and a fast decay may have one shape, and copies
-  /// differ in their frequency alone.
+  /// Returns whether a motion decays about as a mode of the mean does: a slow and a fast decay may have one shape, and
+  /// copies differ only in their frequency.
   bool may_be(Complex s, Complex of_mean) const {
     return std::abs(s.real() - of_mean.real()) <= 0.5 * std::abs(of_mean) + std::abs(periodic_.rate());
   }

@@ -109,7 +109,7 @@ void ShiftedOperator::set_scale(const SparseC& D) {
   double stiffest[] = {0, 0};  // translations and amplitudes, rotations
   const auto kind = [&](int i) { return !e.turns.empty() && e.turns[static_cast<std::size_t>(i)] != 0 ? 1 : 0; };
   for (int i = 0; i < dofs; ++i) stiffest[kind(i)] = std::max(stiffest[kind(i)], stiffness[i]);
-  // Dofs without mass are scaled by the stiffness; without either, like the others.
+  // Dofs without mass are scaled by the stiffness. Those with neither have the mean scale of the others.
   double sum = 0;
   int known = 0;
   for (int i = 0; i < dofs; ++i) {
