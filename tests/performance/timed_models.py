@@ -61,9 +61,8 @@ elements: {{bar: {{type: superelement, file: {file}, nodes: {{root: a, tip: b}}}
 joints: {{pivot: {{type: hinge, nodes: [ground, a], axis: [0, 1, 0]}}}}"""], steps, 1e-4)
 
 
-def write_models(folder, programs, shorter=1):
-    """Writes all models into a folder. @param programs  folder of bielle-reduce  @param shorter  divides the steps
-    @returns the paths by name"""
+def reduced_bar(folder, programs):
+    """Reduces the bar of `meshes/` to 30 modes. @param programs  folder of bielle-reduce  @returns the superelement's path"""
     with open(os.path.join(ROOT, "meshes", "bar.yaml"), encoding="utf-8") as file:
         body = file.read().replace("bar.geo", os.path.join(ROOT, "meshes", "bar.geo"))
     lines = ["modes: {count: 30}" if line.startswith("modes:") else line for line in body.splitlines()]
@@ -71,16 +70,27 @@ def write_models(folder, programs, shorter=1):
         file.write("\n".join(lines) + "\n")
     bar = os.path.join(folder, "bar.h5")
     subprocess.run([os.path.join(programs, "bielle-reduce"), os.path.join(folder, "bar.yaml"), "-o", bar, "--quiet"], check=True)
-    makers = {"slider-crank": (slider_crank, 10_000),
-              "superelement, 30 modes": (lambda steps: superelement(bar, steps), 5000),
-              "spin-up, 10 beams": (spin_up, 4000),
-              "100 spherical": (lambda steps: chain(100, "spherical", steps), 2000),
-              "100 spherical, stacked": (lambda steps: chain(100, "spherical", steps, "stacked"), 2000),
-              "100 hinges": (lambda steps: chain(100, "hinge", steps), 2000),
-              "100 hinges, stacked": (lambda steps: chain(100, "hinge", steps, "stacked"), 2000),
-              "500 spherical": (lambda steps: chain(500, "spherical", steps), 2000)}
+    return bar
+
+
+def makers(bar):
+    """@param bar  path of the superelement  @returns {name: (function that makes the model of so many steps, steps)}"""
+    return {"slider-crank": (slider_crank, 10_000),
+            "superelement, 30 modes": (lambda steps: superelement(bar, steps), 5000),
+            "spin-up, 10 beams": (spin_up, 4000),
+            "100 spherical": (lambda steps: chain(100, "spherical", steps), 2000),
+            "100 spherical, stacked": (lambda steps: chain(100, "spherical", steps, "stacked"), 2000),
+            "100 hinges": (lambda steps: chain(100, "hinge", steps), 2000),
+            "100 hinges, stacked": (lambda steps: chain(100, "hinge", steps, "stacked"), 2000),
+            "500 spherical": (lambda steps: chain(500, "spherical", steps), 2000)}
+
+
+def write_models(folder, programs, shorter=1):
+    """Writes all models into a folder. @param programs  folder of bielle-reduce  @param shorter  divides the steps
+    @returns the paths by name"""
+    bar = reduced_bar(folder, programs)
     models = {}
-    for name, (make, steps) in makers.items():
+    for name, (make, steps) in makers(bar).items():
         for title, count in ((f"{name}: one step", 1), (f"{name}: {max(steps // shorter, 2)} steps", max(steps // shorter, 2))):
             models[title] = os.path.join(folder, f"model{len(models)}.yaml")
             with open(models[title], "w", encoding="utf-8") as file:
