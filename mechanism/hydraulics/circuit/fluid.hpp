@@ -82,8 +82,8 @@ class Fluid {
 std::vector<Key> fluid_keys();
 /// Returns the key `ambient_pressure`.
 Key ambient_pressure_key();
-/// Reads the keys of a fluid, without the ambient pressure, from a map that is bound to a table with them. @throws
-/// InputError
+/// Reads the keys of a fluid, without the ambient pressure, from a map that is bound to a table with them.
+/// @throws InputError
 void read_fluid(const YamlValue& entry, Fluid& fluid);
 /// Warns of a pressure at a place that is almost vacuum, or almost zero, because it may be given in bar.
 /// @param p  pressure [Pa], like the user's pressures

@@ -44,7 +44,8 @@ class MotorDrive final : public Drive, public TimeDependent {
   std::vector<Formula> time_formulas() const override;
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
 
-  /// Returns the electrical power V i [W], with derivatives over the drive's local layout.
+  /// Returns the electrical power V i [W], with derivatives over the drive's local layout. @param gradient  zero on
+  /// entry
   double calc_power(const LocalState& state, MeasureGradient& gradient) const;
 
  private:

@@ -61,7 +61,7 @@ class PidDrive final : public ActuatorDrive, public TimeDependent {
   int filter_row() const { return integrates() ? 1 : 0; }
   /// Tells whether z keeps its value in a static analysis, so that its row contains only its increment.
   bool keeps_integral(const LocalState& state) const;
-  /// Returns z' - e, which is zero between the limits.
+  /// Returns z' - e, which is zero between the limits. @param side,u  values of the actuator
   double windup_rate(double side, double u) const;
 
   PidGains gains_;

@@ -6,10 +6,10 @@
 // m = (s - s_0)/h over the present step of size h = t - t_0, and m_0 over the last one of size h_0, its rate at the end
 // of the step is that of a parabola (the differentiation formula of second order),
 //     ds/dt = m + (m - m_0) h/(h + h_0),
-// between zero and there, so that a rope does not slip back; it is m if the rope slipped in the other direction, or if
-// a discontinuity is between the steps. This rate serves damping, powers and results. The slip of a damped rope has a
-// rate as well at the beginning of a branch: it follows from the same balance, with the slip fixed. This rate is a
-// second algebraic unknown, which equals ds/dt at other times.
+// but no less than zero in the direction of slip, so that a rope does not slip back. It is m if the rope slipped in the
+// other direction, or if there is a discontinuity between the steps. This rate serves damping, powers and results. The
+// slip of a damped rope has a rate as well at the beginning of a branch: it follows from the same balance, with the
+// slip fixed. This rate is a second algebraic unknown, which equals ds/dt at other times.
 #pragma once
 
 #include <cmath>
