@@ -12,14 +12,14 @@
 namespace bielle::mechanism {
 
 struct CheckedModel {
-  /// Assembles the model. A failure is kept. @param of  must outlive this object
+  /// Assembles the model. A failure is stored and not thrown. @param of  must outlive this object
   explicit CheckedModel(const MechanismFile& of);
 
   const MechanismFile& file;
   System system;
   State state;                 ///< assembled; as drawn if it cannot be assembled
   StartReport report;          ///< changes of the drawn positions
-  std::vector<int> redundant;  ///< multipliers of the constraints that are set aside
+  std::vector<int> redundant;  ///< multipliers of redundant constraints, which are set aside
   /// The reason why the model cannot be assembled, a ComputationError; null if it can.
   std::exception_ptr failure;
 };

@@ -17,7 +17,7 @@ namespace bielle::mechanism {
 std::string describe_model(const CheckedModel& checked);
 std::string describe_model(const MechanismFile& file);
 
-/// Lists times, steps, iterations, the start's changes, and the energy balance of each analysis.
+/// Lists times, steps, iterations, changes that the start made, and the energy balance of each analysis.
 std::string format_summary(const MechanismFile& file, const std::vector<AnalysisSummary>& summaries,
                            const std::vector<PhaseReport>& phases, const std::string& results_path);
 

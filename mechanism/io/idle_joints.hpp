@@ -1,4 +1,4 @@
-// Detection of joints that hold nothing because both of their nodes belong to one rigid part.
+// Detection of joints without effect, because both of their nodes belong to one rigid part.
 #pragma once
 
 #include "mechanism/model/model.hpp"

@@ -1,13 +1,13 @@
-// Interrupted runs end after the current step, or at once if they are interrupted again.
+// Guard that lets an interrupted run finish its current step; a second interrupt ends the run at once.
 #pragma once
 
 #include <string>
 
 namespace bielle::mechanism {
 
-/// During the lifetime of this object, an interrupt (Ctrl-C), a termination request or the end of the terminal lets the
-/// current step finish; then the run stops. Another one, half a second later or more, ends the program at once: an
-/// analysis without steps (eigen, frequency_response) takes as long as it takes.
+/// During the lifetime of this object, the run stops at the end of the current step after an interrupt (Ctrl-C), a
+/// termination request or the end of the terminal. A second one, at least half a second later, ends the program at
+/// once. Without it, an analysis without steps (eigen, frequency_response) runs to its end.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -16,7 +16,7 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
   bool asked() const;  ///< whether the run was asked to end
   /// @param place   place of the run, for the message: "at t = 0.3 s", "before analysis 2"
-  /// @param advice  instruction how to continue, for the message
+  /// @param advice  instruction for continuing, for the message
   /// @throws Interrupted
   [[noreturn]] void end_run(const std::string& place, const std::string& advice = "") const;
 

@@ -1,5 +1,4 @@
-// Check for components that count turns from the initial positions without knowledge of the joints that carry their
-// nodes.
+// Check for components that count turns from the initial positions and do not know the joints that carry their nodes.
 #pragma once
 
 #include <cmath>

@@ -22,9 +22,9 @@ namespace bielle::mechanism {
 struct SlidingSurface {
   std::vector<std::size_t> coordinates;
   double lead = 0;  ///< lead of a thread, whose displacement and angle are one motion: [m] per radian; 0: none
-  /// Radius of a roller [m] that rotates on its pin: `coordinates` are the displacement of its middle along the path
-  /// and the angle of the part that carries the pin, and the roller rotates relative to its pin by displacement/roller
-  /// - angle. 0: none
+  /// Radius of a roller [m] that rotates on its pin; 0: there is no roller. The `coordinates` are the displacement of
+  /// its middle along the path and the angle of the part that carries the pin. The roller rotates relative to its pin
+  /// by displacement/roller - angle.
   double roller = 0;
 };
 
@@ -41,7 +41,7 @@ class Joint : public Component, public StartCoordinates {
   CoordinateRate coordinate(std::size_t index, const LocalState& state) const;
   /// Computes the coordinate with all derivatives over the joint's local layout.
   virtual void calc_coordinate(std::size_t index, const LocalState& state, CoordinateDerivatives& jet) const;
-  /// Computes the coordinate with its gradients alone: for residuals, which need no more.
+  /// Computes the coordinate with its gradients only, which residuals need.
   virtual void calc_slopes(std::size_t index, const LocalState& state, CoordinateSlopes& slopes) const;
   /// Computes first and second time derivative of the coordinate. @param jet  result of calc_coordinate at the state
   static std::pair<double, double> calc_coordinate_rates(const LocalState& state, CoordinateDerivatives& jet);
@@ -53,30 +53,32 @@ class Joint : public Component, public StartCoordinates {
   virtual Vector6 calc_reaction(const LocalState& state, MatrixX& derivatives) const;
   /// Computes the derivatives by rates, for a joint whose reaction has any. @param derivatives  (6, slots().size())
   void calc_reaction_by_rates(const LocalState& state, MatrixX& derivatives) const;
-  /// Whether the reaction depends directly on rates: forces of dampers and friction, not of constraints.
+  /// Tells whether the reaction depends directly on rates: forces of dampers and friction do, forces of constraints do
+  /// not.
   virtual bool reaction_has_rates() const { return false; }
   /// Computes the contribution of each multiplier to the reaction. @returns (6, multipliers)
   MatrixX reaction_of_multipliers(const LocalState& state) const;
 
-  /// Use of a coordinate by other entries, recorded while the model is read: forces of several drives add, a drive by
-  /// motion or with a sought effort is alone and permits no lock.
+  /// Use of a coordinate by other entries, recorded while the model is read. The forces of several drives add up. A
+  /// drive by motion or with a sought effort permits neither another drive nor a lock.
   struct CoordinateUse {
     std::string driver;  ///< name of its first drive; empty: there is none
     bool locked = false;
   };
   CoordinateUse& use(std::size_t coordinate) { return uses_[coordinate]; }
 
-  /// The sliding surfaces of the joint. By default there is one surface along all coordinates, if these are no more
-  /// than three.
+  /// Returns the sliding surfaces of the joint. By default there is one surface along all coordinates, if these are no
+  /// more than three.
   virtual std::vector<SlidingSurface> sliding_surfaces() const;
-  /// Computes the part of the reaction that presses sliding surfaces together: all of it, except for joints whose
-  /// reaction includes friction (along a curve, path_press.hpp).
+  /// Computes the part of the reaction that presses sliding surfaces together. This is all of it, except for joints
+  /// whose reaction includes friction (along a curve, path_press.hpp).
   virtual Vector6 calc_press(const LocalState& state) const { return calc_reaction(state); }
   /// Computes this part with its derivatives over the joint's local layout. @param derivatives  (6, slots().size())
   virtual Vector6 calc_press(const LocalState& state, MatrixX& derivatives) const {
     return calc_reaction(state, derivatives);
   }
-  /// Output field of an action along the coordinates: a force or torque for each, summed over all actions of this kind.
+  /// Returns the output field of an action along the coordinates: a force or torque for each, summed over all actions
+  /// of this kind.
   OutputField force_field(const std::string& name, const std::string& description) const;
 
   const std::string& first_name() const { return first_name_; }
@@ -84,7 +86,7 @@ class Joint : public Component, public StartCoordinates {
 
   /// Sets the start value of an angle [rad], from which turns are counted (a drive may begin some turns away). The
   /// default is 0.
-  /// @param by_motion  whether statics reach the value with the factor of motions
+  /// @param by_motion  whether a static analysis applies the value with the factor of motions
   virtual void start_at(std::size_t coordinate, double value, bool by_motion = true) {
     start_[coordinate] = {value, by_motion};
   }
@@ -106,19 +108,20 @@ class Joint : public Component, public StartCoordinates {
   std::vector<StartCoordinate> start_coordinates() const override;
   StartCoordinateValue calc_start_coordinate(std::size_t index, const LocalState& state,
                                              MeasureGradient& gradient) const override;
-  /// Warns of a lever arm that bridges the distance of its nodes if the file does not give the position of the joint.
+  /// Returns a warning if the file does not give the position of the joint, and a lever arm therefore bridges the
+  /// distance between its nodes.
   std::string remark() const override;
 
  protected:
-  /// Component x, y or z, in the frame J_A, of the vector from the origin of J_A to that of J_B.
+  /// Computes a component x, y or z, in the frame J_A, of the vector from the origin of J_A to that of J_B.
   template <int order = 2>
   PairMeasureOf<order> position(int axis, const LocalState& state) const {
     const Frame &A = frames_.on_first, &B = frames_.on_second;
     return measure_position<order>(state.node(0), state.node(1), A.R.col(axis), A.x, B.x);
   }
-  /// Computes a coordinate that the type defines (JointCoordinate::by_type): an angle is in (-pi, pi].
+  /// Computes a coordinate that the type defines (JointCoordinate::by_type). An angle is in (-pi, pi].
   virtual PairMeasure calc_own_coordinate(std::size_t index, const LocalState& state) const;
-  /// Computes the same with its gradient alone. By default the second derivatives are dropped.
+  /// Computes this coordinate with its gradient only. By default the second derivatives are dropped.
   virtual PairSlope calc_own_slope(std::size_t index, const LocalState& state) const;
   /// Returns a coordinate's value, angles in (-pi, pi], and its rate.
   virtual CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const;
@@ -131,7 +134,8 @@ class Joint : public Component, public StartCoordinates {
   template <class Measure>
   void set_slopes(std::size_t index, const LocalState& state, const Measure& m, CoordinateSlopes& slopes) const;
   /// Returns an angle with the number of whole turns predicted from the joint's memory and the rates, so that a step
-  /// may rotate by more than half a turn. Memory: [value, rate of each coordinate | time], of the last accepted step.
+  /// may rotate by more than half a turn. The memory is [value, rate of each coordinate | time], of the last accepted
+  /// step.
   double counted(std::size_t index, const LocalState& state, const CoordinateRate& principal) const;
   JointFrames frames_;
   std::vector<JointCoordinate> coordinates_;

@@ -34,11 +34,11 @@ struct JointFrames {
 /// Whether a type needs an axis.
 enum class AxisNeed { required, optional };
 
-/// Motion along or about the axis whose sign stays in a mirror.
+/// Type of motion that the axis describes, along it or about it, which determines its sign in a mirror image.
 enum class AxisUse { turning, sliding };
 
-/// key instead of `axis`, if the type has another name for it (`normal` of a plane) @throws InputError
-/// @param axis_key  in place of `axis`, where the type calls it otherwise (`normal` of a plane)
+/// Reads the frames of a joint's entry.
+/// @param axis_key  key instead of `axis`, if the type has another name for it (`normal` of a plane)
 /// @throws InputError
 JointFrames read_joint_frames(const YamlValue& entry, const Model& model, AxisNeed need,
                               const std::string& axis_key = "axis");
@@ -49,10 +49,10 @@ Vector3 smallest_turn(const Vector3& from, const Vector3& to, const Vector3& nor
 
 /// Returns `type` and the keys that `read_joint_frames` reads. @param axis_key  as read_joint_frames
 std::vector<Key> joint_frame_keys(AxisNeed need, const std::string& axis_key = "axis", AxisUse use = AxisUse::turning);
-/// Returns those of them that give the place: `type`, `nodes`, `position`, `at`.
+/// Returns the keys among them that give the place: `type`, `nodes`, `position`, `at`.
 std::vector<Key> joint_place_keys();
 
-/// Reads `at` of a joint: a point in the axes of each node. @throws InputError if it is something else
+/// Reads `at` of a joint: a point in the axes of each node. @throws InputError if the value has another form
 std::array<Vector3, 2> read_points_at(const YamlValue& at);
 
 }  // namespace bielle::mechanism

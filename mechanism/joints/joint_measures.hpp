@@ -19,7 +19,7 @@ class JointMeasure : public Measure {
   const Joint& joint_;
 };
 
-/// "main.angle", counted over turns.
+/// The measure "main.angle", counted over turns.
 class CoordinateMeasure final : public JointMeasure {
  public:
   CoordinateMeasure(std::string name, const Joint& joint, std::size_t coordinate)
@@ -45,7 +45,7 @@ class CoordinateRateMeasure final : public JointMeasure {
   std::size_t coordinate_;
 };
 
-/// "main.reaction.x": x y z [N], rx ry rz [N m], in the joint's frame.
+/// The measure "main.reaction.x": x y z [N], rx ry rz [N m], in the joint's frame.
 class ReactionMeasure final : public JointMeasure {
  public:
   ReactionMeasure(std::string name, const Joint& joint, int direction)

@@ -1,12 +1,12 @@
-// Unilateral contacts that are modelled by a bilateral constraint.
+// Event of unilateral contacts that are modelled by a bilateral constraint.
 #pragma once
 
 #include "mechanism/model/component.hpp"
 
 namespace bielle::mechanism {
 
-/// An event is recorded when the contact force, the value of the event function, changes its sign; the contact stays
-/// closed.
+/// Returns an event function whose value is the contact force. The event is recorded when the force changes its sign;
+/// the contact stays closed.
 inline EventFunction lift_off() {
   EventFunction crossing{"lifts off", EventFunction::Direction::falling};
   crossing.restarts = false;

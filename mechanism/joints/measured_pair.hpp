@@ -33,7 +33,7 @@ class MeasuredPair : public Joint {
  protected:
   /// @param rows  as many rows as declared
   virtual void calc_rows(const LocalState& state, std::span<PairMeasure> rows) const = 0;
-  /// Computes the same with gradients alone, for residuals.
+  /// Computes the rows with gradients only, for residuals.
   virtual void calc_row_slopes(const LocalState& state, std::span<PairSlope> rows) const = 0;
 
   // Terms of rows, in addition to positions.
@@ -42,7 +42,7 @@ class MeasuredPair : public Joint {
   PairMeasureOf<order> squared_distance(const LocalState& state) const {
     return square(position<order>(0, state)) + square(position<order>(1, state)) + square(position<order>(2, state));
   }
-  /// Alignment of an axis of J_A with an axis of J_B.
+  /// Computes the alignment (scalar product) of an axis of J_A with an axis of J_B.
   template <int order = 2>
   PairMeasureOf<order> alignment(int first_axis, int second_axis, const LocalState& state) const {
     return measure_alignment<order>(state.node(0), state.node(1), frames().on_first.R.col(first_axis),

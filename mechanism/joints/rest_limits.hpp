@@ -9,7 +9,7 @@ namespace bielle::mechanism {
 /// @param arm  lever arm of angular rates [m]; 1 gives the error of an angular rate [rad/s] as well
 inline double velocity_at_rest(const LocalState& of_joint, double arm) {
   const NodeState &first = of_joint.node(0), &second = of_joint.node(1);
-  // Positions are rounded: in a step this gives an error of velocities, independent of their size.
+  // Error of velocities that the rounding of positions causes within a step, independent of the size of the velocities.
   constexpr double per_second = 1e-11;
   return 1e-12 * (first.v.norm() + second.v.norm() + arm * (first.Omega.norm() + second.Omega.norm())) +
          per_second * (first.x.norm() + second.x.norm() + arm);

@@ -29,8 +29,8 @@ class Fluid {
   static constexpr double atmosphere = 101325;  ///< p_0 [Pa]
   static constexpr double least_vapour = 1e-3;  ///< p_v of a fluid without vapour [Pa]
   /// The quantity that flows between two places conserve. `volume`: the volume that leaves one place enters the other,
-  /// each at its own pressure: V pdot/B = Q - Vdot, as in textbooks. `mass`: flows are volumes at the reference
-  /// pressure.
+  /// although their pressures differ; this gives V pdot/B = Q - Vdot, as in textbooks. `mass`: flows are volumes at the
+  /// reference pressure.
   enum class Conserves { volume, mass };
 
   double density = 850;           ///< [kg/m^3]
@@ -58,9 +58,9 @@ class Fluid {
     double f, f_p;
   };
   Content content(double p) const;
-  /// Work per volume that flows at a pressure, [Pa], and its derivative: h f. For oil, at d above the ambient pressure
-  /// p_0, it is B (exp(d/B) - 1) if volume is conserved, B (1 - exp(-d/B)) if mass is. The energy stored in a volume
-  /// grows by Q e minus the work of its walls, for any flows.
+  /// Head e = h f of a pressure, the work per volume that flows [Pa], and its derivative. For oil at d above the
+  /// ambient pressure p_0 it is B (exp(d/B) - 1) if volume is conserved, B (1 - exp(-d/B)) if mass is. For any flows,
+  /// the stored energy of a volume grows at the rate Q e, less the power of its walls.
   struct Head {
     double e, e_p;
   };
@@ -82,12 +82,13 @@ class Fluid {
 std::vector<Key> fluid_keys();
 /// Returns the key `ambient_pressure`.
 Key ambient_pressure_key();
-/// Reads these keys, but for the ambient pressure, of a map that is bound to a table with them. @throws InputError
+/// Reads the keys of a fluid, without the ambient pressure, from a map that is bound to a table with them.
+/// @throws InputError
 void read_fluid(const YamlValue& entry, Fluid& fluid);
 /// Warns of a pressure at a place that is almost vacuum, or almost zero, because it may be given in bar.
-/// @param p  [Pa], like the user's pressures
+/// @param p  pressure [Pa], like the user's pressures
 void warn_of_pressure(const YamlValue& place, double p, const Fluid& fluid);
-/// Warns of a setting, a pressure difference, that may be given in bar. @param p  [Pa]
+/// Warns of a set pressure difference that may be given in bar. @param p  pressure difference [Pa]
 void warn_of_setting(const YamlValue& place, double p);
 /// Reads `ambient_pressure` of a map. @throws InputError
 void read_ambient_pressure(const YamlValue& entry, Fluid& fluid);

@@ -32,8 +32,8 @@ class Junction final : public PressureNode, public FlowBalance {
   double start_;
 };
 
-/// A given pressure, p = p_s(t, measures), for any flow: a tank, or a supply with a pressure-controlled pump. Its
-/// second unknown is the flow into it [m^3/s].
+/// Place with a given pressure p = p_s(t, measures), which does not depend on the flow: a tank, or a supply with a
+/// pressure-controlled pump. Its second unknown is the flow into it [m^3/s].
 class PressureSource final : public PressureNode, public TimeDependent {
  public:
   PressureSource(std::string name, const Fluid& fluid)

@@ -33,15 +33,14 @@ class Ports {
   const PressureNode& node(int port) const { return *ports_[static_cast<std::size_t>(port)].node; }
 
   double pressure(const LocalState& state, int port) const;
-  /// Returns the local row and column of its pressure.
+  /// Returns the local row of the pressure of a port, which is also its column.
   int pressure_row(const LocalState& state, int port) const;
   /// Adds a flow to the balances of two ports.
   void add_flow(const LocalState& state, int from, int to, double Q, Eigen::Ref<VectorX> r) const;
   void add_tangent(const LocalState& state, int from, int to, FlowDerivatives& flow, LocalTangent& tangent) const;
-  /// Adds the rows of all balances, over all columns.
+  /// Adds the rows of the balances of all ports, over all columns, to the pattern.
   void add_pattern(const Slots& slots, LocalPattern& pattern) const;
-  /// Returns the power that a flow transfers from one port to the other [W]: Q (e_from - e_to), where `outside` has no
-  /// head.
+  /// Returns the power that a flow dissipates between two ports [W]: Q (e_from - e_to); the head of `outside` is zero.
   double power(const LocalState& state, int from, int to, double Q) const;
   double head(const LocalState& state, int port) const;
   /// Returns "from 'pump' to 'tank'".

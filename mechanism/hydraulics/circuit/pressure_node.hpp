@@ -16,7 +16,8 @@ namespace bielle::mechanism {
 
 class PressureNode : public Component {
  public:
-  /// Indices of its pressure and its equations among its first-order unknowns. `space`: -1 if it has none.
+  /// Indices of its pressure and its equations among its first-order unknowns. `space` is -1 if the place has no
+  /// equation of its own for volumes.
   struct Rows {
     int pressure, balance, space;
   };
@@ -27,7 +28,7 @@ class PressureNode : public Component {
 
   /// @param own  its own local state
   double pressure(const LocalState& own) const { return own.first_order()[rows_.pressure]; }
-  /// Returns whether its pressure is given, for any flow: the power of flows is then that of a source.
+  /// Returns whether its pressure is given independently of the flow. The power of flows is then that of a source.
   virtual bool is_given() const { return false; }
   /// Returns whether it is a part of a component, and cannot be named by the user.
   virtual bool is_part() const { return false; }

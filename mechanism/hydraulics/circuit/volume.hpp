@@ -35,23 +35,23 @@ class Volume final : public PressureNode {
   Volume(std::string name, const Fluid& fluid, double volume, std::optional<double> pressure, double compliance,
          std::string type = "volume");
 
-  /// While the model is read: adds a chamber that opens into it, with its initial volume [m^3].
+  /// While the model is read, adds the initial volume of a chamber that opens into it [m^3].
   void add_room(double space) { drawn_ += space; }
-  /// While the model is read: adds a volume that depends only on the pressure [m^3]: an accumulator.
+  /// While the model is read, adds a volume that depends only on the pressure [m^3], such as an accumulator.
   void add_room(std::function<double(double)> space) { rooms_.push_back(std::move(space)); }
-  /// While the model is read: adds fluid that belongs to it, and compliance of its walls [m^3/Pa] (half a cell of a
-  /// pipe that ends there).
+  /// While the model is read, adds a volume of fluid [m^3] and the compliance of its walls [m^3/Pa]: half a cell of a
+  /// pipe that ends there.
   void add_volume(double volume, double compliance) {
     volume_ += volume;
     drawn_ += volume;
     compliance_ += compliance;
   }
   double drawn() const;  ///< initial V [m^3], at the start pressure
-  /// While the model is read: no start pressure is given. If it is the chamber of exactly one cylinder, the load
-  /// determines it.
+  /// Records, while the model is read, that no start pressure is given. If the volume is the chamber of exactly one
+  /// cylinder, the load determines the start pressure.
   void let_load_decide() { load_decides_ = true; }
   bool load_decides() const { return load_decides_; }
-  /// Leaves the start pressure to the load of a cylinder.
+  /// Discards the start pressure, so that it follows from the load of a cylinder.
   void start_by_load() {
     start_.reset();
     load_decides_ = false;
@@ -65,7 +65,7 @@ class Volume final : public PressureNode {
   double space(const LocalState& own) const { return own.first_order()[space_row]; }
   /// Returns the amount of fluid W that fills it at a pressure.
   double fluid_at(double pressure, double space) const { return space / fluid().ratio(pressure).v; }
-  /// Returns the flow that changes its fluid [m^3/s], at its pressure or the reference pressure, depending on the
+  /// Returns the net flow into the volume [m^3/s], at its own pressure or the reference pressure, depending on the
   /// conserved quantity.
   double net_flow(const LocalState& own) const;
 
@@ -92,7 +92,7 @@ class Volume final : public PressureNode {
   std::optional<double> start_;
   double compliance_;
   bool load_decides_ = false;
-  double drawn_;  ///< without the part that depends on the pressure
+  double drawn_;  ///< initial volume without the part that depends on the pressure [m^3]
   std::vector<std::function<double(double)>> rooms_;
 };
 

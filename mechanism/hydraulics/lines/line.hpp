@@ -48,7 +48,7 @@ class Line : public Component {
   const References& references() const { return references_; }
   /// Adds `factor` to the derivative of a flow by the pressure of a port.
   void add_by_pressure(const LocalState& state, int port, double factor, FlowDerivatives& flow) const;
-  /// Returns whether a path's flow depends on rates.
+  /// Returns whether the flow of any path depends on rates.
   virtual bool has_damping() const { return false; }
   virtual bool reads_reactions() const { return false; }
   virtual std::vector<OutputField> own_fields() const { return {}; }

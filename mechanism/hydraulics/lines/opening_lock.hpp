@@ -1,8 +1,8 @@
-// The lock of a valve's opening by events, in the memory of the valve.
+// Lock of a valve's opening, which events close and open; its state is in the memory of the valve.
 //
-// A locked valve keeps its opening, and the dynamics of its spool or poppet wait: first-order unknowns have rates of
-// zero. A spool of second order stands when it is unlocked: its speed w counts from the value w_0 that it had when it
-// was locked.
+// A locked valve keeps its opening, and the dynamics of its spool or poppet are suspended: first-order unknowns have
+// rates of zero. A spool of second order starts from rest when it is unlocked: its speed w counts from the value w_0
+// that it had when it was locked.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace bielle::mechanism {
 
 class OpeningLock {
  public:
-  /// Places in the memory: whether the valve has begun its first motion, the command of events (1 locks, -1 unlocks),
+  /// Indices in the memory: whether the valve has begun its first motion, the command of events (1 locks, -1 unlocks),
   /// whether the opening is locked, the opening that is kept, and w_0.
   enum Place : Eigen::Index { begun, command, locked, opening, speed };
   static std::vector<double> start_memory() { return {0, 0, 0, 0, 0}; }

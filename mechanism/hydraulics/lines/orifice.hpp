@@ -41,7 +41,7 @@ class Leakage final : public Line {
   double conductance_;
 };
 
-/// A pump with a constant or given flow Q(t, measures) [m^3/s], from a place or from outside. Its power is input.
+/// A pump with a given flow Q(t, measures) [m^3/s], from a place or from outside. Its power counts as input.
 class FlowSource final : public Line, public TimeDependent {
  public:
   /// @param from  nullptr: from outside, at the ambient pressure

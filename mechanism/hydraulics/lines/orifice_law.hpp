@@ -1,9 +1,9 @@
 // Flow through an orifice, turbulent at large and laminar at small pressure differences.
 //
 //     Q = C_d A sqrt(2/rho) D / (D^2 + D_t^2)^(1/4),      D = p_a - p_b
-// is a smooth transition from C_d A sqrt(2 |D|/rho) to a straight line at |D| ~ D_t, with all derivatives, and is below
-// the turbulent law by (D_t/D)^2/4. By default D_t is the pressure difference at which the Reynolds number of a round
-// hole of the area A is Re_t:
+// is a smooth transition, with all derivatives, from C_d A sqrt(2 |D|/rho) to a straight line at |D| ~ D_t. At large
+// |D| it is less than the turbulent law by the fraction (D_t/D)^2/4. By default D_t is the pressure difference at which
+// the Reynolds number of a round hole of the area A is Re_t:
 //     D_t = (rho/2) (Re_t nu/(C_d D_h))^2,    D_h = sqrt(4 A/pi),     therefore D_t = kappa/A.
 // Reference of the transition: W. Borutzky, B. Barnard, J. Thoma, An orifice flow model for laminar and turbulent
 // conditions, Simulation Modelling Practice and Theory 10 (2002) 141-152, which has the same slope at D = 0.
@@ -39,11 +39,11 @@ std::vector<Key> orifice_law_keys();
 /// @param entry  bound to a table with these keys @param fluid  its density and viscosity are the defaults
 /// @throws InputError
 OrificeLaw read_orifice_law(const YamlValue& entry, const Fluid& fluid);
-/// Returns `area` and `diameter`. @param about  sentence of the area
+/// Returns the keys `area` and `diameter`. @param about  sentence that describes the area
 std::vector<Key> area_keys(const KeyForm& area, const std::string& about);
-/// Returns the same of a valve, whose area is a number.
+/// Returns the keys `area` and `diameter` of a valve, whose area is a number.
 std::vector<Key> valve_area_keys();
-/// Reads `area` [m^2] or `diameter` [m]: a number; 0: no flow. @throws InputError
+/// Reads the number `area` [m^2] or `diameter` [m] and returns the area [m^2]; 0 means no flow. @throws InputError
 double read_area(const YamlValue& entry);
 
 }  // namespace bielle::mechanism

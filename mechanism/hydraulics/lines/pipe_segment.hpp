@@ -24,11 +24,11 @@ struct PipeData {
   double inertia = 1;       ///< m
 };
 
-/// R(q) with its derivative [Pa], [Pa s/m^3].
+/// Pressure loss R(q) [Pa] with its derivative [Pa s/m^3].
 struct PipeLoss {
   double R, R_q;
 };
-/// Returns m of a pipe with a start pressure [Pa]; for a cavity, that of the atmosphere.
+/// Returns the factor m of a pipe with a start pressure [Pa]; for a cavity, that at atmospheric pressure.
 double inertia_factor(const Fluid& fluid, double pressure);
 PipeLoss pipe_loss(const PipeData& pipe, double density, double viscosity, double q);
 

@@ -4,7 +4,7 @@
 //   first order:    T ydot = u - y
 //   second order:   ydot = w,   wdot = omega^2 (u - y) - 2 zeta omega w
 // y and w are first-order unknowns of the valve of the spool, beginning with its first one. The spool starts at its
-// command; in a static analysis it is at its command, too. Events may lock the opening (opening_lock.hpp).
+// command, and stays there in a static analysis. Events may lock the opening (opening_lock.hpp).
 #pragma once
 
 #include "mechanism/measures/state_formula.hpp"
@@ -37,7 +37,8 @@ class Spool {
   void add_tangent(const LocalState& state, LocalTangent& tangent) const;
   void add_pattern(const Slots& slots, LocalPattern& pattern) const;
   void add_start_values(const LocalState& state, Eigen::Ref<VectorX> change) const;
-  /// @throws ComputationError if the command that the spool follows is beyond its ends. @param name  name of the valve
+  /// Checks the command that the spool follows. @throws ComputationError if it is beyond the ends of the spool
+  /// @param name  name of the valve
   void check(const LocalState& state, const std::string& name) const;
   void add_break_points(std::vector<double>& times) const { command_.add_break_points(0, times); }
   const StateFormula& command_formula() const { return command_; }
@@ -53,7 +54,7 @@ class Spool {
 };
 
 /// Returns `command`, `overlap`, `time_constant`, `frequency`, `damping`.
-/// @param least  smallest opening @param command  sentence of the command
+/// @param least  smallest opening @param command  sentence that describes the command
 std::vector<Key> spool_keys(double least, const std::string& command);
 /// Returns the key `time_constant` of a valve.
 Key time_constant_key();

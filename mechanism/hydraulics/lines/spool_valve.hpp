@@ -1,4 +1,4 @@
-// Valves whose opening is commanded: with two ports, and with four (servo-valve).
+// Valves whose opening follows a command, with two ports or with four (servo-valve).
 //
 // There are four ports P (supply), T (tank), A, B. A positive opening y connects P to A and B to T, a negative one P to
 // B and A to T. Each of the four edges opens by

@@ -10,7 +10,7 @@ namespace bielle::mechanism {
 class Volume;
 
 const KeyTable& accumulator_keys();
-/// Returns the same without `at`.
+/// Returns the keys of an accumulator of an actuator: those of a circuit's accumulator, without `at`.
 const KeyTable& own_accumulator_keys();
 /// Reads an accumulator of a circuit. @throws InputError
 void read_accumulator(const std::string& name, const YamlValue& entry, const Entry& own, Model& model);

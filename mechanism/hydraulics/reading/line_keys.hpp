@@ -14,7 +14,7 @@ const KeyTable& flow_valve_keys();
 const KeyTable& valve_keys();
 const KeyTable& servo_valve_keys();
 const KeyTable& pipe_keys();
-/// Returns the keys `from`, `to` and `ports`, places between which a line leads.
+/// Returns the keys `from`, `to` and `ports`, which name the places that a line connects.
 std::vector<Key> line_end_keys();
 
 }  // namespace bielle::mechanism

@@ -11,7 +11,7 @@
 
 namespace bielle::mechanism {
 
-/// Returns the types of lines, each the key that creates it: orifice, laminar, check, relief, ...
+/// Returns the types of lines; each is the key that creates it: orifice, laminar, check, relief, ...
 std::vector<std::string> line_types();
 
 const KeyTable& line_keys();
@@ -22,7 +22,8 @@ class PressureNode;
 class SpoolValve;
 class Volume;
 
-/// Returns the place as a volume to which a chamber or accumulator can be connected; nullptr if it is none.
+/// Returns the place as a volume to which a chamber or accumulator can be connected, or nullptr if it is no such
+/// volume.
 Volume* volume_of(const PressureNode& place, const Model& model);
 
 /// Adds the four-port valve of `servo_valve` or of an actuator.

@@ -2,9 +2,9 @@
 // pulls the first.
 //
 //     Q = s min(max(u, lower), upper),    u the effort required by the law,  s the load factor of a static analysis
-// At the limits Q is continuous and its slope jumps: such a kink causes an error of O(h^2) in the velocity, once, and
-// does not change the order of the scheme. No step ends there: the velocities that u depends on are corrected at the
-// beginning of a branch (solvers/README.md), which may lead back across the limit.
+// At the limits Q is continuous and its slope jumps. Such a kink causes a single error of O(h^2) in the velocity and
+// does not change the order of the scheme. No step ends at a limit, because the velocities that u depends on are
+// corrected at the beginning of a branch (solvers/README.md), and this may lead back across the limit.
 #pragma once
 
 #include <limits>
@@ -36,14 +36,14 @@ class ActuatorDrive : public Drive {
       : Drive(std::move(name), joint, coordinate), limit_(limit) {}
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   std::unique_ptr<StepRecorder> make_step_recorder() const final;
-  /// Returns force or torque, and value of the coordinate.
+  /// Returns the force or torque and the value of the coordinate.
   std::pair<double, double> watched(const LocalState& state) const { return {force(state), value(state).value}; }
 
  protected:
   virtual double effort(const LocalState& state) const = 0;
   /// @param effort  receives the value and, if the effort depends on the state, the derivatives
   virtual void calc_effort(const LocalState& state, Effort& effort) const = 0;
-  /// Whether the effort has derivatives.
+  /// Tells whether the effort has derivatives.
   virtual bool reads_state() const = 0;
 
   void declare_actuator(Declaration& declaration) const;

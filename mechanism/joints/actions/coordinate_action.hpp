@@ -21,7 +21,7 @@ class CoordinateAction : public Component {
   void add_reaction_norm(const LocalState& state, double arm, Eigen::Ref<MatrixX> H) const override;
 
  protected:
-  /// References of the action: the joint is the first.
+  /// Returns the references of the action, of which the joint is the first.
   References& references() { return references_; }
   void declare_references(Declaration& declaration) const;  ///< and a stiffness
   /// Returns the coordinate, without derivatives.
@@ -30,9 +30,9 @@ class CoordinateAction : public Component {
   CoordinateDerivatives& calc(const LocalState& state) const;
   /// Returns the coordinate with its gradients: valid until the next call in this thread.
   CoordinateSlopes& calc_slopes(const LocalState& state) const;
-  /// First local row of the joint.
+  /// Returns the first local row of the joint.
   static int row(const LocalState& state) { return state.slots().reference_row(0); }
-  /// Returns v^T W of a jet: derivatives of the rate by positions.
+  /// Returns v^T W of a jet, the derivatives of the rate by positions.
   static const VectorX& rate_slope(const LocalState& state, CoordinateDerivatives& jet);
   // Adds a constraint on the coordinate, `distance` = 0, as the component's only row.
   static void add_kept(const LocalState& state, CoordinateSlopes& slopes, double distance, Eigen::Ref<VectorX> r);
@@ -40,7 +40,8 @@ class CoordinateAction : public Component {
   /// Computes first and second time derivative of the coordinate.
   std::pair<double, double> calc_kept_rates(const LocalState& state) const;
 
-  /// Output field of a force on the coordinate among the results of the joint, which are sums over the actions.
+  /// Returns the output field of a force on the coordinate among the results of the joint, which are sums over the
+  /// actions.
   OutputField force_field(const std::string& name, const std::string& description) const {
     return joint_.force_field(name, description);
   }

@@ -49,7 +49,7 @@ class Drive : public CoordinateAction {
   virtual double force(const LocalState& state) const = 0;  ///< force along the coordinate [N] or [N m]
   /// Adds the times at which the law has kinks.
   virtual void add_kinks(std::vector<double>& times) const = 0;
-  /// The driven quantity, the law as the user wrote it, and its units: {"rate of angle", "speed*t", "rad/s"}.
+  /// Driven quantity, law as written by the user, and units: {"rate of angle", "speed*t", "rad/s"}.
   struct LawText {
     std::string driven, law, units;
   };
@@ -59,7 +59,7 @@ class Drive : public CoordinateAction {
   void declare_drive(Declaration& declaration) const;
   bool can_release() const { return release_measure_ || release_time_ < std::numeric_limits<double>::infinity(); }
   bool released(const LocalState& state) const { return can_release() && state.memory()[0] != 0; }
-  /// Number of memory entries that are used by this class.
+  /// Returns the number of memory entries that are used by this class.
   Eigen::Index own_memory() const { return can_release() ? 1 : 0; }
 
  private:

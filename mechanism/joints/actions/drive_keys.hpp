@@ -5,9 +5,9 @@
 
 namespace bielle::mechanism {
 
-/// Returns the table of a drive of a coordinate of some kind, which differs in the unit of `limit`.
+/// Returns the table of a drive. The kind of its coordinate determines the unit of `limit`.
 const KeyTable& drive_keys(Moves moves);
-/// Returns the table of `pid`, likewise.
+/// Returns the table of `pid`, with units by the kind of coordinate.
 const KeyTable& pid_keys(Moves moves);
 /// Returns the table of `motor`.
 const KeyTable& motor_keys();

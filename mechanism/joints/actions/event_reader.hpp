@@ -9,9 +9,9 @@
 namespace bielle::mechanism {
 
 const KeyTable& event_keys();
-/// The keys of an item of `do`.
+/// Returns the keys of an item of `do`.
 const KeyTable& event_action_keys();
-/// The keys of `locked: {from: {event: ..}}`.
+/// Returns the keys of `locked: {from: {event: ..}}`.
 const KeyTable& lock_event_keys();
 /// Reads an entry of `events`. The event itself is added after the model has been read, its record at once.
 /// @throws InputError

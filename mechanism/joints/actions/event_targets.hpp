@@ -1,4 +1,4 @@
-// The things that actions of events command: locks of joints and valves, inputs.
+// Targets of the actions of events: locks of joints and valves, and inputs.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,12 @@
 namespace bielle::mechanism {
 
 /// Returns the locks of the coordinates that a value names: "knee" or "knee.angle". Coordinates without a lock get one
-/// that events alone close. @throws InputError naming the nearest name
+/// that only events close. @throws InputError naming the nearest name
 std::vector<const JointLock*> locks_named_by(const YamlValue& value, Model& model);
 
-/// Returns the component of the hydraulics that a value names and whose opening can be locked; nullptr if the value
-/// names a joint, or nothing of the hydraulics. @throws InputError if both have the name, or if it has no such opening
+/// Component of the hydraulics that a value names, if its opening can be locked; nullptr if the value names a joint, or
+/// no component of the hydraulics. @throws InputError if a joint and a component both have the name, or if the
+/// component has no opening that can be locked
 struct LockableValve {
   const Component* component = nullptr;
   const Lockable* lock = nullptr;

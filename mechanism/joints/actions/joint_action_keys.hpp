@@ -23,14 +23,14 @@ struct CoordinateUnits {
 };
 const CoordinateUnits& units_of(Moves moves);
 
-/// Returns the keys that `read_joint_actions` reads. @param own  keys that the joint's type does without, or reads
+/// Returns the keys that `read_joint_actions` reads. @param own  keys that the joint's type does not have, or reads
 /// itself (`start` of a slider)
 std::vector<Key> joint_action_keys(Moves moves, const std::vector<std::string>& own = {});
 
 /// Returns the names of the keys whose values belong to one coordinate.
 const std::vector<std::string>& coordinate_key_names();
 
-/// Returns the table of a map that gives one of these keys by names of coordinates, with the units of each.
+/// Returns the table of the map from names of coordinates to values of one of these keys, with the units of each.
 const KeyTable& by_coordinate_keys(const std::string& key);
 
 /// Returns the tables of `stops` and `locked` of a coordinate.

@@ -2,8 +2,8 @@
 //
 // The lock is a constraint q - q_lock = 0 that is switched on and off (Component::is_on). When the lock closes,
 // relative motion is stopped by an inelastic impulse; the lost energy is dissipated. With `release` the lock opens at a
-// force, even if the force jumps beyond it. Events may take the place of times, and actions of events close and open it
-// whatever its times are.
+// force, even if the force jumps beyond it. Events may take the place of times. Actions of events close and open the
+// lock regardless of its times.
 #pragma once
 
 #include <limits>
@@ -26,10 +26,11 @@ class JointLock final : public CoordinateAction {
       : CoordinateAction("lock", std::move(name), joint, coordinate), times_(times) {}
   /// Sets the value of a lock that is closed from the beginning, if the file gives the coordinate's start value.
   void close_at(double value) { start_ = value; }
-  /// Lets the lock close when an event has occurred, or open when one has occurred since it closed, in place of times.
+  /// Closes the lock when an event has occurred, or opens it when one has occurred since it closed, instead of at
+  /// times.
   void close_at(const EventRecord& event) { from_event_ = references().add(event); }
   void open_at(const EventRecord& event) { to_event_ = references().add(event); }
-  /// Index in the memory of the command of events: 1 closes the lock, -1 opens it, 0 leaves it to its times.
+  /// Index in the memory of the command of events: 1 closes the lock, -1 opens it, 0 lets its times decide.
   static constexpr int command_place = 2;
 
   void declare(Declaration& declaration) const override;

@@ -17,7 +17,7 @@ namespace bielle::mechanism {
 void read_joint_start(const std::optional<YamlValue>& value, const std::optional<YamlValue>& rate, Joint& joint,
                       std::size_t coordinate, Model& model);
 
-/// Reads `carries: all`: the part behind the joint starts with it as one rigid body
+/// Reads `carries: all`, with which the parts carried by the joint start as one rigid body with it
 /// (mechanism/model/carried_start.hpp).
 /// @throws InputError for a joint that does not have two nodes
 void read_carried_start(const YamlValue& carries, const Joint& joint, Model& model);

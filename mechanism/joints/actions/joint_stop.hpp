@@ -21,11 +21,11 @@ class JointStop final : public CoordinateAction {
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
   void begin_branch(const LocalState& state, std::span<const int> crossed, Eigen::Ref<VectorX> memory) const override;
   bool leaves_branch(const LocalState& state) const override;
-  /// Distance to the nearer stop, negative beyond it, and force on the coordinate: "angle.stop_gap",
-  /// "angle.stop_force".
+  /// Returns the names of the distance to the nearer stop, negative beyond it, and of the force on the coordinate:
+  /// "angle.stop_gap", "angle.stop_force".
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
-  /// Computes one of them, with its derivatives over the local layout.
+  /// Computes the distance or the force, with its derivatives over the local layout.
   double calc_gap(const LocalState& state, MeasureGradient& gradient) const;
   double calc_force(const LocalState& state, MeasureGradient& gradient) const;
 

@@ -48,7 +48,7 @@ class PositionDrive final : public MotionDrive {
  private:
   Part part() const override { return Part::position; }
   LawText law_text() const override { return {coordinate().name, law().text(), coordinate().units()}; }
-  /// Distance of the coordinate from the value that the law prescribes.
+  /// Returns the distance of the coordinate from the value that the law prescribes.
   double distance(const LocalState& state, double principal) const;
 };
 

@@ -4,8 +4,8 @@
 // V is the voltage [V], i the current, L and R inductance and resistance, k the torque constant, k_e that of the back
 // electromotive force, n the gear ratio (turns of the motor per turn of the joint), b the viscous friction of the
 // motor, s the load factor of a static analysis, in which di/dt and c' are zero. Without inductance i is an algebraic
-// unknown. After its release the motor has neither torque nor back electromotive force. The rotor has no inertia here:
-// it is a body of its own, or is part of the inertia of the driven one (n^2 J).
+// unknown. After its release the motor has neither torque nor back electromotive force. The motor does not include the
+// inertia J of its rotor: the model has a body for it, or adds n^2 J to the driven body.
 //
 // Energies: input V i + (k - k_e) n c' i, dissipation R i^2 + n^2 b c'^2, stored energy of the magnetic field L i^2/2
 // (among the elastic energies).
@@ -20,7 +20,7 @@
 
 namespace bielle::mechanism {
 
-/// Data of a motor; for a linear one "N m/A" is N/A, "V s/rad" is V s/m and so on.
+/// Data of a motor; for a linear motor N/A replaces "N m/A", V s/m replaces "V s/rad", and so on.
 struct MotorData {
   double resistance = 1;       ///< R [Ohm] > 0
   double inductance = 0;       ///< L [H] >= 0
@@ -44,7 +44,8 @@ class MotorDrive final : public Drive, public TimeDependent {
   std::vector<Formula> time_formulas() const override;
   void calc_time_formulas(const LocalState& state, std::span<double> values) const override;
 
-  /// Electrical power V i [W], with derivatives over the drive's local layout. @param gradient  zero on entry
+  /// Returns the electrical power V i [W], with derivatives over the drive's local layout. @param gradient  zero on
+  /// entry
   double calc_power(const LocalState& state, MeasureGradient& gradient) const;
 
  private:
@@ -52,9 +53,9 @@ class MotorDrive final : public Drive, public TimeDependent {
   double voltage(const LocalState& state) const;
   double current(const LocalState& state) const { return state.of(current_).first_order()[0]; }
   int current_row(const LocalState& state) const { return state.slots().reference_row(current_); }
-  /// n k_e, or zero after the release.
+  /// Returns n k_e, or zero after the release.
   double back_emf(const LocalState& state) const { return released(state) ? 0 : data_.gear_ratio * data_.back_emf; }
-  /// Divisor of the equation of the current.
+  /// Returns the divisor of the equation of the current.
   double divisor() const { return data_.inductance > 0 ? data_.inductance : data_.resistance; }
   void add_force_tangent(const LocalState& state, CoordinateDerivatives& jet, LocalTangent& tangent) const;
   void add_kinks(std::vector<double>& times) const override { voltage_.add_break_points(0, times); }

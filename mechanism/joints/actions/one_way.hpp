@@ -2,18 +2,18 @@
 //
 //     free    no force; u = s q may grow
 //     holds   u may not fall below the value u_0 at which it began to hold
-// It begins to hold when udot falls to zero. A ratchet of a pitch holds at multiples of it alone: when u falls to the
-// largest multiple that it has passed. There are two forms:
+// It begins to hold when udot falls to zero. A ratchet with a pitch holds only at multiples of the pitch: when u falls
+// to the largest multiple that it has passed. There are two forms:
 //     rigid     u = u_0 is a constraint that opens when its force would hold u back (its multiplier changes sign). A
 //               ratchet stops its coordinate by an inelastic impulse; the lost energy is dissipated
 //     elastic   N = max(0, k p + d pdot) along s, p = u_0 - u, until p falls to zero
 // Steps end when it begins to hold and when it opens: the scheme keeps its order. A multiple that is passed and left
-// again within a step is not seen. A closed constraint also transmits impulses of other parts the other way. In statics
-// it is free.
+// again within a step is not seen. A closed constraint also transmits impulses in the free direction. In statics it is
+// free.
 //
 // The rigid form yields to drives, locks and earlier one-way clutches that hold the same motion. It then has no force,
-// and opens as soon as it is moved on. If it would be moved against its sense, it holds in place of another one-way
-// clutch (solvers/start/one_sided_holds.hpp).
+// and opens as soon as they move it in the free direction. If it would be moved against its sense, it holds in place of
+// another one-way clutch (solvers/start/one_sided_holds.hpp).
 //
 // Complementarity: F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts (1996), chapter 6.
 #pragma once
@@ -46,30 +46,31 @@ class OneWay : public CoordinateAction {
  protected:
   enum Event { closes, opens, takes_over };
   enum Memory { holding, held_at, has_moved, passed, memories };
-  /// Declares the memory, and the event that it begins to hold; the event that it opens is that of the form.
+  /// Declares the memory, and the event at which it begins to hold. The rigid and the elastic form define the event at
+  /// which it opens.
   void declare_one_way(Declaration& declaration, EventFunction opening) const;
   static bool holds(const LocalState& state) { return state.memory()[holding] != 0; }
-  /// The value of the coordinate at which it holds.
+  /// Returns the value of the coordinate at which it holds.
   static double held_value(const LocalState& state) { return state.memory()[held_at]; }
   double sense() const { return rule_.sense; }
-  /// Rounding of the distance of a ratchet from its multiples.
+  /// Returns the rounding error of the distance of a ratchet from its multiples.
   double rounding(double q) const;
 
  private:
-  /// Function of a form that holds, which changes its sign when it opens.
+  /// Returns the event function of the holding clutch, which changes its sign when it opens.
   virtual double opening(const LocalState& state) const = 0;
-  /// Value of that function while it is free.
+  /// Returns the constant value of the event function `opening` while it is free.
   virtual double not_opening() const = 0;
-  /// Force or torque on the coordinate.
+  /// Returns the force or torque on the coordinate.
   virtual double force(const LocalState& state) const = 0;
   virtual std::string form() const = 0;  ///< in words
-  /// Clearance at which a ratchet that has just opened is on its multiple. The elastic form opens and closes exactly
-  /// where its elongation is zero.
+  /// Returns the clearance below which a ratchet that has just opened is still at its multiple. It is zero for the
+  /// elastic form, which opens and closes exactly at zero elongation.
   virtual double touching(double q) const = 0;
-  /// Whether it stores energy, which a motion that follows another keeps.
+  /// Tells whether it stores energy. A motion that follows another keeps this energy.
   virtual bool is_wound(const LocalState& /*state*/) const { return false; }
   void hold_at(double value, Eigen::Ref<VectorX> memory) const;
-  /// The distance u - u_0 of a ratchet from the multiple at which it holds.
+  /// Returns the distance u - u_0 of a ratchet from the multiple at which it holds.
   double clearance(const LocalState& state, double q) const;
   OneWayRule rule_;
 };

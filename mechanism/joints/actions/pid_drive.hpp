@@ -59,9 +59,9 @@ class PidDrive final : public ActuatorDrive, public TimeDependent {
   bool integrates() const { return gains_.integral != 0; }
   bool filters() const { return gains_.derivative != 0 && gains_.filter > 0; }
   int filter_row() const { return integrates() ? 1 : 0; }
-  /// Whether z keeps its value, so that its row contains only its increment, in a static analysis.
+  /// Tells whether z keeps its value in a static analysis, so that its row contains only its increment.
   bool keeps_integral(const LocalState& state) const;
-  /// Returns z' minus e: zero between the limits. @param side,u  values of the actuator
+  /// Returns z' - e, which is zero between the limits. @param side,u  values of the actuator
   double windup_rate(double side, double u) const;
 
   PidGains gains_;

@@ -13,7 +13,7 @@ namespace bielle::mechanism {
 
 class SoughtDrive final : public Drive, public SoughtEffort {
  public:
-  /// @param moves  nodes that it moves instead of their supports; empty: all that have a `motion`
+  /// @param moves  nodes that it moves instead of their supports; if empty, all nodes that have a `motion`
   SoughtDrive(std::string name, const Joint& joint, std::size_t coordinate, std::vector<int> moves)
       : Drive(std::move(name), joint, coordinate), moves_(std::move(moves)) {}
   void declare(Declaration& declaration) const override;

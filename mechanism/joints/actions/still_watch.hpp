@@ -1,4 +1,4 @@
-// Detects a force or torque that drives nothing: its coordinate does not move during a motion.
+// Detects a force or torque without effect, whose coordinate does not move during a motion.
 #pragma once
 
 #include "mechanism/joints/actions/actuator_drive.hpp"
@@ -8,7 +8,7 @@ namespace bielle::mechanism {
 
 class StillWatch final : public StepRecorder {
  public:
-  /// The object keeps a reference.
+  /// The object keeps a reference to the drive, which must outlive it.
   explicit StillWatch(const ActuatorDrive& drive) : drive_(drive) {}
   void begin() override;
   void add(const LocalState& state) override;

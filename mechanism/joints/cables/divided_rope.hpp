@@ -1,5 +1,5 @@
-// A rope that is divided into sections at the places that grip it or on which it slips with friction, as its readers
-// make it.
+// A rope that is divided into sections at the places that grip it or on which it slips with friction, as the readers of
+// belts and cables create it.
 #pragma once
 
 #include <optional>

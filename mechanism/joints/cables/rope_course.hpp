@@ -6,10 +6,10 @@
 // from the place before to the place after it. The distance of a pulley of radius rho from the rope, with its centre at
 // the distance s on the inner side, is
 //     s - rho
-// At zero distance the rope touches it, in the sense in which it then bends: that in which it left, or the other one if
-// it has been led round the pulley. At both zeros the path along the rim and the straight path are equal, so that
-// lengths, forces and energies are continuous. Distances are projected along the pulleys' axes; wheels with an offset
-// along them are treated as if in one plane.
+// At zero distance the rope touches it. It then bends in the sense in which it left, or in the other one if it has been
+// led round the pulley. At both zeros the path along the rim and the straight path are equal, so that lengths, forces
+// and energies are continuous. Distances are projected along the pulleys' axes; wheels with an offset along them are
+// treated as if in one plane.
 #pragma once
 
 #include <span>
@@ -41,26 +41,26 @@ class RopeCourses {
   explicit RopeCourses(std::vector<Pulley> pulleys) : pulleys_(std::move(pulleys)) {}
   const std::vector<Pulley>& pulleys() const { return pulleys_; }
   int last() const { return static_cast<int>(pulleys_.size()) - 1; }
-  /// Whether the rope may leave a place.
+  /// Tells whether the rope may leave a place.
   bool may_leave(int place) const {
     return place > 0 && place < last() && pulleys_[static_cast<std::size_t>(place)].radius != 0;
   }
   static bool touches(const RopePlace& place) { return place.sense != 0; }
 
-  /// Gets the course from the states of the places. @param places  all places; those of the ends are not used
+  /// Computes the course from the states of the places. @param places  all places; those of the ends are not used
   void get_course(std::span<const RopePlace> places, RopeCourse& course) const;
   /// Returns the wrap at a touched place between the ends, with the turns that bring it closest to `expected`.
   /// @param at  inertial frames of all pulleys
   double wrap(std::span<const Frame> at, std::span<const RopePlace> places, int place, double expected) const;
   /// Returns the distance of an untouched place from the rope [m]; negative if the rope would cut through it.
   double clearance(std::span<const Frame> at, std::span<const RopePlace> places, int place) const;
-  /// Returns the sense of bending of an untouched place, after a motion.
+  /// Returns the sense in which the rope would bend at an untouched place, after a motion.
   double side(std::span<const Frame> at, std::span<const RopePlace> places, int place) const;
   /// Lets the rope leave the places at which it bends backwards, and touch those that it cuts through, until there are
-  /// none. Wraps are set to those at this state.
+  /// no such places. Wraps are set to their values at this state.
   void settle(std::span<const Frame> at, std::span<RopePlace> places) const;
-  /// Returns the initial states of the places: the rope is wound by less than one turn on each pulley that it bends
-  /// round, and does not touch a pulley that it would bend round backwards.
+  /// Returns the initial states of the places, in which the rope is wound by less than one turn on each pulley that it
+  /// bends round, and does not touch a pulley that it would bend round backwards.
   /// @param turns  additional turns on each place
   /// @throws std::domain_error naming the two places, if pulleys overlap
   std::vector<RopePlace> as_drawn(std::span<const Frame> at, const std::vector<int>& turns) const;
@@ -76,10 +76,10 @@ class RopeCourses {
     bool within() const { return exists && along > 0 && along < length; }
   };
   Offset offset(std::span<const Frame> at, std::span<const RopePlace> places, int place) const;
-  /// Signed radius: with the sign of the rope's sense; as given at an end.
+  /// Returns the radius of a place with the sign of the rope's sense; at an end, with the given sign.
   double radius(std::span<const RopePlace> places, int place) const;
   int neighbour(std::span<const RopePlace> places, int place, int step) const;
-  /// Whether pulleys overlap so that no rope fits between them, if one of them is touched in a sense.
+  /// Tells whether pulleys overlap so that no rope fits between them, if one of them is touched in a given sense.
   bool overlap(std::span<const Frame> at, std::span<const RopePlace> places, int place, double sense, int other) const;
   std::vector<Pulley> pulleys_;
 };

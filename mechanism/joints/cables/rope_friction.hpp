@@ -9,24 +9,24 @@
 // All three terms decrease as d grows. The factor k only decides which of them Newton's method takes at a distant
 // iterate: with the derivative of both tensions by d, damping included, an iterate beyond a kink of F (a slack side
 // becomes taut) stays on the slipping branch, from which the next one finds the solution; with a smaller factor the
-// method would go to and fro between sticking and slipping. The terms with c and the stiffness k_0 of both sections are
-// no model of friction: they keep a rope whose other side is slack under a negligible tension greater than zero while
-// it slides, c = 1e-10 s/m EA, and make the slip unique where several pulleys of a belt slip at once. A negative wrap
-// counts as zero: both tensions are then equal. The friction T_2 - T_1 acts on the rim of the pulley by the tensions
+// method would alternate between sticking and slipping. The terms with c = 1e-10 s/m EA and with the stiffness k_0 of
+// both sections do not model friction. They keep a negligible tension greater than zero in a rope that slides while its
+// other side is slack, and make the slip unique if several pulleys of a belt slip at once. A negative wrap counts as
+// zero, and both tensions are then equal. The friction T_2 - T_1 acts on the rim of the pulley by the tensions
 // themselves.
 //
 // The rope passes the pulley with its strain energy w = T^2/(2 EA) per unloaded length. With the velocity v of the rim
 // and the flow q = v + ds/dt of unloaded rope, the friction dissipates the integral of the relative velocity
 // q (1 + T/EA) - v over the tensions,
 //     (T_2 - T_1) ds/dt + (w_2 - w_1) q.
-// The part (w_2 - w_1) v is due to the rim, which the sections take to carry the unloaded length v instead of v/(1 +
-// T/EA): the elastic creep is neglected, and this part is negative on a pulley that drives. The rope of a cable that
-// slips dissipates the other one, (w_2 - w_1) f with f = median(0, q, ds/dt): all of it on a pulley at rest, none of it
-// if the rope rests and the pulley turns below it. A belt returns to the pulleys that it grips, so that the parts of
-// all pulleys add up to zero if it runs steadily: it dissipates (T_2 - T_1) ds/dt.
+// The part (w_2 - w_1) v is due to the rim: because elastic creep is neglected, the sections assume that the rim
+// carries the unloaded length v instead of v/(1 + T/EA). This part is negative on a pulley that drives. A cable that
+// slips dissipates the other part, (w_2 - w_1) f with f = median(0, q, ds/dt): all of it on a pulley at rest, and none
+// of it if the rope rests and the pulley turns below it. A belt returns to the pulleys that it grips, so that the parts
+// of all pulleys add up to zero if it runs steadily: it dissipates (T_2 - T_1) ds/dt.
 //
-// At the beginning of a branch the rate of the slip of a damped rope follows from the same equation in place of d: the
-// accelerations with which the branch begins need the tensions after the discontinuity.
+// At the beginning of a branch the unknown of this equation is the rate of the slip, instead of d, if the rope is
+// damped: the accelerations with which the branch begins need the tensions after the discontinuity.
 //
 // The rope has no mass, and so no centrifugal tension. Its elastic creep on the pulley is neglected.
 // L. Euler, Remarques sur l'effet du frottement dans l'equilibre (1762); J. A. Eytelwein, Handbuch der Statik fester
@@ -67,7 +67,7 @@ class RopeFriction final : public Component, public StickingPart {
   void hold(const LocalState& state, std::vector<char>& held) const override;
   std::string describe_overload(const LocalState& state) const override;
 
-  /// A quantity with its derivatives over the local layout.
+  /// Computes a quantity with its derivatives over the local layout.
   /// @param gradient  zero on entry
   double calc_slip(const LocalState& state, MeasureGradient& gradient) const;
   double calc_slip_rate(const LocalState& state, MeasureGradient& gradient) const;
@@ -82,23 +82,23 @@ class RopeFriction final : public Component, public StickingPart {
     double reduction = 1;  ///< a
   };
   LocalState slip_of(const LocalState& state) const { return before_.slip_at(state.of(0), RopeSection::last_end); }
-  /// Row of an unknown of the slip. It occurs twice in the local layout, in those of both sections: its row is the one
-  /// of the section before.
+  /// Returns the row of an unknown of the slip. The unknown occurs twice in the local layout, once for each section;
+  /// the returned row is that of the section before the pulley.
   int slip_row(const Slots& slots, int unknown) const {
     return slots.reference_row(0) + before_.slip_row(*slots.references[0], RopeSection::last_end) + unknown;
   }
   int change_row(const LocalState& state) const {
     return slip_row(state.slots(), RopeSlip::change(slip_of(state)).unknown);
   }
-  /// Factor on the equation of the second unknown [N s/m].
+  /// Returns the factor on the equation of the second unknown [N s/m].
   double rate_factor() const { return after_.material().damping * stiffness_; }
   bool damped() const { return after_.material().damping > 0; }
   const RopeSection& section(int side) const { return side == 0 ? before_ : after_; }
   /// @param order  2 with second derivatives, which `add_pull` needs
   const Sides& calc_sides(const LocalState& state, int order = 1) const;
-  /// The tension that draws the rope towards a side, less that which friction can hold there [N].
+  /// Returns the tension that draws the rope towards a side, less the largest one that friction can hold there [N].
   static double excess(const Sides& sides, int towards);
-  /// The side to which the rope slips in this step, by the median: 0 or 1; -1: it sticks.
+  /// Returns the side to which the rope slips in this step, 0 or 1, according to the median; -1 if it sticks.
   int slips_towards(const LocalState& state, const Sides& sides) const;
   double stiffness(const LocalState& state, const Sides& sides, int side) const;
   double stiffness(const LocalState& state, const Sides& sides) const;

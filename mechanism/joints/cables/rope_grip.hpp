@@ -1,8 +1,8 @@
 // Monitors a pulley that a rope grips, or on which it slips with friction, between two of its sections: the rope is
 // assumed to stay on it.
 //
-// The rope would leave the pulley when its wrap (rope_wrap.hpp) has decreased to zero: an event is recorded. The rope
-// is still kept on the pulley, like a cam whose contact is kept when it would lift off.
+// An event is recorded when the wrap (rope_wrap.hpp) has decreased to zero, at which the rope would leave the pulley.
+// The model keeps it on the pulley, as it keeps the contact of a cam that would lift off.
 #pragma once
 
 #include <string>

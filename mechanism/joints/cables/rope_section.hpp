@@ -4,17 +4,17 @@
 // The tension is constant along a section. With the lengths l of its spans (rope_span.hpp), the wraps theta of the
 // touched pulleys of radius rho in between (rope_course.hpp), and the angles alpha + gamma by which its ends are wound,
 //     L = sum of l + sum of rho theta,   E = L + rho_0 (alpha_0 + gamma_0) - rho_n (alpha_n + gamma_n) - (initially)
-// are its length and its elongation, to which slip s on the place at its end adds s, and on that at its beginning -s
-// (rope_slip.hpp), and
+// are its length and its elongation. The slip s on the place at its end adds s to the elongation, and the slip on the
+// place at its beginning adds -s (rope_slip.hpp). The tension is
 //     T = max(0, EA (E + tau Edot)/(L - E)) while E > 0, and 0 otherwise;   L - E: unloaded length of that piece.
 // Steps end when the rope leaves a pulley or touches it: the memory contains the touched ones. Drums wind and unwind
-// rope, so that the section's stiffness EA/(L - E) changes with its length. An unloaded length of rope equal to the arc
-// is wound, without elastic creep: the strain energy w = T^2/(2 EA) per unloaded length changes by - w d(L - E)/dt
-// besides T Edot, which is counted as input (positive when rope is wound). Rope that slips over a place takes the power
-// T sdot out of the section before it and into that after it, which is counted as input; the friction there gives this
-// power, and that of w, back (rope_friction.hpp).
-// A belt is a chain of sections of one span each. A rope has no mass and cannot push: steps end when it becomes slack
-// or taut.
+// rope, so that the section's stiffness EA/(L - E) changes with its length. The unloaded length of the rope that is
+// wound equals the arc, without elastic creep. With the strain energy w = T^2/(2 EA) per unloaded length, the energy of
+// the section therefore changes by -w d(L - E)/dt in addition to T Edot; this is counted as input (positive when rope
+// is wound). Rope that slips over a place transfers the power T sdot from the section before it to the section after
+// it, which is counted as input; the friction at the place balances this power and that of w (rope_friction.hpp). A
+// belt is a chain of sections of one span each. A rope has no mass and cannot push: steps end when it becomes slack or
+// taut.
 #pragma once
 
 #include <array>
@@ -94,7 +94,7 @@ class RopeSection final : public Component {
   /// Adds the derivatives of `natural` over the whole local layout.
   void add_natural_gradient(const LocalState& state, const Stretch& stretch, double factor,
                             Eigen::Ref<VectorX> gradient) const;
-  /// Returns the state of the slip at an end that has one, and the row of this unknown in the local layout.
+  /// Returns the state of the slip at an end on which the rope slips.
   LocalState slip_at(const LocalState& state, End end) const { return state.of(slip_references_[end]); }
   int slip_row(const Slots& slots, End end) const { return slots.reference_row(slip_references_[end]); }
   /// Returns the row of the unknown that `RopeSlip::change` names.
@@ -103,7 +103,7 @@ class RopeSection final : public Component {
   }
   const RopeMaterial& material() const { return material_; }
   const RopePath& path() const { return path_; }
-  /// Initial value of alpha + gamma at an end.
+  /// Returns the initial value of alpha + gamma at an end.
   double drawn_end(End end) const { return drawn_ends_[end]; }
   double drawn_length() const { return drawn_length_; }  ///< [m]
 
@@ -140,11 +140,11 @@ class RopeSection final : public Component {
 
 const KeyTable& belt_keys();
 const KeyTable& cable_keys();
-/// Reads `belt: {nodes, radii, axis, EA, pretension, damping, friction}`: closed, gripped by every pulley unless it
-/// slips.
+/// Reads `belt: {nodes, radii, axis, EA, pretension, damping, friction}`, a closed rope that every pulley grips unless
+/// it slips.
 void read_belt(const std::string& name, const YamlValue& entry, Model& model);
-/// Reads `cable: {nodes, radii, axis, at, grips, friction, turns, EA, pretension, damping}`: from the first node to the
-/// last.
+/// Reads `cable: {nodes, radii, axis, at, grips, friction, turns, EA, pretension, damping}`, a rope from the first node
+/// to the last.
 void read_cable(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

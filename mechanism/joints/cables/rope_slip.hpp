@@ -6,10 +6,10 @@
 // m = (s - s_0)/h over the present step of size h = t - t_0, and m_0 over the last one of size h_0, its rate at the end
 // of the step is that of a parabola (the differentiation formula of second order),
 //     ds/dt = m + (m - m_0) h/(h + h_0),
-// between zero and there, so that a rope does not slip back; it is m if the rope slipped in the other
-// direction, or if a discontinuity is between the steps. This rate serves damping, powers and results. The slip of a
-// damped rope has a rate as well at the beginning of a branch: it follows from the same balance, with the slip fixed.
-// It is a second algebraic unknown, which equals the rate at other times.
+// but no less than zero in the direction of slip, so that a rope does not slip back. It is m if the rope slipped in the
+// other direction, or if there is a discontinuity between the steps. This rate serves damping, powers and results. The
+// slip of a damped rope has a rate as well at the beginning of a branch: it follows from the same balance, with the
+// slip fixed. This rate is a second algebraic unknown, which equals ds/dt at other times.
 #pragma once
 
 #include <cmath>
@@ -41,23 +41,23 @@ class RopeSlip final : public Component {
     double value = 0;  ///< s - s_0 [m], or the rate [m/s]; zero if the rope sticks
   };
   static Change change(const LocalState& own);
-  /// Returns the change of the present step; of the last one at its end.
+  /// Returns the change of the present step, or of the last step at its end.
   static double last_change(const LocalState& own);
   struct Value {
     double value = 0;
     double by_change = 0;  ///< derivative by `change`
     double most = 0;       ///< upper bound of this derivative at any value
   };
-  /// Rate of the slip [m/s]: zero in a static analysis and as long as the rope sticks.
+  /// Returns the rate of the slip [m/s], which is zero in a static analysis and as long as the rope sticks.
   static Value rate(const LocalState& own);
-  /// Whether the change is determined at this state: in a static analysis, within a step, and at the beginning of a
-  /// branch if the rope is damped, or before the first motion.
+  /// Tells whether the change is determined at this state: in a static analysis, within a step, and at the beginning of
+  /// a branch if the rope is damped, or before the first motion.
   static bool may_change(const LocalState& own);
-  /// False at the beginning of the first motion, and when an event activates the rope.
+  /// Tells whether the first motion has begun: false at its beginning, and when an event activates the rope.
   static bool has_begun(const LocalState& own) { return !std::isnan(own.memory()[time_memory]); }
-  /// Returns 1/h; zero outside of steps [1/s].
+  /// Returns 1/h [1/s], or zero outside of steps.
   static double per_time(const LocalState& own);
-  /// Whether this is the beginning of a branch, at which the rate is determined.
+  /// Tells whether this is the beginning of a branch, at which the rate is determined.
   static bool rate_begins(const LocalState& own);
   /// Returns s - s_0 [m].
   static double increment(const LocalState& own) { return slip(own) - own.memory()[slip_memory]; }
@@ -65,13 +65,14 @@ class RopeSlip final : public Component {
   static double rate_unknown(const LocalState& own) { return own.first_order()[1]; }
 
  private:
-  // Phases: the last step belongs to the same branch; it does not; and the rate at which the branch begins is not
-  // known.
+  // Phases: smooth: the last step belongs to the same branch; first_step: it does not; begins: the rate at which the
+  // branch begins is not yet known.
   static constexpr double smooth = 0, first_step = 1, begins = 2;
   // Memory: s_0, t_0 (NaN before the first motion or static analysis), mean rate and length of the last step, rate at
   // its end, phase.
   enum : Eigen::Index { slip_memory, time_memory, mean_memory, step_memory, rate_memory, phase_memory, memories };
-  /// Returns t - t_0; zero if it is rounding, or the short time by which a branch begins after its discontinuity [s].
+  /// Returns t - t_0 [s], or zero if this is a rounding error or the short time by which a branch begins after its
+  /// discontinuity.
   static double passed(const LocalState& own);
   std::string pulley_;
   double length_, damping_;

@@ -23,7 +23,7 @@ class FlatFollower final : public MeasuredRows<FlatFollower> {
   /// @param frames  J_A: on the cam; J_B: origin on the face, z from the face away from the cam, y along the cam's axis
   FlatFollower(std::string name, JointFrames frames, Interpolation support, const Model& model);
   void declare(Declaration& declaration) const override;
-  /// The contact slides along `displacement`.
+  /// Returns the surface of the contact, which slides along `displacement`.
   std::vector<SlidingSurface> sliding_surfaces() const override { return {{{slide}}}; }
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;
 

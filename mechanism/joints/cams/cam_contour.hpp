@@ -24,7 +24,7 @@ class CamContour {
   std::vector<Vector3> points() const;  ///< points of the contour, anticlockwise [m]
   /// @throws InputError if the roller is too large for a concave part of the contour
   Curve pitch_curve(double radius) const;
-  /// Returns H over psi, periodic. @throws InputError  if the contour is concave
+  /// Returns the periodic function H(psi). @throws InputError  if the contour is concave
   Interpolation support() const;
 
  private:

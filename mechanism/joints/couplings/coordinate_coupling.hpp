@@ -1,4 +1,4 @@
-// Coordinates of joints that are coupled by a sum of them: gears, differentials, rack and pinion.
+// Coupling of coordinates of joints by a weighted sum of them: gears, differentials, rack and pinion.
 //
 //     e = sum_k f_k c_k,   with displacements c_k, or angles counted over turns
 // Coordinates are initially zero. Each is relative to the first node of its joint, so that gears on moving carriers are
@@ -38,7 +38,7 @@ class CoordinateCoupling : public Component {
   const std::vector<Term>& terms() const { return terms_; }
   const References& references() const { return references_; }
   std::string sum_text() const;  ///< "-2 'main'.angle + 1 'side'.angle"
-  /// The coordinate whose units the sum has: that with the factor one, or the last.
+  /// Returns the coordinate whose units the sum has: the one with the factor one, or the last.
   const JointCoordinate& unit() const;
   /// Returns F [N m] or [N].
   virtual double force(const LocalState& state) const = 0;

@@ -1,5 +1,5 @@
-// An elastic hinge: radial, axial and tilting stiffness and damping about an axis about which it rotates freely, over
-// any number of turns. The measures are those of shaft_bearing.hpp; the force is linear in the first five,
+// An elastic hinge, with radial, axial and tilting stiffness and damping. It rotates freely about its axis, over any
+// number of turns. The measures are those of shaft_bearing.hpp; the force is linear in the first five,
 //     N = K e + D v,
 // Stiffness and damping may be unsymmetric matrices, and functions of the speed of the shaft: oil films and seals
 // linearised about a state of steady rotation. Cross-coupled stiffness, K_xy = -K_yx > 0, drives a forward whirl.

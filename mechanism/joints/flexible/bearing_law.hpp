@@ -27,9 +27,9 @@ class BearingLaw {
   virtual ~BearingLaw() = default;
   virtual Force calc(const Vector6& e, const Vector6& v) const = 0;
   virtual Potential potential(const Vector6& /*e*/) const { return {}; }
-  /// Whether forces depend on rates, also on the speed of the shaft.
+  /// Tells whether forces depend on rates, including the speed of the shaft.
   virtual bool has_rates() const = 0;
-  /// Whether slopes jump in the state.
+  /// Tells whether derivatives of the force by the state have jumps.
   virtual bool has_kinks() const { return false; }
   /// Says in a clause why there is no force at a position; empty if there is one.
   virtual std::string refusal(const Vector6& /*e*/) const { return {}; }

@@ -10,8 +10,8 @@
 // The penetration of the surfaces is p > 0. At the point of contact the journal's surface slides with
 //     w = sdot + omega x r n,   without its part along n   (bore, socket; omega seen from the bush, r the journal's
 //     radius) w = [sdot_x, sdot_y, r omega_z]                       (face: its centre, and the mean radius of its ring)
-// Forces act along dp and dw, so that their power is exact. There is neither a direction nor a force if rho = 0. Rows Y
-// with w = Y v, and dY^T f = Z(f) dz at fixed f.
+// Forces act along dp and dw, so that their power is exact. If rho = 0, there is neither a direction nor a force. The
+// matrices are Y with w = Y v, and Z with dY^T f = Z(f) dz at fixed f.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ class ClearanceContact {
   const Rows& Y() const { return Y_; }
   /// Returns the sliding part of w.
   Vector3 sliding(const Vector3& w) const { return w - n_ * n_.dot(w); }
-  /// Derivative of the sliding part through n, at fixed w.
+  /// Returns the derivative of the sliding part through n, at fixed w.
   Rows turned_sliding(const Vector3& w) const;
   Matrix12 Z(const Vector3& f) const;
 
@@ -50,7 +50,7 @@ class ClearanceContact {
   const PairRotation& rotation_;
   std::array<PairMeasure, 3> s_;
   PairMeasure p_;
-  Vector3 n_ = Vector3::Zero();  ///< zero for faces, whose w is only sliding
+  Vector3 n_ = Vector3::Zero();  ///< zero for faces, whose w has no normal part
   Rows n_slope_ = Rows::Zero(), Y_ = Rows::Zero(), W_ = Rows::Zero();
 };
 

@@ -54,11 +54,11 @@ class ClearanceJoint final : public Joint, public OpenContact {
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   bool reaction_has_rates() const override { return true; }
-  /// Smallest gap of all places, negative the depth ("gap"), and sum of their normal forces ("normal_force"), besides
-  /// the measures of all joints.
+  /// Returns the names of the smallest gap of all places, negative in contact ("gap"), and of the sum of their normal
+  /// forces ("normal_force"), besides the measures of all joints.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
-  /// Computes one of them, with its derivatives over the local layout.
+  /// Computes the gap or the normal force, with its derivatives over the local layout.
   double calc_gap(const LocalState& state, MeasureGradient& gradient) const;
   double calc_normal_force(const LocalState& state, MeasureGradient& gradient) const;
   std::string what_is_open(const LocalState& state) const override;
@@ -67,13 +67,14 @@ class ClearanceJoint final : public Joint, public OpenContact {
   PairRotation rotation(const LocalState& state) const;
   ClearanceContact contact(std::size_t k, const LocalState& state, const PairRotation& rotation, bool second) const;
   NormalLaw::Force push(std::size_t k, const LocalState& state, const ClearanceContact& contact) const;
-  /// First memory entry of a place: whether its surfaces touch, the present damping d, and the bristle.
+  /// Returns the index of the first memory entry of a place: whether its surfaces touch, the present damping d, and the
+  /// bristle.
   Eigen::Index memory_of(std::size_t k) const {
     constexpr std::size_t of_place = 5;
     return static_cast<Eigen::Index>(2 * coordinates().size() + of_place * k);
   }
   bool has_bristles() const { return friction_ && friction_->model == FrictionLaw::Model::lugre; }
-  /// Whether friction acts: bristles keep their values in statics, without sliding.
+  /// Tells whether friction acts. In statics the bristles keep their values, without sliding.
   bool rubs(const LocalState& state) const { return friction_ && !(has_bristles() && state.environment().statics); }
   /// Returns the bristle of a place over this step. @param slip  [m/s]
   BristleStep bristle(std::size_t k, const LocalState& state, const ClearanceContact& contact,

@@ -1,7 +1,7 @@
 // Joints without constraints: an elastic law (laws/elastic_law.hpp) connects their two nodes.
 //
 // A type computes its measures, up to six, as numbers with derivatives. The resisting forces of the law act along their
-// gradients: forces with a potential, and their exact tangent.
+// gradients, so that the elastic forces have a potential and an exact tangent.
 #pragma once
 
 #include "mechanism/joints/joint.hpp"
@@ -24,10 +24,10 @@ class ElasticPair : public Joint {
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
-  /// Forces of the law, "force.x", besides those of all joints.
+  /// The names are "force.x" and so on, forces of the law, besides the measures of all joints.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
-  /// Force of the joint along a measure, as recorded, with its derivatives over the local layout.
+  /// Computes the force of the joint along a measure, as recorded, with its derivatives over the local layout.
   double calc_force(const LocalState& state, std::size_t k, MeasureGradient& gradient) const;
   bool reaction_has_rates() const override { return law_.has_damping(); }
 

@@ -1,10 +1,9 @@
 // A hydrodynamic journal bearing: the pressure of the film between a turning journal and its bush (journal_film.hpp).
 //
 // The measures are those of shaft_bearing.hpp. The forces act along x and y and depend on the displacement of the
-// journal, its rate, and the speed of the shaft relative to the bush; with these the film is isothermal, of constant
-// viscosity and without inertia. The bearing resists neither axial motion nor tilt, and the friction of the film on the
-// shaft is left out. If the journal touches the bush, there is no film and the run ends. Without motion there is no
-// force.
+// journal, its rate, and the speed of the shaft relative to the bush; the film is isothermal, of constant viscosity and
+// without inertia. The bearing resists neither axial motion nor tilt, and the friction of the film on the shaft is left
+// out. If the journal touches the bush, there is no film and the run ends. Without motion there is no force.
 #pragma once
 
 #include "mechanism/joints/flexible/journal_film.hpp"

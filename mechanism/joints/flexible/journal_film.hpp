@@ -1,4 +1,4 @@
-// Pressure in the film of a journal bearing, cavitated: the short bearing, and bearings of finite length.
+// Pressure in the cavitated film of a journal bearing, for the short bearing and for bearings of finite length.
 //
 // With the film thickness h = c - x cos(Theta) - y sin(Theta) (x, y: displacement of the journal, c: radial clearance),
 // the speed of the shaft w relative to the bush, lengths L and radius R, Reynolds' equation is

@@ -30,7 +30,7 @@ struct RollingGeometry {
   double exponent = 1.5;       ///< n
   double groove_distance = 0;  ///< A [m], of balls
   double contact_radius = 0;   ///< rho [m]
-  double roller_length = 0;    ///< [m]; 0: rollers resist no tilt of their own
+  double roller_length = 0;    ///< [m]; 0: rollers have no tilting stiffness of their own
   bool discrete = false;       ///< elements stand in a turning cage
   double cage_angle = 0;       ///< azimuth of the first of them as drawn [rad]
   double cage_ratio = 0;       ///< turn of the cage per turn of the shaft

@@ -9,9 +9,9 @@
 //     angle   of the shaft about z, counted over turns
 // The first five do not depend on the shaft's angle. Tilts stay below half a turn.
 //
-// Energies: the part of the force with a potential is elastic. The power of the part that rates other than the speed of
-// the shaft add is dissipated. The power of the rest, forces of the turning shaft and cross-coupled stiffness, counts
-// as input: these drive a whirl, or brake it, and the law does not say which drive supplies their work.
+// Energies: the part of the force with a potential is elastic. The part of the force due to rates other than the speed
+// of the shaft dissipates its power. The power of the rest, forces of the turning shaft and cross-coupled stiffness,
+// counts as input: these drive or brake a whirl, and the law does not say which drive supplies their work.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ namespace bielle::mechanism {
 
 class ShaftBearing final : public Joint {
  public:
-  /// @param law  the object is shared: laws are const
+  /// @param law  the object may be shared, because laws are const
   ShaftBearing(std::string type, std::string name, JointFrames frames, std::shared_ptr<const BearingLaw> law,
                const Model& model);
 
@@ -39,7 +39,7 @@ class ShaftBearing final : public Joint {
   bool reaction_has_rates() const override { return law_->has_rates(); }
   /// Checks the tilt and stores it. @throws ComputationError for nearly half a turn or more
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
-  /// Forces on the shaft, "force.x", and the measures of all joints.
+  /// The names are "force.x" and so on, forces on the shaft, and the measures of all joints.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
   /// Computes one of these forces, with its derivatives over the local layout.

@@ -1,11 +1,11 @@
 // A friction clutch, a brake or a torque limiter on one coordinate of a joint, by Coulomb's law without regularisation.
 //
 // It holds the coordinate until the force or torque on it exceeds r C, and slips with C against the rate, with the
-// capacity C >= 0, a formula of time and measures, and the ratio r >= 1 of the forces at rest and in motion. Plates
-// that a force F presses together have C = F mu r_m n, with the mean radius r_m of n surfaces (uniform wear; J. E.
-// Shigley, Mechanical Engineering Design, chapter 16). It is stick-slip friction (stick_slip_friction.hpp) whose
-// velocity is the rate of the coordinate and whose normal force is C: steps end when it begins to slip and when it
-// engages, and it yields to drives and locks of the same motion. With a capacity of zero it is open and does not
+// capacity C >= 0, a formula of time and measures, and the ratio r >= 1 of the forces at rest and in motion. The
+// capacity of plates that a force F presses together is C = F mu r_m n, with the mean radius r_m of n surfaces (uniform
+// wear; J. E. Shigley, Mechanical Engineering Design, chapter 16). It is stick-slip friction (stick_slip_friction.hpp)
+// whose velocity is the rate of the coordinate and whose normal force is C: steps end when it begins to slip and when
+// it engages, and it yields to drives and locks of the same motion. With a capacity of zero it is open and does not
 // engage. In statics it neither holds nor slips.
 #pragma once
 
@@ -20,7 +20,8 @@ class Clutch final : public StickSlipFriction, public TimeDependent {
  public:
   /// @param ratio   r
   Clutch(const Joint& joint, std::size_t coordinate, double ratio);
-  /// Reads C = factor times a formula of t and measures, after the model has been read. @param factor  not negative
+  /// Reads C = factor times a formula of t and measures, after the model has been read.
+  /// @param factor  factor, not negative
   void read(const YamlValue& formula, double factor, Model& model);
 
   void declare(Declaration& declaration) const override;

@@ -1,4 +1,4 @@
-// Coulomb's law made smooth at rest (FrictionLaw::Model::coulomb): R = N h(|v|) v. Sticking surfaces creep.
+// Coulomb's law made smooth at rest (FrictionLaw::Model::coulomb): R = N h(|v|) v. Surfaces never stick: they creep.
 #pragma once
 
 #include "mechanism/joints/friction/joint_friction.hpp"

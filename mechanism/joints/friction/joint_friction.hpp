@@ -1,16 +1,17 @@
 // Dry friction in a joint, with a normal force from the joint's own reaction.
 //
-// The bodies slide on each other at a surface whose velocity v [m/s] has a component for each of some coordinates of
-// the joint, c rate: c = 1 for displacements, the radius of the bearing for angles and rotations. A thread of radius r
-// and lead l per radian slides along its helix, v = (l zdot + r^2 thetadot)/sqrt(r^2 + l^2). A roller of radius R
-// slides on its pin of radius r, v = r (sdot/R - thetadot), with the displacement s of its middle. The normal force is
+// The bodies slide on each other at a surface. Its velocity v [m/s] has one component for each of some coordinates of
+// the joint: the rate of the coordinate times c, with c = 1 for displacements and the radius of the bearing for angles
+// and rotations. A thread of radius r and lead l per radian slides along its helix, v = (l zdot + r^2
+// thetadot)/sqrt(r^2 + l^2). A roller of radius R slides on its pin of radius r, v = r (sdot/R - thetadot), with the
+// displacement s of its middle. The normal force is
 //     N = |F| + |M|/arm + preload,
-// with the reaction F and M of the joint's constraints. There is no reaction along free coordinates: F is normal to the
-// motion, and M too. In a thread F has a fourth component M_z/r: together with F_z it gives the force normal to the
-// thread. The surface resists by R = N rho(v, ..) [N], with rho from the law of friction; R acts along the same
+// with the reaction F and M of the joint's constraints. There is no reaction along free coordinates, so that F and M
+// are normal to the motion. In a thread F has a fourth component M_z/r: together with F_z it gives the force normal to
+// the thread. The surface resists by R = N rho(v, ..) [N], with rho from the law of friction; R acts along the same
 // combination of coordinates as v. It is part of the equations of the present step, not of the previous one: N depends
-// on multipliers, and its derivatives are in the tangent. If redundancy leaves reactions undetermined, those of
-// smallest norm are used.
+// on multipliers, and its derivatives are in the tangent. If redundant constraints leave reactions undetermined, those
+// of smallest norm are used.
 #pragma once
 
 #include <array>
@@ -48,8 +49,8 @@ class JointFriction : public Component {
   void add_residual(const LocalState& state, Eigen::Ref<VectorX> r) const override;
   void add_tangent(const LocalState& state, LocalTangent& tangent) const override;
   void add_energy(const LocalState& state, Energy& energy) const override;
-  /// Outputs along the joint's coordinates: `friction`, force or torque; `normal_force` N of the surface that slides
-  /// along each.
+  /// Outputs along the joint's coordinates: `friction`, force or torque; `normal_force`, the force N of the surface
+  /// that slides along the coordinate.
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
@@ -67,9 +68,10 @@ class JointFriction : public Component {
     Matrix by_z;  ///< by first-order unknowns of the kind of friction; empty if it has none
   };
   virtual Resistance resistance(const LocalState& state, const Vector& v) const = 0;
-  /// Dissipated power per unit of N, never negative [m/s]. @param resistance  at this state
+  /// Returns the dissipated power per unit of N, never negative [m/s]. @param resistance  at this state
   virtual double loss(const LocalState& state, const Vector& v, const Resistance& resistance) const;
-  /// Friction along the surface's directions that is no function of N: force of a constraint during sticking [N].
+  /// Returns the friction along the surface's directions that is no function of N: the force of a constraint during
+  /// sticking [N].
   /// @param lambda  the component's own multipliers: those of the equations, or the reactions of smallest norm
   virtual Vector held(const LocalState::Segment& /*lambda*/) const { return Vector::Zero(size()); }
 
@@ -77,8 +79,8 @@ class JointFriction : public Component {
   const FrictionLaw& law() const { return law_; }
   const Joint& joint() const { return joint_; }
   const FrictionSurface& surface() const { return surface_; }
-  /// Output field with a number for each coordinate of the joint: the value of the component of v that it contributes
-  /// to, zero if the surface does not slide along it. (A joint may have several surfaces.)
+  /// Returns an output field with a number for each coordinate of the joint: the value of the component of v that it
+  /// contributes to, zero if the surface does not slide along it. (A joint may have several surfaces.)
   OutputField by_coordinate(const std::string& name, const std::string& units, const std::string& description) const;
   void write_by_coordinate(const Vector& by_component, double* values) const;
 
@@ -97,7 +99,7 @@ class JointFriction : public Component {
     std::array<CoordinateDerivatives, 3> jets;  ///< jets of the parts
   };
   Slip& slip(const LocalState& state, bool with_positions) const;
-  /// First local row of the joint.
+  /// Returns the first local row of the joint.
   static int row(const LocalState& state) { return state.slots().reference_row(0); }
 
  private:

@@ -2,9 +2,9 @@
 //
 // There are two forms, with the geometry of tooth_contact.hpp and the error e of the teeth along their normal [m], a
 // function of the wheels' angles (mesh_function.hpp):
-//   rigid (no `stiffness`)   u_1(t) - u_2(t) + e/cos(alpha) = 0: pitch surfaces in rolling contact, but for the error.
-//                            Its multiplier lambda is the force of wheel 1 on wheel 2 along t [N]. The loaded flank is
-//                            inclined: the teeth push each other apart along nu by |lambda| tan(alpha)
+//   rigid (no `stiffness`)   u_1(t) - u_2(t) + e/cos(alpha) = 0, which is rolling contact of the pitch surfaces if the
+//                            error is zero. Its multiplier lambda is the force of wheel 1 on wheel 2 along t [N]. The
+//                            loaded flank is inclined: the teeth push each other apart along nu by |lambda| tan(alpha)
 //                            (GearSeparation, which reads the reaction)
 //   elastic                  a flank of normal n is in contact if p = u_1(n) - u_2(n) +- e - backlash/2 > 0 and pushes
 //                            with N = max(0, k p + d pdot): spring and damper of the teeth, with free play between the
@@ -14,8 +14,8 @@
 // carrier. Energy is conserved at any motion; the torque is smaller than k p times the radius by about the deformation
 // over the pitch of the teeth. The transmission error is the lead of wheel 2,
 //     TE = cos(alpha) (u_2(t) - u_1(t))   [m, along the normal of the teeth];
-// rigid teeth have TE = e, elastic ones under the load F TE = e - backlash/2 - F/k, with bearings at rest.
-// With backlash, contact of a flank begins and ends when p changes its sign: steps end there. Both flanks may touch (if
+// rigid teeth have TE = e, elastic ones under the load F TE = e - backlash/2 - F/k, if the bearings are at rest. With
+// backlash, contact of a flank begins and ends when p changes its sign: steps end there. Both flanks may touch (if
 // bearings press the wheels together).
 #pragma once
 
@@ -38,14 +38,14 @@ class GearMesh : public Component {
   const ToothContact& contact() const { return contact_; }
   void declare(Declaration& declaration) const override;
   void accept(const LocalState& state, Eigen::Ref<VectorX> memory) const override;
-  /// Outputs: `approach`: u_1(t) - u_2(t) [m], the lead of wheel 1; `force`: normal forces [N] of the flanks n_+ and
-  /// n_-; `transmission_error` [m].
+  /// Outputs: `approach`: u_1(t) - u_2(t) [m], the lead of wheel 1; `force`: normal forces [N] of the two flanks n_+
+  /// and n_-; `transmission_error` [m].
   std::vector<OutputField> output_fields() const override;
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   void draw(Drawing& drawing) const override;
-  /// The names are "approach", "transmission_error", "force", "angle_1", "angle_2"; of elastic teeth "deformation",
-  /// "stiffness".
+  /// The names are "approach", "transmission_error", "force", "angle_1", "angle_2", and for elastic teeth also
+  /// "deformation" and "stiffness".
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
@@ -55,11 +55,11 @@ class GearMesh : public Component {
   /// layout.
   /// @param gradient  zero on entry
   virtual double calc_force(const LocalState& state, MeasureGradient& gradient) const = 0;
-  /// Whether that force is a reaction.
+  /// Tells whether that force is a reaction.
   virtual bool force_is_reaction() const = 0;
 
  protected:
-  /// Normal forces of the flanks n_+, n_- [N].
+  /// Returns the normal forces of the flanks n_+, n_- [N].
   virtual std::array<double, 2> flank_forces(const LocalState& state) const = 0;
   const MeshFunction& errors() const { return errors_; }
   /// Computes e. The order is 1 or 2.
@@ -92,7 +92,8 @@ class RigidGearMesh final : public GearMesh {
   std::array<double, 2> flank_forces(const LocalState& state) const override;
 };
 
-/// Separating force on the wheels of a rigid mesh. Its work is input: zero as long as bearings do not move.
+/// Separating force on the wheels of a rigid mesh. Its work counts as input, and is zero as long as bearings do not
+/// move.
 class GearSeparation final : public Component {
  public:
   GearSeparation(std::string name, const RigidGearMesh& mesh);
@@ -131,7 +132,7 @@ class ElasticGearMesh final : public GearMesh {
   /// @throws ComputationError if it is not positive at these angles
   template <int order>
   MeshMeasureOf<order> stiffness(const LocalState& state) const;
-  /// Computes p of the flank that is deeper in contact, or nearer to it [m].
+  /// Computes p [m] of the flank that is deeper in contact or, without contact, nearer to it.
   MeshSlope deformation(const LocalState& state) const;
 
  private:

@@ -26,8 +26,8 @@ struct CylindricalTeeth {
   double young = 206e9;            ///< modulus E of elasticity [Pa]; E_steel = 206 GPa
 };
 
-/// Transverse contact ratio of an external pair of tip radii r_i + m_n (1 + x_i), mounted without play, from the
-/// involutes (ISO 21771).
+/// Returns the transverse contact ratio of an external pair of tip radii r_i + m_n (1 + x_i), mounted without play,
+/// from the involutes (ISO 21771).
 double transverse_contact_ratio(const CylindricalTeeth& pair);
 
 struct IsoStiffness {

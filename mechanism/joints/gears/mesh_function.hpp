@@ -1,4 +1,5 @@
-// A quantity of a gear mesh that depends on the position of its wheels: stiffness of the teeth, error of their flanks.
+// A quantity of a gear mesh that depends on the angles of its wheels, such as the stiffness of the teeth or the error
+// of their flanks.
 //
 // It is a sum of terms f(phi), each a function of the angle phi of one wheel relative to the carrier [rad, zero as
 // drawn, counted over turns]: a formula, or a table over one of `teeth` equal parts of a turn, which a periodic cubic
@@ -34,10 +35,11 @@ class MeshFunction {
     terms_.push_back({wheel, {}, std::move(curve), teeth, phase});
   }
 
-  /// Whether it depends on the angles.
+  /// Tells whether the function depends on the angles.
   bool varies() const { return !terms_.empty() || !of_both_.empty(); }
   bool is_zero() const { return !varies() && constant_ == 0; }
-  /// Computes the function with its derivatives. @param contact,state  of the mesh, which give the angles
+  /// Computes the function with its derivatives. @param contact,state  contact and state of the mesh, which give the
+  /// angles
   template <int order>
   MeshMeasureOf<order> calc(const ToothContact& contact, const LocalState& state) const;
   /// Computes the value at given angles.
@@ -49,7 +51,7 @@ class MeshFunction {
     Expression formula;
     std::optional<Interpolation> curve;
     double teeth, phase;
-    /// Value, slope, curvature at an angle.
+    /// Returns value, slope and curvature at an angle.
     Interpolation::Values at(double angle) const;
   };
   double constant_ = 0;

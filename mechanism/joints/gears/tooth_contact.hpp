@@ -50,8 +50,8 @@ class ToothContact {
   /// Computes theta_i of a wheel (0 or 1), counted over turns.
   template <int order>
   MeshMeasureOf<order> turned(int wheel, const LocalState& state) const;
-  /// Torque about each wheel's axis per force along t: lever arms (P - c_i) x t . z_i [m], signed. Rates of the wheels
-  /// are inversely proportional to them.
+  /// Returns the signed lever arm (P - c_i) x t . z_i of a wheel [m], its torque about the axis per force along t.
+  /// Rates of the wheels are inversely proportional to them.
   double arm(int wheel) const;
 
   // Memory: [angle, rate] of each wheel at the last accepted step, and its time.

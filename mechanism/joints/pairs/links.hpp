@@ -61,7 +61,7 @@ const KeyTable& revolute_spherical_keys();
 /// `length` (t) is the initial distance.
 void read_distance(const std::string& name, const YamlValue& entry, Model& model);
 void read_spherical_spherical(const std::string& name, const YamlValue& entry, Model& model);
-/// Reads `at`, `length` and the hinge's `axis`.
+/// Reads a link with the keys `at`, `length` and `axis` of the hinge.
 void read_revolute_spherical(const std::string& name, const YamlValue& entry, Model& model);
 
 }  // namespace bielle::mechanism

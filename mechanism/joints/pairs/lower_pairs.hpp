@@ -11,7 +11,7 @@
 // Constraint rows, with the joint's axes x_A y_A z_A on the first node and x_B y_B z_B on the second, and the
 // attachment points p_A and p_B:  x_A . (p_B - p_A) = 0, with similar rows for y, z;  about x and y: x_A . z_B = 0, y_A
 // . z_B = 0; all: also x_A . y_B = 0. Multipliers are the constraint forces along the joint's axes [N] and moments [N
-// m]. If all three translations are locked and no row may have to be set aside (Slots::carried_axes), their rows are
+// m]. If all three translations are locked and no row can become redundant (Slots::carried_axes), their rows are
 // written in inertial axes, p_B - p_A = 0: the forces are the same, and the two nodes are only coupled by multipliers.
 // Reference: A. Cardona, M. Geradin, D. B. Doan, CMAME 89 (1991) 395; Geradin and Cardona (2001) ch. 7.
 #pragma once
@@ -51,10 +51,11 @@ class LowerPair final : public Joint, public AssemblyBranch {
     const char* name;
   };
   PairMeasure calc_row(const Row& row, const NodeState& first, const NodeState& second) const;
-  /// Whether the rows of locked translations are written in inertial axes.
+  /// Tells whether the rows of locked translations are written in inertial axes.
   bool inertial(const LocalState& state) const { return inertial(state.slots()); }
   bool inertial(const Slots& slots) const { return locks_point_ && !slots.carried_axes; }
-  /// Whether second derivatives couple the rotations of the two nodes: all do except those of a point in inertial axes.
+  /// Tells whether second derivatives couple the rotations of the two nodes. Those of all rows do, except for a point
+  /// in inertial axes.
   bool couples_rotations(const Slots& slots) const { return !inertial(slots) || rows_.size() > 3; }
   /// @param R_12  must outlive the pair
   AxisPair axes(const Row& row, const Matrix3& R_12) const;

@@ -22,9 +22,9 @@ Vector3 value_of(const PairVector<order>& vector) {
 template <int order>
 PairVector<order> turned(const Matrix3& axes, const PairVector<order>& vector);
 
-/// Velocity of the material of node 2 at the arm c, relative to node 1's material at the same place, along the axis e
-/// [m/s]: the gradient w of the position measure at the present e and c, and its change dw while they vary. The value
-/// is w . v.
+/// Computes the velocity of the material of node 2 at the arm c, relative to node 1's material at the same place, along
+/// the axis e [m/s]: the gradient w of the position measure at the present e and c, and its change dw while they vary.
+/// The value is w . v.
 /// @param e  axis, components along node 1 @param c  arm, components along node 2 [m]
 template <int order>
 PairMeasureOf<order> material_velocity(const NodeState& first, const NodeState& second, const PairVector<order>& e,

@@ -5,11 +5,11 @@
 //     Phi = d - c(u) = 0,   d: the vector from J_A to J_B along the axes of J_A                 (three rows)
 // The equation of u is -c' . lambda = 0: without friction the reaction is normal to the curve; with friction, which
 // acts on u, its part along the curve balances the friction, and the rest is the normal force. This is valid for any
-// curvature, and u distinguishes places if the curve passes the same point twice. Coordinate `displacement`: the arc
-// length from the initial position of the point. In the plane of J_A (a roller on a cam) there are two rows, and the
-// curve can only push: an event is recorded when it would have to pull. A roller has no mass. Relative to the curve it
-// rotates at displacement'/R, and its pin at the rate of the coordinate `angle`, of J_B relative to J_A about z.
-// Friction on the pin resists the rotation of the roller, so that the curve drags its middle; the pin carries all of
+// curvature, and u distinguishes the two passages if the curve passes the same point twice. Coordinate `displacement`:
+// the arc length from the initial position of the point. In the plane of J_A (a roller on a cam) there are two rows,
+// and the curve can only push: an event is recorded when it would have to pull. A roller has no mass. Relative to the
+// curve it rotates at displacement'/R, and its pin at the rate of the coordinate `angle`, of J_B relative to J_A about
+// z. Friction on the pin resists the rotation of the roller, so that the curve drags its middle; the pin carries all of
 // the reaction. A follower without a roller slides on the curve.
 #pragma once
 

@@ -11,7 +11,7 @@
 
 namespace bielle::mechanism {
 
-/// Adds the joint, and the actions in its entry. @param own  as read_joint_actions @returns the joint
+/// Adds the joint, and the actions in its entry. @param own  as read_joint_actions @returns the added joint
 inline Joint& add_pair(std::unique_ptr<Joint> made, const YamlValue& entry, Model& model,
                        const std::vector<std::string>& own = {}) {
   Joint& joint = *made;

@@ -6,7 +6,7 @@
 //                                       M = L_e {xi - 2 xi^2 + xi^3, xi^3 - xi^2},
 // with the unit tangent t_k that is fixed on node k. u is an unknown of the joint, without mass. The rows are, in the
 // axes of J_A, which is fixed on the beam's first node:
-//     x y z     d - p(u) = 0, d to the slider's attachment point: its equation of u makes the force normal to the beam,
+//     x y z     d - p(u) = 0, d to the slider's attachment point: the equation of u makes the force normal to the beam,
 //               except for friction, which acts on u (by initial lengths)
 //     ry rz     with `orientation: tangent`: y_B . p' = z_B . p' = 0, x_B initially along the beam; turning about it is
 //     free
@@ -62,7 +62,7 @@ class SliderJoint final : public Joint {
   CoordinateRate principal_coordinate(std::size_t index, const LocalState& state) const override;
   int rows() const { return tangent_ ? 5 : 3; }
   int parameter() const { return 6 * static_cast<int>(line_.nodes.size() + 1); }  ///< local row of u
-  /// Local number of the k-th node of the line.
+  /// Returns the local number of the k-th node of the line.
   static int local(std::size_t k) { return k == 0 ? 0 : static_cast<int>(k) + 1; }
   void calc_row(int row, const LocalState& state, Row& result) const;
   void calc_position_row(int axis, const LocalState& state, Row& result) const;

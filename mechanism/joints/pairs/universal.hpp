@@ -7,8 +7,8 @@
 // of the second node about x_B relative to the cross:
 //     angle_1 = atan2(y_A . x_B, x_A . x_B),   angle_2 = atan2(z_A . y_B, z_A . z_B).
 // Shafts that are initially along the cross's normal receive cos(angle_1) and cos(angle_2) times its torque. If one of
-// these is zero the joint is singular: it holds that shaft by no finite torque, and permits it to rotate alone. Runs
-// record this as an event.
+// these is zero the joint is singular: no finite torque holds that shaft, which can rotate alone. Runs record this as
+// an event.
 //
 // Constant velocity: z_A and z_B are the axes of the two shafts, from the first to the second (`axis` if the joint is
 // initially straight, `axes` if it is initially bent). Rows: the point, and

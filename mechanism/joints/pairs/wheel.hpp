@@ -20,7 +20,7 @@ namespace bielle::mechanism {
 
 class WheelJoint final : public MeasuredRows<WheelJoint> {
  public:
-  /// @param rolls  with the two rows that prevent slip
+  /// @param rolls  whether the two rows that prevent slip are present
   WheelJoint(std::string name, JointFrames frames, double radius, bool rolls, const Model& model);
   void declare(Declaration& declaration) const override;
   void calc_event_functions(const LocalState& state, Eigen::Ref<VectorX> values) const override;

@@ -13,8 +13,8 @@ inline constexpr double flat_wheel = 1e-3;
 /// Returns the keys `type`, `nodes`, `position`, `at`, `normal`, `axis`, `radius`.
 std::vector<Key> wheel_place_keys();
 
-/// Reads them. J_A is in the plane below the middle of the wheel, z along the normal, x along axis x normal; J_B is in
-/// the middle of the wheel, z along its axis.
+/// Reads these keys. J_A is in the plane below the middle of the wheel, z along the normal, x along axis x normal; J_B
+/// is in the middle of the wheel, z along its axis.
 /// @throws InputError if the wheel lies flat on the plane or is below it
 JointFrames read_wheel_place(const YamlValue& entry, const Model& model);
 

@@ -28,12 +28,12 @@ struct ContactPatch {
   double forward = 0;  ///< forward velocity of the middle [m/s]
 };
 
-/// Deflection of the tyre [m], negative above the road. @param road  nullptr: a plane
+/// Computes the deflection of the tyre [m], negative above the road. @param road  nullptr: a plane
 PairSlope calc_deflection(const NodeState& first, const NodeState& second, const JointFrames& frames, double radius,
                           const RoadProfile* road);
 
-/// Exists for orders 1 and 2.
-/// @throws ComputationError if the wheel lies flat on the road: a clause
+/// Computes the patch, for orders 1 and 2.
+/// @throws ComputationError, with a clause as its message, if the wheel lies flat on the road
 template <int order>
 ContactPatch<order> calc_patch(const NodeState& first, const NodeState& second, const JointFrames& frames,
                                double radius, const RoadProfile* road);

@@ -28,13 +28,13 @@ class RoadProfile {
   /// Returns x of the point nearest to a place, among those that are not farther along x than `reach` [m].
   double nearest(double x, double z, double reach) const;
 
-  /// Nearest point of the road to a place: distance d, negative below the road, and the unit normal there,
+  /// The point of the road nearest to a place: distance d, negative below the road, and the unit normal there,
   /// (normal_x, 0, normal_z).
   template <int order>
   struct Foot {
     PairMeasureOf<order> distance, normal_x, normal_z;
   };
-  /// Exists for orders 1 and 2. @param x,z  the place as measures [m] @param reach  as `nearest`
+  /// Computes the nearest point, for orders 1 and 2. @param x,z  the place as measures [m] @param reach  as `nearest`
   template <int order>
   Foot<order> foot(const PairMeasureOf<order>& x, const PairMeasureOf<order>& z, double reach) const;
 
@@ -44,7 +44,7 @@ class RoadProfile {
   };
   /// Returns the tightest valley; its radius is infinite if there is none.
   Valley tightest_valley() const;
-  /// Returns points (x, 0, z) of the table and between them, by which the road is drawn.
+  /// Returns points (x, 0, z) of the table and between them, for drawings of the road.
   std::vector<std::vector<double>> line() const;
 
  private:

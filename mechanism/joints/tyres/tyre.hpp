@@ -37,7 +37,8 @@ class Tyre final : public Joint {
   void write_output(const LocalState& state, double* values) const override;
   void describe(const LocalState& state, Description& description) const override;
   void draw(Drawing& drawing) const override;
-  /// "deflection", "normal_force", "longitudinal_force", "lateral_force", "aligning_moment", and those of all joints.
+  /// The names are "deflection", "normal_force", "longitudinal_force", "lateral_force", "aligning_moment", and those of
+  /// all joints.
   std::vector<std::string> measure_names() const override;
   std::unique_ptr<Measure> make_measure(const std::string& name, const std::string& measure) const override;
 
