@@ -1,9 +1,10 @@
 // The record of an event, which formulas, other events and locks read by the event's name.
 //
-//     deployed          0 before the event has happened, 1 afterwards deployed.count    number of times that it has
-//     happened deployed.time     time at which it happened last [s]; 1e30 before, in the far future, so that t >=
-//     deployed.time is false and min(max((t - deployed.time)/T, 0), 1) is 0 The record refers to no other object:
-//     events may depend on each other in a circle through their records.
+//     deployed          0 before the event has happened, 1 afterwards
+//     deployed.count    number of times that it has happened
+//     deployed.time     time at which it happened last [s]; 1e30 before, in the far future, so that
+//                       t >= deployed.time is false and min(max((t - deployed.time)/T, 0), 1) is 0
+// The record refers to nothing: events may depend on each other in a circle through their records.
 #pragma once
 
 #include <optional>

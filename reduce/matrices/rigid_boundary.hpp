@@ -13,8 +13,8 @@ namespace bielle::reduce {
 /// Returns K~ of the kept directions without the forces of rigid motions, which come from the few digits of a text
 /// file.
 /// @param condensed  (b,b) as computed
-/// @throws InputError if these forces are larger than such digits explain: the matrices are held to the ground, or do
-///         not belong to the positions of the nodes
+/// @throws InputError if these forces are more than that: the matrices are held to the ground, or do not belong to the
+///         positions of the nodes
 Eigen::MatrixXd boundary_stiffness(const MatrixSet& set, const NodeTies& ties, const Eigen::MatrixXd& condensed,
                                    const MassProperties& body);
 

@@ -4,14 +4,15 @@
 // line, S the section's axes. In the section's plane, with e_c from the leading to the trailing edge (from the y axis
 // by the angle `twist` about x), e_n = e_x x e_c, U = |u| there and the angle of attack alpha = atan2(u . e_n, u .
 // e_c), the force and the moment about the node line per length are
-//     f = rho c U/2 [ cd(alpha) u + cl(alpha) e_x x u ],     m = -rho c^2 U^2/2 cm(alpha) e_x + p x f, p the
-// quarter-chord point of the section, at which the forces act (`at`). A positive cm turns the leading edge towards e_n.
-// A section that turns about x at the rate Omega (pitch) acts on the air like a cambered one: by thin-airfoil theory in
-// quasi-steady flow the angle of attack is that at the three-quarter-chord point, so that u above is u = S^T (wind - v)
-// - Omega e_x x (p + c/2 e_c),    and the moment about p has the further term  -pi/16 rho c^3 U Omega e_x. `pitch_rate:
-// false` omits both. The flow along the beam, the inertia of the air (which is of the same order if the angle of attack
-// itself changes: Theodorsen's terms in the acceleration of the section), the wake's delay and induced velocities are
-// omitted.
+//     f = rho c U/2 [ cd(alpha) u + cl(alpha) e_x x u ],     m = -rho c^2 U^2/2 cm(alpha) e_x + p x f,
+// p the quarter-chord point of the section, at which the forces act (`at`). A positive cm turns the leading edge
+// towards e_n. A section that turns about x at the rate Omega (pitch) is a cambered one to the air: by thin-airfoil
+// theory in quasi-steady flow the angle of attack is that at the three-quarter-chord point, so that u above is
+//     u = S^T (wind - v) - Omega e_x x (p + c/2 e_c),    and the moment about p has the further term  -pi/16 rho c^3 U
+//     Omega e_x.
+// `pitch_rate: false` omits both. The flow along the beam, the inertia of the air (which is of the same order if the
+// angle of attack itself changes: Theodorsen's terms in the acceleration of the section), the wake's delay and induced
+// velocities are left out.
 //
 // Loads are multiplied by the environment's load factor; their power is counted as input.
 // References: W. Johnson, Helicopter Theory, 1980, ch. 2; Y. C. Fung, An Introduction to the Theory of Aeroelasticity,

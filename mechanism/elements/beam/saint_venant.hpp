@@ -2,18 +2,20 @@
 //
 // The coordinates y and z are from the centroid, and the shear modulus is G = 1.
 // clang-format off
-//     torsion by a unit twist rate:   tau = grad omega + (-z, y),   div tau = 0, flexure by a shear force V:     tau =
-//     grad Phi,   div tau = -c.(y,z),   [I_z I_yz; I_yz I_y] c = V, clang-format on The boundary condition is tau.n =
-//     0. The flexure is the one without lateral contraction (Poisson's ratio 0), whose stresses do no work on the
-//     twist: the section's compliance for the shear forces and the torque about the shear centre has no coupling terms,
-//     J = int |tau|^2,   F_ij = int grad Phi_i . grad Phi_j,   shear centre from int (y tau_z - z tau_y). The elements
-//     are biquadratic, on a grid that is graded towards the corners. J is overestimated, F underestimated; the error,
-//     measured by finer grids, is below 2e-4. In a wall of thickness t in a section of size h the stress, of the size
-//     t, is a small difference of warping functions of the size h^2: these are computed by iterative refinement with
-//     residuals from the stresses of the elements in extended precision, down to t/h = 1e-5 (`thinnest_part`). In a
-//     re-entrant corner without fillet the exact stresses are infinite; those of the elements, which are returned
-//     there, grow with the refinement of the grid and have no meaning. References: S. Timoshenko, J. Goodier, Theory of
-//     Elasticity, ch. 10 and 11; F. Gruttmann, W. Wagner, Comput. Mech. 27 (2001) 199.
+//     torsion by a unit twist rate:   tau = grad omega + (-z, y),   div tau = 0,
+//     flexure by a shear force V:     tau = grad Phi,   div tau = -c.(y,z),   [I_z I_yz; I_yz I_y] c = V,
+// clang-format on
+// The boundary condition is tau.n = 0.
+// Flexure is that without lateral contraction (Poisson's ratio 0), whose stresses do no work on the twist: the
+// section's compliance for the shear forces and the torque about the shear centre has no coupling terms,
+//     J = int |tau|^2,   F_ij = int grad Phi_i . grad Phi_j,   shear centre from int (y tau_z - z tau_y).
+// The elements are biquadratic, on a grid that is graded towards the corners. J is overestimated, F underestimated; the
+// error, measured by finer grids, is below 2e-4. In a wall of thickness t in a section of size h the stress, of the
+// size t, is a small difference of warping functions of the size h^2: these are computed by iterative refinement with
+// residuals from the stresses of the elements in extended precision, down to t/h = 1e-5 (`thinnest_part`).
+// In a re-entrant corner without fillet the exact stresses are infinite; those of the elements, which are returned
+// there, grow with the refinement of the grid and have no meaning. References: S. Timoshenko, J. Goodier, Theory of
+// Elasticity, ch. 10 and 11; F. Gruttmann, W. Wagner, Comput. Mech. 27 (2001) 199.
 #pragma once
 
 #include <array>

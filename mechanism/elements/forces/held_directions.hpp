@@ -1,17 +1,18 @@
 // Directions of a node that are held by constraints: one or two rotations, and directions along axes that are not the
 // inertial ones. (Other held directions are eliminated, system/node_kinematics.hpp.)
 //
-// The axes q_x, q_y, q_z are fixed in space. The node is initially at x_0, and its axes b_k coincided with q_k.
-//   displacement k          q_k . (x - x_0) = 0 two rotations, i and j  q_i . b_k = 0 and q_j . b_k = 0: the third axis
-//   keeps its direction one rotation            the rotation from the initial axes of the node has the Bryant angles a,
-//   b, c about q_x, the new
-//                           y and the newest z, Rx(a) Ry(b) Rz(c). The held angle stays zero; the two others are free
-//                           over any number of turns: rx:  a = 0,  -q_y . b_z = 0        ry:  b = 0,  q_x . b_z = 0 rz:
-//                           c = 0,  -q_x . b_y = 0 A direction on the node thus stays normal to a direction in space,
-//                           as in a universal joint. The gradient of the row is the common normal of both, and has the
-//                           length one everywhere. At small rotations the order of the angles does not matter, and the
-//                           gradient is the held axis. The multipliers are forces along q_k [N] and torques about the
-//                           gradients [N m].
+// The axes q_x, q_y, q_z are fixed in space. The node was drawn at x_0, and its axes b_k coincided with q_k.
+//   displacement k          q_k . (x - x_0) = 0
+//   two rotations, i and j  q_i . b_k = 0 and q_j . b_k = 0: the third axis keeps its direction
+//   one rotation            the rotation from where the node was drawn has the Bryant angles a, b, c about q_x, the new
+//                           y and the newest z, Rx(a) Ry(b) Rz(c). The held angle stays zero, the two others are free
+//                           over any number of turns:
+//                             rx:  a = 0,  -q_y . b_z = 0        ry:  b = 0,  q_x . b_z = 0
+//                             rz:  c = 0,  -q_x . b_y = 0
+//                           A direction on the node stays normal to one in space, as in a universal joint. The row has
+//                           a gradient of length one everywhere: their common normal. At small rotations the order of
+//                           the angles does not matter, and the gradient is the held axis.
+// The multipliers are forces along q_k [N] and torques about the gradients [N m].
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // Force and moment between two nodes, by formulas of time and state.
 //
-// F and m act on the second node at its point p_2 = x_2 + R_2 c, and -F, -m on the first node at the same point, so
-// that the pair adds no momentum and no angular momentum. Components are along the axes of the first node (default), of
-// the second, or inertial ones:  F = A f, m = A mu, A = R_1, R_2 or 1.  With s = R_1^T (p_2 - x_1), F_k = R_k^T F:
+// F and m act on the second node at its point p_2 = x_2 + R_2 c, and -F, -m on the first node at the same place: the
+// pair adds no momentum and no angular momentum. Components are along the axes of the first node (default), of the
+// second, or inertial ones:  F = A f, m = A mu, A = R_1, R_2 or 1.  With s = R_1^T (p_2 - x_1), F_k = R_k^T F:
 //     residual   [ F ;  s x F_1 + m_1 ;  -F ;  -c x F_2 - m_2 ].
 // Its power is counted as input.
 #pragma once

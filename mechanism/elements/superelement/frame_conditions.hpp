@@ -3,11 +3,11 @@
 // mean       A = W U, where W is diagonal in the kept directions: 1 for translations, l^2 = sum |X_i - X_mean|^2 / n_i
 // for
 //            rotations: the mean of the interfaces (l = 1 for a single one; if they coincide, the body's radius of
-//            gyration). This is the default: a slender curved body that bends does not roll in this frame, so that
-//            coordinates stay small and elastic forces exact to third order. mean axes  A = M~ U: no first-order
-//            coupling of rigid and elastic velocities. Motions agree to the order of the linear theory; a curved body
-//            rolls by a few tenths of its bending angle. carried    the frame of one interface, with U restricted to
-//            it, as in simple programs; for comparison.
+//            gyration). The default: a slender curved body does not roll in it when it bends, so that coordinates stay
+//            small and elastic forces exact to third order.
+// mean axes  A = M~ U: no first-order coupling of rigid and elastic velocities. Motions agree to the order of the
+//            linear theory; a curved body rolls by a few tenths of its bending angle.
+// carried    the frame of one interface, with U restricted to it: as in simple programs, for comparison.
 #pragma once
 
 #include <cstddef>

@@ -10,12 +10,11 @@
 // so that a body whose frame moves with nu_0 = (v_0, Om_0) (body components) has, with s = U nu_0 + epsdot,
 //     T = s^T M~ s / 2 + s^T G(Om_0) eps + eps^T H(Om_0) eps / 2,   G(Om) = Om_k G_k,   H(Om) = Om_k Om_l H_kl:
 // the exact kinetic energy of the reduced displacement field. The inertia of foreshortening, which that field lacks, is
-//     - eps^T K_sigma(Om_m) eps / 2,   K_sigma(Om) = Om_k Om_l K_sigma,kl,   Om_m = Lambda s, subtracted from it:
-// geometric stiffness of the free body under the centrifugal field of unit Om_k Om_l (the sum is over all nine pairs k,
-// l). Lambda, the last three rows of (U^T M~ U)^-1 U^T M~, gives the mean angular velocity of the body. The angular
-// velocity of the frame must not be used instead: fast motions of the interfaces rotate the frame, and the small mass
-// of the interfaces would become negative. These matrices do not depend on the position of the body: bodies of one file
-// share them.
+//     - eps^T K_sigma(Om_m) eps / 2,   K_sigma(Om) = Om_k Om_l K_sigma,kl,   Om_m = Lambda s,
+// subtracted from it: geometric stiffness of the free body under the centrifugal field of unit Om_k Om_l (the sum is
+// over all nine pairs k, l). Lambda, the last three rows of (U^T M~ U)^-1 U^T M~, gives the mean angular velocity of
+// the body; that of the frame would only be correct if fast motions of the interfaces did not rotate it: their small
+// mass would become negative. These matrices do not depend on the position of the body: bodies of one file share them.
 #pragma once
 
 #include <array>

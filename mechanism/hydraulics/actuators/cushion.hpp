@@ -1,8 +1,7 @@
 // Cushion of a cylinder: the outlet of a chamber becomes narrow near the end of the stroke.
 //
-//     A = A_c + (A_port - A_c) s(x/x_c),     x: remaining distance to the end, x_c: length of the cushion with s = 10
-// u^3 - 15 u^4 + 6 u^5. Fluid that flows into the chamber opens a check valve with the area of the port; it is fully
-// open at 0.5 bar.
+//     A = A_c + (A_port - A_c) s(x/x_c),     x: remaining distance to the end, x_c: length of the cushion
+// with s = 10 u^3 - 15 u^4 + 6 u^5. Fluid that flows in opens a check valve with the area of the port, over 0.5 bar.
 #pragma once
 
 #include "mechanism/hydraulics/actuators/cylinder.hpp"

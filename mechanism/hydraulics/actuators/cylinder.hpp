@@ -2,11 +2,11 @@
 //
 // With the distance l of the points, chambers k of the volume V_k(l) (chamber_space.hpp) and the pressures p_k, the
 // force
-//     F = sum (p_k - p_a) dV_k/dl - F_f(ldot) + F_s(l, ldot) pushes the points apart: chamber 1 extends the cylinder,
-// dV_1/dl = A_1, chamber 2 retracts it, dV_2/dl = -A_2; the ambient pressure acts on the rod. F_f is the friction of
-// the seals (laws/friction_law.hpp with N = 1), F_s that of the stops at the ends of the stroke: k x + d xdot if
-// positive, with the distance x beyond the end, as for stops in joints. The chamber volumes belong to the volumes of
-// fluid into which the chambers open.
+//     F = sum (p_k - p_a) dV_k/dl - F_f(ldot) + F_s(l, ldot)
+// pushes the points apart: chamber 1 extends the cylinder, dV_1/dl = A_1, chamber 2 retracts it, dV_2/dl = -A_2; the
+// ambient pressure acts on the rod. F_f is the friction of the seals (laws/friction_law.hpp with N = 1), F_s that of
+// the stops at the ends of the stroke: k x + d xdot while it pushes, with the distance x beyond the end, like stops in
+// joints. The chamber volumes belong to the volumes of fluid into which the chambers open.
 //
 // Start pressures that are not given follow from the load: the initial acceleration of the cylinder's length is zero,
 // and the chamber with the smaller force is at the tank's pressure.

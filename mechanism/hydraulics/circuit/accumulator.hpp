@@ -3,11 +3,11 @@
 // The gas volume is V_g = V_0 (p_0/p)^(1/n) above its precharge pressure p_0 (absolute), with n = 1 (slow) to 1.4
 // (fast, adiabatic); below p_0 the bladder fills the shell, V_g = V_0. The rest of the shell belongs to the space of
 // the volume:
-//     V_acc(p) = V_0 - V_g(p),       energy = integral of (p - p_a) dV_acc. V_acc has a kink at the precharge, where
-// the compliance of a stiff volume may grow a thousandfold: Newton's method would jump from one side to the other. A
-// motion therefore computes each step on one side, which is stored in the memory: filled (continued below p_0 by its
-// tangent) or empty (V_acc = 0), and ends steps at the time at which p passes p_0. Analyses without events, and the
-// start of the first motion, use the side that belongs to the present pressure.
+//     V_acc(p) = V_0 - V_g(p),       energy = integral of (p - p_a) dV_acc.
+// V_acc has a kink at the precharge, where the compliance of a stiff volume may grow a thousandfold: Newton's method
+// would jump from one side to the other. A motion therefore computes each step on one side, which stands in the memory:
+// filled (continued below p_0 by its tangent) or empty (V_acc = 0), and ends steps where p passes p_0. Analyses without
+// events, and the start of the first motion, take the side of the present pressure.
 #pragma once
 
 #include "mechanism/hydraulics/circuit/volume.hpp"

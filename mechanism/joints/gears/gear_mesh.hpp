@@ -2,9 +2,9 @@
 //
 // There are two forms, with the geometry of tooth_contact.hpp and the error e of the teeth along their normal [m], a
 // function of the wheels' angles (mesh_function.hpp):
-//   rigid (no `stiffness`)   u_1(t) - u_2(t) + e/cos(alpha) = 0, which is rolling contact of the pitch surfaces if the
-//                            error is zero. Its multiplier lambda is the force of wheel 1 on wheel 2 along t [N]. The
-//                            loaded flank is inclined: the teeth push each other apart along nu by |lambda| tan(alpha)
+//   rigid (no `stiffness`)   u_1(t) - u_2(t) + e/cos(alpha) = 0: pitch surfaces in rolling contact, but for the error.
+//                            Its multiplier lambda is the force of wheel 1 on wheel 2 along t [N]. The loaded flank is
+//                            inclined: the teeth push each other apart along nu by |lambda| tan(alpha)
 //                            (GearSeparation, which reads the reaction)
 //   elastic                  a flank of normal n is in contact if p = u_1(n) - u_2(n) +- e - backlash/2 > 0 and pushes
 //                            with N = max(0, k p + d pdot): spring and damper of the teeth, with free play between the

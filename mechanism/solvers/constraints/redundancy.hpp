@@ -60,8 +60,9 @@ std::string describe_singular_start(const System& system, const Environment& env
 std::vector<std::string> name_constraints(const System& system, const std::vector<int>& multipliers);
 
 /// Checks that constraints set aside are nevertheless satisfied.
-/// @throws ComputationError naming a constraint that is not satisfied: it contradicts the others (a drive on a joint
-/// that cannot move), or is no longer redundant in this position
+/// @throws ComputationError naming a constraint that is not: it contradicts the others (a drive on a joint that cannot
+/// move), or
+///         is no longer redundant in this position
 void check_set_aside(const System& system, const Environment& environment, const State& state);
 
 }  // namespace bielle::mechanism

@@ -6,7 +6,7 @@
 namespace bielle {
 
 /// @throws InputError if there is no file of that name, or it is a folder, a device or a named pipe. (The standard
-///         input, and files that a shell provides under /dev, may be pipes.)
+///         input and what a shell hands over under /dev may be pipes.)
 void check_input_file(const std::string& path);
 
 /// Returns the bytes of a file that passes `check_input_file`. @throws InputError if it cannot be read
