@@ -25,9 +25,9 @@ struct StateSpace : LinearisedSetting {
   std::vector<std::string> output_units;
 };
 
-/// Computes the state-space model with constraints eliminated; the present state of the session is not changed. @throws
-/// InputError for names that the model does not have; ComputationError if an output depends on the derivative of an
-/// input, or the mechanism cannot move
+/// Computes the state-space model with constraints eliminated; the present state of the session is not changed.
+/// @throws InputError for names that the model does not have; ComputationError if an output depends on the derivative
+/// of an input, or the mechanism cannot move
 StateSpace compute_state_space(Session& session, const StateSpaceOptions& options);
 
 }  // namespace bielle::mechanism

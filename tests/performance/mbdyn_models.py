@@ -24,6 +24,7 @@ class Model:
 
     def __init__(self):
         self.nodes, self.elements, self.counts = [], [], {}
+        self.start_tolerance = 1e-4  # of the first accelerations: larger, and the first step has an error of first order
 
     def node(self, position, kind="dynamic", velocity="null", rate="null"):
         self.nodes.append(f"structural: {len(self.nodes) + 1}, {kind}, {position}, eye, {velocity}, {rate};")
@@ -49,7 +50,7 @@ class Model:
         counts = counts.replace("gravity: 1;", "gravity;")
         return "\n".join(["begin: data; problem: initial value; end: data;", "begin: initial value;", "initial time: 0.;",
                           f"final time: {(steps - 0.5) * size:.12g};", f"time step: {size:.12g};", "method: ms, 0.6;",
-                          "tolerance: 1e-6;", "max iterations: 100;", "derivatives tolerance: 1e-4;", "derivatives max iterations: 50;", "derivatives coefficient: 1e-6;",
+                          "tolerance: 1e-6;", "max iterations: 100;", f"derivatives tolerance: {self.start_tolerance};", "derivatives max iterations: 50;", "derivatives coefficient: 1e-4;",
                           f"linear solver: {solver};", f"nonlinear solver: {newton};", "end: initial value;",
                           "begin: control data;", f"structural nodes: {len(self.nodes)};", counts, "skip initial joint assembly;",
                           output, "end: control data;", "begin: nodes;", *self.nodes, "end: nodes;", "begin: elements;",
@@ -107,6 +108,7 @@ def spin_up(elements=10):
 def modal_bar(fem, modes, root, tip):
     """@param fem  path of the body for MBDyn  @param modes  count of its modes  @param root, tip  numbers of its nodes"""
     model = Model()
+    model.start_tolerance = 1e30  # MBDyn 1.7.3 does not find the first accelerations of a modal joint on a hinge
     model.counts["gravity"] = 1
     frame = model.node("null", kind="modal")
     held, end = model.node("null", kind="static"), model.node("1., 0., 0.", kind="static")
