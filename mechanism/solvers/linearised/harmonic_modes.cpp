@@ -158,8 +158,8 @@ HarmonicModes HarmonicSearch::find_with(const ModeOptions& options, int harmonic
   return result;
 }
 
-/// Returns the oscillations and decays about the mean state, some more than asked for; nothing if there are more rigid
-/// modes than the shift in time.
+/// Returns the oscillations and decays about the mean state, some more than asked for; nothing if they have harmonics
+/// of their own, or if there are more rigid modes than the shift in time.
 std::optional<HarmonicModes> HarmonicSearch::modes_of_mean(const ModeOptions& options) const {
   if (!mean_ || options.near) return std::nullopt;
   constexpr int more = 4;  // the order of exponents may change
@@ -168,6 +168,7 @@ std::optional<HarmonicModes> HarmonicSearch::modes_of_mean(const ModeOptions& op
   wider.count += more;
   if (wider.below) *wider.below *= higher;
   HarmonicModes mean = mean_->find(wider);
+  if (mean.periodicity == Periodicity::periodic) return std::nullopt;
   const auto others = std::stable_partition(mean.modes.begin(), mean.modes.end(), is_rigid);
   if (others - mean.modes.begin() != (shapes_.any_shift() ? 1 : 0)) return std::nullopt;
   mean.modes.erase(mean.modes.begin(), others);
@@ -204,7 +205,7 @@ void separate_equal(const VectorX& weights, double rate, std::vector<HarmonicMod
 void HarmonicSearch::finish_continued(const ModeOptions& options, HarmonicModes& modes) const {
   separate_equal(shapes_.weights(equations_.rate(), modes.harmonics), equations_.rate(), modes.modes);
   judge_modes(modes, options);
-  sort_by_rate(modes.modes);  // the slowest are kept
+  sort_by_rate(modes.modes);
   const auto slow = [&](const HarmonicMode& each) { return each.mode.frequency() <= *options.below; };
   const auto count = options.below
                          ? static_cast<std::size_t>(std::count_if(modes.modes.begin(), modes.modes.end(), slow))
@@ -243,11 +244,9 @@ int HarmonicSearch::most_affordable() const {
 
 HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const {
   const int most = most_affordable(), most_searched = 2 * most / 3;
-  std::optional<HarmonicModes> modes =
-      continue_modes(equations_, shapes_, mean, std::max({1, least, mean.harmonics}), Copies::continued);
+  std::optional<HarmonicModes> modes = continue_modes(equations_, shapes_, mean, std::max(1, least), Copies::continued);
   if (modes) modes = converged(*std::move(modes), most);
-  constexpr int few = 6;
-  const int first = std::max(few, mean.harmonics);
+  constexpr int first = 6;
   for (int h = first, before = 0; !modes && h > before; before = h, h = std::min(2 * h, most_searched)) {
     modes = find_modes_around(equations_, shapes_, mean, h);
     if (modes) modes = converged(*std::move(modes), most);
@@ -294,10 +293,8 @@ HarmonicModes HarmonicSearch::find_freely(const ModeOptions& options, int least)
 
 HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const {
   if (equations_.constant()) return find_with(options, 0);
-  const std::optional<HarmonicModes> mean = modes_of_mean(options);
-  HarmonicModes modes = mean ? find_from(*mean, options, least) : find_freely(options, least);
-  sort_by_rate(modes.modes);  // further harmonics change the order
-  return modes;
+  if (const std::optional<HarmonicModes> mean = modes_of_mean(options)) return find_from(*mean, options, least);
+  return find_freely(options, least);
 }
 
 }  // namespace bielle::mechanism

@@ -32,8 +32,7 @@ class HarmonicSearch {
   /// @throws ComputationError if they need too many and have no modes of mean equations in their place
   HarmonicModes find(const ModeOptions& options, int least = 1) const;
 
-  /// Does the same as `find`, about the periodic motion alone. @throws ComputationError if the modes need too many
-  /// harmonics
+  /// As `find`, about the periodic motion alone. @throws ComputationError if the modes need too many harmonics
   HarmonicModes find_resolved(const ModeOptions& options) const;
 
  private:
