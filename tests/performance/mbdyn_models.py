@@ -24,7 +24,7 @@ class Model:
 
     def __init__(self):
         self.nodes, self.elements, self.counts = [], [], {}
-        self.start_tolerance = 1e-4  # of the first accelerations: larger, and the first step has an error of first order
+        self.start_tolerance = 1e-4  # tolerance of the first accelerations; without them the first step has an error of first order
 
     def node(self, position, kind="dynamic", velocity="null", rate="null"):
         self.nodes.append(f"structural: {len(self.nodes) + 1}, {kind}, {position}, eye, {velocity}, {rate};")
