@@ -39,7 +39,7 @@ struct DeckMass {
   std::string refusal;                                 ///< the reason why it cannot be used; empty: it can, as follows
   double mass = 0;                                     ///< in the file's unit of mass
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< its centre [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   ///< name of the tie that carries it; empty: `place` may be set
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   ///< about its centre, in the file's unit of mass times m^2
   std::string tie;                                     ///< name of the tie that carries it; or
   std::optional<Eigen::Vector3d> place = {};           ///< node of the solid that carries it [m]
   /// Tells whether it has mass or inertia. A mass without either needs neither tie nor place.

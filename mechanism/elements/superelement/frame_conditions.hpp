@@ -1,7 +1,6 @@
 // The conditions A^T q = 0 that define a body's frame by its interfaces, and their properties.
 //
-// mean       A = W U, where W is diagonal in the kept directions: 1 for translations, l^2 = sum |X_i - X_mean|^2 / n_i
-// for
+// mean       A = W U, W diagonal in the kept directions: 1 for translations, l^2 = sum |X_i - X_mean|^2 / n_i for
 //            rotations: the mean of the interfaces (l = 1 for a single one; if they coincide, the body's radius of
 //            gyration). The default: a slender curved body does not roll in it when it bends, so that coordinates stay
 //            small and elastic forces exact to third order.

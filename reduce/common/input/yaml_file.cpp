@@ -172,9 +172,8 @@ YamlValue YamlValue::keyed(const KeyTable& table) const {
   std::vector<std::string> expected = bound.table_->names();
   if (bound.table_ == &table)
     for (const KeyTable::Variant& variant : table.variants) {
-      if (!variant.value.empty() && has(variant.key))
-        return bound;  // the reader of the key reports that its value is
-                       // none of the choices
+      // The reader of the key reports that its value is none of the choices.
+      if (!variant.value.empty() && has(variant.key)) return bound;
       // The key of the variant may be misspelt.
       if (variant.value.empty() && std::find(expected.begin(), expected.end(), variant.key) == expected.end())
         expected.push_back(variant.key);

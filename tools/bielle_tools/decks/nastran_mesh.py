@@ -52,9 +52,8 @@ def _nodes(card, rows):
         counts = " or ".join(str(count) for count in dict.fromkeys((least, most)))
         raise InputError(f"'{card.path}': line {card.line}: {card.name} {card.fields[1]} has {len(filled)} nodes, but Bielle reads those "
                          f"of {counts}")
-    has_middles = len(filled) > least if shape in SOLID_SHAPES else len(filled) == most  # mid-side nodes that a face
-                                                                                         # leaves out are taken from the
-                                                                                         # solid cells
+    # Mid-side nodes that a face leaves out are taken from the solid cells.
+    has_middles = len(filled) > least if shape in SOLID_SHAPES else len(filled) == most
     nodes = [NONE] * (most if has_middles else least)
     for k in filled[:None if has_middles else least]:
         number = card.integer(k)

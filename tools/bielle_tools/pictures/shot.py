@@ -77,10 +77,8 @@ class Shot:
         known = np.isfinite(path).all(axis=1)
         if not known.any():
             raise InputError(f"'{results.path}': the position of the node '{node}' is not known at these times")
-        path = path[np.maximum.accumulate(np.where(known, np.arange(len(path)), np.argmax(known)))]  # unknown positions
-                                                                                                     # are replaced by
-                                                                                                     # the last known
-                                                                                                     # one
+        # The last known position replaces unknown ones.
+        path = path[np.maximum.accumulate(np.where(known, np.arange(len(path)), np.argmax(known)))]
         return path - path[0]
 
     def _extent(self, axes, results):
