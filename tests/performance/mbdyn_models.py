@@ -8,13 +8,13 @@ import itertools
 import os
 import subprocess
 
-from other_programs import Run
+from other_programs import ROOT, Run
 
 SOLVERS = ("naive, colamd", "klu", "umfpack")
 NEWTON = ("newton raphson", "newton raphson, modified, 5", "newton raphson, modified, 10",
           "newton raphson, modified, 20, keep jacobian matrix")
-STEPS = {"slider-crank": (10_000, 1e-4), "superelement, 30 modes": (5000, 1e-4), "spin-up, 10 beams": (4000, 5e-3),
-         "100 spherical": (2000, 1e-3), "100 hinges": (2000, 1e-3), "500 spherical": (2000, 1e-3)}  # as in timed_models [s]
+COMPARED_NODES = {"slider-crank": "piston", "superelement, 30 modes": "b", "spin-up, 10 beams": "tip", "100 spherical": "b99",
+                  "100 hinges": "b99", "500 spherical": "b499"}
 SETTINGS = tuple(itertools.product(SOLVERS, NEWTON))
 ABOUT_Y = "1, 1.,0.,0., 3, 0.,1.,0."  # orientation whose third axis is y
 
@@ -24,7 +24,9 @@ class Model:
 
     def __init__(self):
         self.nodes, self.elements, self.counts = [], [], {}
-        self.start_tolerance = 1e-4  # tolerance of the first accelerations; without them the first step has an error of first order
+        self.has_gravity = True
+        # Tolerance of the first accelerations; without them the first step has an error of first order.
+        self.start_tolerance = 1e-4
 
     def node(self, position, kind="dynamic", velocity="null", rate="null"):
         self.nodes.append(f"structural: {len(self.nodes) + 1}, {kind}, {position}, eye, {velocity}, {rate};")
@@ -44,22 +46,26 @@ class Model:
     def text(self, steps, size, setting, every):
         """@param every  steps between rows of output; 0: no output"""
         solver, newton = setting
-        output = f"output precision: 16; output meter: meter, 0., forever, steps, {every};" if every else "default output: none;"
-        counts = "\n".join(f"{name}: {count};" for name, count in self.counts.items())
-        gravity = "" if "gravity" not in self.counts else "gravity: uniform, 0.,0.,-1., 9.81;"
-        counts = counts.replace("gravity: 1;", "gravity;")
+        output = "default output: none;"
+        if every:
+            output = f"output precision: 16; output meter: meter, 0., forever, steps, {every};"
+        counts = [f"{name}: {count};" for name, count in self.counts.items()]
+        gravity = []
+        if self.has_gravity:
+            counts.append("gravity;")
+            gravity.append("gravity: uniform, 0.,0.,-1., 9.81;")
         return "\n".join(["begin: data; problem: initial value; end: data;", "begin: initial value;", "initial time: 0.;",
                           f"final time: {(steps - 0.5) * size:.12g};", f"time step: {size:.12g};", "method: ms, 0.6;",
-                          "tolerance: 1e-6;", "max iterations: 100;", f"derivatives tolerance: {self.start_tolerance};", "derivatives max iterations: 50;", "derivatives coefficient: 1e-4;",
+                          "tolerance: 1e-6;", "max iterations: 100;", f"derivatives tolerance: {self.start_tolerance};",
+                          "derivatives max iterations: 50;", "derivatives coefficient: 1e-4;",
                           f"linear solver: {solver};", f"nonlinear solver: {newton};", "end: initial value;",
-                          "begin: control data;", f"structural nodes: {len(self.nodes)};", counts, "skip initial joint assembly;",
+                          "begin: control data;", f"structural nodes: {len(self.nodes)};", *counts, "skip initial joint assembly;",
                           output, "end: control data;", "begin: nodes;", *self.nodes, "end: nodes;", "begin: elements;",
-                          *self.elements, gravity, "end: elements;"]) + "\n"
+                          *self.elements, *gravity, "end: elements;"]) + "\n"
 
 
 def chain(links, joint):
     model = Model()
-    model.counts["gravity"] = 1
     for k in range(links):
         node = model.node(f"{k + 0.5}, 0., 0.")
         model.body(node, 1, "0.001, 0.0833, 0.0833")
@@ -73,7 +79,6 @@ def chain(links, joint):
 
 def slider_crank():
     model = Model()
-    model.counts["gravity"] = 1
     crank = model.node("0.1, 0., 0.", velocity="0., 0., -2.", rate="0., 20., 0.")
     rod = model.node("0.5, 0., 0.", velocity="0., 0., -2.", rate=f"0., {-20 / 3:.15g}, 0.")
     piston = model.node("0.8, 0., 0.")
@@ -92,6 +97,7 @@ def slider_crank():
 
 def spin_up(elements=10):
     model, length = Model(), 10 / elements
+    model.has_gravity = False
     for k in range(elements + 1):
         share = length * (0.5 if k in (0, elements) else 1)
         node = model.node(f"{k * length}, 0., 0.")
@@ -109,7 +115,6 @@ def modal_bar(fem, modes, root, tip):
     """@param fem  path of the body for MBDyn  @param modes  count of its modes  @param root, tip  numbers of its nodes"""
     model = Model()
     model.start_tolerance = 1e30  # MBDyn 1.7.3 does not find the first accelerations of a modal joint on a hinge
-    model.counts["gravity"] = 1
     frame = model.node("null", kind="modal")
     held, end = model.node("null", kind="static"), model.node("1., 0., 0.", kind="static")
     model.joint(f'modal, {frame}, {modes}, from file, no damping, "{fem}", 2, {root}, {held}, null, {tip}, {end}, null')
@@ -117,11 +122,11 @@ def modal_bar(fem, modes, root, tip):
     return model, end
 
 
-def modal_body(superelement, exchange, folder):
+def modal_body(superelement, folder):
     """Writes the body of a superelement for MBDyn. Groups 14 and above are left out, which MBDyn of 2021 does not read.
     @returns its path, the count of modes, and the numbers of the first two nodes"""
     path = os.path.join(folder, "bar.fem")
-    subprocess.run([exchange, superelement, path], check=True, capture_output=True)
+    subprocess.run([os.path.join(ROOT, "tools", "bielle-exchange"), superelement, path], check=True, capture_output=True)
     with open(path, encoding="utf-8") as file:
         text = file.read()
     with open(path, "w", encoding="utf-8") as file:
@@ -132,9 +137,9 @@ def modal_body(superelement, exchange, folder):
     return path, int(modes), *numbers[:2]
 
 
-def models(superelement, exchange, folder):
-    """@returns {name as in timed_models: (model, node whose motion is compared)}"""
-    return {"slider-crank": slider_crank(), "superelement, 30 modes": modal_bar(*modal_body(superelement, exchange, folder)),
+def models(superelement, folder):
+    """@returns {name as in timed_models: (model, number of the node that has the motion of Bielle's in COMPARED_NODES)}"""
+    return {"slider-crank": slider_crank(), "superelement, 30 modes": modal_bar(*modal_body(superelement, folder)),
             "spin-up, 10 beams": spin_up(), "100 spherical": chain(100, "spherical"), "100 hinges": chain(100, "revolute"),
             "500 spherical": chain(500, "spherical")}
 
@@ -144,6 +149,10 @@ def write_input(path, model, steps, size, setting, every=0):
         file.write(model.text(steps, size, setting, every))
 
 
+def command(program, path, output):
+    return [program, "-f", path, "-o", output, "-s"]
+
+
 def fastest_setting(program, model, steps, size, folder):
     """Runs a model once with each setting. @returns the fastest one that converges"""
     times = {}
@@ -151,7 +160,7 @@ def fastest_setting(program, model, steps, size, folder):
         path = os.path.join(folder, "tried.mbd")
         write_input(path, model, steps, size, setting)
         try:
-            times[setting] = Run([program, "-f", path, "-o", os.path.join(folder, "tried"), "-s"], folder).seconds
+            times[setting] = Run(command(program, path, os.path.join(folder, "tried")), folder).seconds
         except RuntimeError:
             continue  # this setting does not converge
     return min(times, key=times.get)

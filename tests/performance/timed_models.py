@@ -3,6 +3,8 @@
 import os
 import subprocess
 
+import yaml
+
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 EVERY = 100  # steps between rows
 
@@ -83,6 +85,11 @@ def makers(bar):
             "100 hinges": (lambda steps: chain(100, "hinge", steps), 2000),
             "100 hinges, stacked": (lambda steps: chain(100, "hinge", steps, "stacked"), 2000),
             "500 spherical": (lambda steps: chain(500, "spherical", steps), 2000)}
+
+
+def step_size(text):
+    """@returns the step of a model [s]"""
+    return yaml.safe_load(text)["analysis"][0]["step"]
 
 
 def write_models(folder, programs, shorter=1):
