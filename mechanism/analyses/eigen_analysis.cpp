@@ -20,17 +20,18 @@ namespace {
 
 constexpr std::size_t most_listed = 50;
 
-/// Lists the parts with a twentieth of the energy or more, the largest first: "element 'rod' 93 %, joint 'main' 6 %".
+/// Lists the parts with 5 % of the energy or more, the largest first: "element 'rod' 93 %, joint 'main' 6 %". Parts with
+/// equal percentages keep the order of the model: rounding errors do not change the list.
 std::string main_parts(const ModeParts& parts, Eigen::Index mode) {
-  std::vector<std::pair<double, std::string>> shares;
+  std::vector<std::pair<long, std::string>> percents;
   for (Eigen::Index k = 0; k < parts.share.rows(); ++k)
-    if (parts.share(k, mode) >= 0.05)
-      shares.emplace_back(parts.share(k, mode), parts.names[static_cast<std::size_t>(k)]);
-  std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    if (const long percent = std::lround(100 * parts.share(k, mode)); percent >= 5)
+      percents.emplace_back(percent, parts.names[static_cast<std::size_t>(k)]);
+  std::stable_sort(percents.begin(), percents.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   constexpr std::size_t most = 3;
   std::vector<std::string> words;
-  for (std::size_t k = 0; k < std::min(most, shares.size()); ++k)
-    words.push_back(fmt::format("{} {:.0f} %", shares[k].second, 100 * shares[k].first));
+  for (std::size_t k = 0; k < std::min(most, percents.size()); ++k)
+    words.push_back(fmt::format("{} {} %", percents[k].second, percents[k].first));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
