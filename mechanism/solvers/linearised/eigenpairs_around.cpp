@@ -1,5 +1,6 @@
 #include "mechanism/solvers/linearised/eigenpairs_around.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mechanism/solvers/linearised/finite_states.hpp"
@@ -100,6 +101,53 @@ VectorXc EigenpairsAround::recovered(Complex mu, const VectorXc& z) const {
   return own.norm() > 0 ? VectorXc(own / own.norm()) : z;
 }
 
+/// Makes real eigenvalues real, which rounding errors make complex: a real operator shows copies of a multiple one as
+/// conjugate pairs, a complex operator has complex multiples of their vectors. They get real vectors of the same space,
+/// unless these are no eigenvectors: a double eigenvalue may have a single one.
+void EigenpairsAround::make_real(std::vector<Eigenpair>& pairs) const {
+  constexpr double rounding = 1e-9, accurate = 1e-6;
+  const auto is_real = [](Complex s) { return std::abs(s.imag()) <= rounding * std::abs(s); };
+  const VectorX& scale = operator_->scale();
+  std::vector<char> done(pairs.size(), 0);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (done[k] != 0 || !is_real(pairs[k].s)) continue;
+    const double first = pairs[k].s.real();
+    std::vector<std::size_t> copies;
+    double sum = 0, imaginary = 0;
+    for (std::size_t j = k; j < pairs.size(); ++j) {
+      const Complex s = pairs[j].s;
+      if (done[j] != 0 || !is_real(s) || std::abs(s.real() - first) > rounding * std::abs(first)) continue;
+      done[j] = 1;
+      copies.push_back(j);
+      sum += s.real();
+      imaginary = std::max({imaginary, std::abs(s.imag()), pairs[j].x.imag().cwiseAbs().maxCoeff()});
+      pairs[j].s = s.real();
+    }
+    if (imaginary == 0) continue;
+    const auto count = static_cast<Eigen::Index>(copies.size());
+    MatrixX parts(scale.size(), 2 * count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const VectorXc& x = pairs[copies[static_cast<std::size_t>(j)]].x;
+      parts.col(2 * j) = x.real().cwiseQuotient(scale);
+      parts.col(2 * j + 1) = x.imag().cwiseQuotient(scale);
+    }
+    const MatrixX X = leading_directions(parts, count);
+    const double s = sum / static_cast<double>(count);
+    const Complex mu = 1.0 / (s - operator_->shift());
+    VectorX residuals(X.cols());
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+      const VectorXc x = X.col(j).cast<Complex>();
+      residuals[j] = (operator_->apply(x) / mu - x).norm();
+    }
+    if (X.cols() < count || !(residuals.maxCoeff() <= accurate)) continue;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const VectorX x = X.col(j), z = x - Q_ * (Q_.transpose() * x).eval();
+      pairs[copies[static_cast<std::size_t>(j)]] = {s, scale.cwiseProduct(x).cast<Complex>(),
+                                                    scale.cwiseProduct(z).cast<Complex>(), residuals[j]};
+    }
+  }
+}
+
 EigenpairsNearby EigenpairsAround::look(Eigen::Index count, Look how) const {
   const ShiftedOperator& now = *operator_;
   OperatorEigenOptions options;
@@ -124,14 +172,11 @@ EigenpairsNearby EigenpairsAround::look(Eigen::Index count, Look how) const {
       nearby.rejected = true;
       continue;
     }
-    Complex value = now.shift() + 1.0 / mu;
-    // Real eigenvalues of a complex operator are real up to rounding.
-    constexpr double rounding = 1e-9;
-    if (!now.is_real() && std::abs(value.imag()) < rounding * std::abs(value)) value = value.real();
     const auto scale = now.scale().cast<Complex>();
-    nearby.pairs.push_back(
-        {value, scale.cwiseProduct(once / once.norm()), scale.cwiseProduct(z), (once - x).norm() / x.norm()});
+    nearby.pairs.push_back({now.shift() + 1.0 / mu, scale.cwiseProduct(once / once.norm()), scale.cwiseProduct(z),
+                            (once - x).norm() / x.norm()});
   }
+  make_real(nearby.pairs);
   return nearby;
 }
 

@@ -48,6 +48,7 @@ class EigenpairsAround {
  private:
   bool dense() const;
   Eigen::VectorXcd recovered(std::complex<double> mu, const Eigen::VectorXcd& z) const;
+  void make_real(std::vector<Eigenpair>& pairs) const;
 
   const LinearisedEquations& e_;
   Eigen::Index dense_;
