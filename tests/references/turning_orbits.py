@@ -19,10 +19,10 @@ GRAVITY = 9.81
 
 class Blades:
     """States: displacements of the hub (if it moves), lag angles; then their rates."""
-    mass, radius, inertia, hinge = 2.0, 0.4, 0.06, 0.2
+    mass, radius, inertia = 2.0, 0.4, 0.06
 
-    def __init__(self, count, spring, damper, hub=None, rate=6.0):
-        self.count, self.spring, self.damper, self.hub, self.rate = count, spring, damper, hub, rate
+    def __init__(self, count, spring, damper, hub=None, rate=6.0, hinge=0.2):
+        self.count, self.spring, self.damper, self.hub, self.rate, self.hinge = count, spring, damper, hub, rate, hinge
         self.size = count + (2 if hub else 0)
 
     def __call__(self, t, z):
@@ -126,6 +126,8 @@ def fill(rows):
     hub = {"mass": 20.0, "spring": [9000.0, 14000.0], "damper": [30.0, 50.0]}
     add(rows, "two_blades", Blades(2, 60.0, 0.3, hub), "two blades under gravity on a hub on springs")
     add(rows, "slow_blades", Blades(3, 60.0, 0.3, hub, 1.0), "three blades under gravity at 1 rad/s")
+    # Twice the frequency of the blade: gravity changes its stiffness once per turn (Mathieu's equation).
+    add(rows, "resonant_blade", Blades(1, 60.0, 0.01, None, 25.13, 0.0), "a blade in parametric resonance")
     system = Unbalance()
     phi = orbit(system)[1]
     oscillating = [s for s in exponents(system, phi) if s.imag > 1e-3]

@@ -10,6 +10,7 @@
 #include "mechanism/solvers/linearised/finite_states.hpp"
 #include "mechanism/solvers/linearised/modes_around_mean.hpp"
 #include "mechanism/solvers/linearised/orthonormal.hpp"
+#include "mechanism/solvers/linearised/resonant_motions.hpp"
 
 namespace bielle::mechanism {
 namespace {
@@ -158,8 +159,8 @@ HarmonicModes HarmonicSearch::find_with(const ModeOptions& options, int harmonic
   return result;
 }
 
-/// Returns the oscillations and decays about the mean state, some more than asked for; nothing if they have harmonics
-/// of their own, or if there are more rigid modes than the shift in time.
+/// Returns the oscillations and decays about the mean state, some more than asked for; nothing if some of these may be
+/// missing, or if there are more rigid modes than the shift in time.
 std::optional<HarmonicModes> HarmonicSearch::modes_of_mean(const ModeOptions& options) const {
   if (!mean_ || options.near) return std::nullopt;
   constexpr int more = 4;  // the order of exponents may change
@@ -168,10 +169,12 @@ std::optional<HarmonicModes> HarmonicSearch::modes_of_mean(const ModeOptions& op
   wider.count += more;
   if (wider.below) *wider.below *= higher;
   HarmonicModes mean = mean_->find(wider);
-  if (mean.periodicity == Periodicity::periodic) return std::nullopt;
   const auto others = std::stable_partition(mean.modes.begin(), mean.modes.end(), is_rigid);
   if (others - mean.modes.begin() != (shapes_.any_shift() ? 1 : 0)) return std::nullopt;
   mean.modes.erase(mean.modes.begin(), others);
+  // Copies may hide modes of mean equations that are periodic as well.
+  const bool enough = !options.below && static_cast<int>(mean.modes.size()) >= wider.count;
+  if (mean.periodicity == Periodicity::periodic && !mean.all && !enough) return std::nullopt;
   return mean;
 }
 
@@ -201,18 +204,17 @@ void separate_equal(const VectorX& weights, double rate, std::vector<HarmonicMod
 
 }  // namespace
 
-/// Completes modes that were continued from those of the mean.
-void HarmonicSearch::finish_continued(const ModeOptions& options, HarmonicModes& modes) const {
+/// Adds the shift in time to modes that were continued, and keeps as many of the slowest ones as were asked for.
+void HarmonicSearch::complete(const ModeOptions& options, HarmonicModes& modes) const {
   separate_equal(shapes_.weights(equations_.rate(), modes.harmonics), equations_.rate(), modes.modes);
   judge_modes(modes, options);
   sort_by_rate(modes.modes);
+  const auto others = std::stable_partition(modes.modes.begin(), modes.modes.end(), is_rigid);
   const auto slow = [&](const HarmonicMode& each) { return each.mode.frequency() <= *options.below; };
-  const auto count = options.below
-                         ? static_cast<std::size_t>(std::count_if(modes.modes.begin(), modes.modes.end(), slow))
-                         : static_cast<std::size_t>(options.count);
-  if (modes.modes.size() > count) {
+  const auto count = options.below ? std::count_if(others, modes.modes.end(), slow) : options.count;
+  if (modes.modes.end() - others > count) {
     modes.all = false;
-    modes.modes.erase(modes.modes.begin() + static_cast<std::ptrdiff_t>(count), modes.modes.end());
+    modes.modes.erase(others + count, modes.modes.end());
   }
   if (shapes_.any_shift()) add_shift(modes);
   modes.all = modes.all && is_complete(modes);
@@ -244,15 +246,20 @@ int HarmonicSearch::most_affordable() const {
 
 HarmonicModes HarmonicSearch::find_from(const HarmonicModes& mean, const ModeOptions& options, int least) const {
   const int most = most_affordable(), most_searched = 2 * most / 3;
-  std::optional<HarmonicModes> modes = continue_modes(equations_, shapes_, mean, std::max(1, least), Copies::continued);
+  std::optional<HarmonicModes> modes =
+      continue_modes(equations_, shapes_, mean, std::max({1, least, mean.harmonics}), Copies::continued);
   if (modes) modes = converged(*std::move(modes), most);
-  constexpr int first = 6;
+  constexpr int few = 6;
+  const int first = std::max(few, mean.harmonics);
   for (int h = first, before = 0; !modes && h > before; before = h, h = std::min(2 * h, most_searched)) {
     modes = find_modes_around(equations_, shapes_, mean, h);
     if (modes) modes = converged(*std::move(modes), most);
   }
   if (modes) {
-    finish_continued(options, *modes);
+    HarmonicModes more = *modes;
+    if (add_resonant_motions(equations_, shapes_, more))
+      if (std::optional<HarmonicModes> both = converged(std::move(more), most)) modes = std::move(both);
+    complete(options, *modes);
     return *std::move(modes);
   }
   HarmonicModes in_place = mean_->find(options);
@@ -293,8 +300,12 @@ HarmonicModes HarmonicSearch::find_freely(const ModeOptions& options, int least)
 
 HarmonicModes HarmonicSearch::find(const ModeOptions& options, int least) const {
   if (equations_.constant()) return find_with(options, 0);
-  if (const std::optional<HarmonicModes> mean = modes_of_mean(options)) return find_from(*mean, options, least);
-  return find_freely(options, least);
+  const std::optional<HarmonicModes> mean = modes_of_mean(options);
+  if (mean) return find_from(*mean, options, least);
+  HarmonicModes modes = find_freely(options, least);
+  if (!options.near && add_resonant_motions(equations_, shapes_, modes)) complete(options, modes);
+  sort_by_rate(modes.modes);  // further harmonics change the order
+  return modes;
 }
 
 }  // namespace bielle::mechanism

@@ -42,7 +42,7 @@ class HarmonicSearch {
   std::optional<HarmonicModes> modes_of_mean(const ModeOptions& options) const;
   std::optional<HarmonicModes> converged(HarmonicModes modes, int most) const;
   int most_affordable() const;
-  void finish_continued(const ModeOptions& options, HarmonicModes& modes) const;
+  void complete(const ModeOptions& options, HarmonicModes& modes) const;
   void add_shift(HarmonicModes& result) const;
   bool is_complete(const HarmonicModes& modes) const;
   bool is_phase(std::complex<double> s, const HarmonicSizes& sizes) const;

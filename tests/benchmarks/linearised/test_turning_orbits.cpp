@@ -19,20 +19,23 @@ struct Hub {
   double mass, ky, kz, cy, cz;
 };
 
-/// Blades of 2 kg with lag hinges at 0.2 m, in a vertical plane, at 6 rad/s.
-std::string blades(int count, double spring, const std::optional<Hub>& hub, const std::string& drive = "rate: 6") {
-  constexpr double mass = 2, arm = 0.4, own = 0.06, hinge = 0.2;
+/// Blades of 2 kg with lag hinges in a vertical plane. @param first  mass of the first blade relative to the others
+/// @param hinge  distance of the hinges from the axis [m]
+std::string blades(int count, double spring, const std::optional<Hub>& hub, const std::string& drive = "rate: 6",
+                   double damping = 0.3, double first = 1, double hinge = 0.2) {
+  constexpr double mass = 2, arm = 0.4, own = 0.06;
   std::string nodes, bodies, hinges;
   for (int b = 0; b < count; ++b) {
     const double at = two_pi * b / count, c = std::cos(at), s = std::sin(at);
     nodes += fmt::format("  b{}: {{position: [0, {:.17g}, {:.17g}], rotation_vector: [{:.17g}, 0, 0]}}\n", b,
                          (hinge + arm) * c, (hinge + arm) * s, at);
-    bodies +=
-        fmt::format("  b{0}: {{type: rigid_body, node: b{0}, mass: {1}, inertia: [{2}, 0, {2}]}}\n", b, mass, own);
+    const double size = b == 0 ? first : 1;
+    bodies += fmt::format("  b{0}: {{type: rigid_body, node: b{0}, mass: {1}, inertia: [{2}, 0, {2}]}}\n", b,
+                          size * mass, size * own);
     hinges += fmt::format(
         "  l{0}: {{type: hinge, nodes: [rotor, b{0}], position: [0, {1:.17g}, {2:.17g}], axis: [1, 0, 0], stiffness: "
-        "{3}, damping: 0.3}}\n",
-        b, hinge * c, hinge * s, spring);
+        "{3}, damping: {4}}}\n",
+        b, hinge * c, hinge * s, spring, damping);
   }
   std::string text = "gravity: [0, 0, -9.81]\nnodes:\n  rotor: {}\n" + nodes;
   if (hub) text += "  hub: {fixed: [x, rx, ry, rz]}\n";
@@ -202,6 +205,80 @@ TEST_CASE("blades without coupling have one exponent, and three independent shap
   REQUIRE(shapes.size() == 3);
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t j = 0; j < k; ++j) CHECK(std::abs(shapes[j].dot(shapes[k])) < 0.5);
+}
+
+TEST_CASE("overdamped blades without coupling have as many slow decays as blades, and as many fast ones",
+          "[linearised]") {
+  // The exponents of a blade (0.38 kg m^2 about its hinge) add up to -c/J by Liouville's formula.
+  constexpr double damping = 19.1, inertia = 0.38;
+  for (const int count : {2, 3, 4, 5}) {
+    CAPTURE(count);
+    const Turning turning(blades(count, 60, std::nullopt, "rate: 6", damping), 6);
+    CHECK(count_rigid(turning.report) == 1);
+    CHECK(turning.report.found.all);
+    const std::vector<Complex> found = turning.exponents();
+    REQUIRE(found.size() == 2 * static_cast<std::size_t>(count));
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      CHECK(found[k].imag() == 0);
+      const Complex other = found[found.size() - 1 - k];
+      CHECK(found[k].real() + other.real() == Approx(-damping / inertia).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("overdamped unequal blades have all modes, of which copies hide some about the mean state", "[linearised]") {
+  const Turning turning(blades(3, 60, springs, "rate: 0.3", 19.1, 1.1), 0.3);
+  CHECK(turning.report.found.all);
+  CHECK(turning.exponents().size() == 8);
+}
+
+TEST_CASE("blades in parametric resonance have two exponents each, which are locked to the rotation", "[linearised]") {
+  const ReferenceTable table("turning_orbits");
+  const double decays = table("resonant_blade.real_1"), grows = table("resonant_blade.real_2");
+  for (const double rate : {25.13, -25.13})
+    for (const int count : {1, 2, 3}) {
+      CAPTURE(rate, count);
+      const Turning turning(blades(count, 60, std::nullopt, fmt::format("rate: {}", rate), 0.01, 1, 0), rate);
+      CHECK(turning.report.found.all);
+      std::vector<Eigen::VectorXcd> growing, decaying;
+      for (const Mode& mode : turning.report.found.modes) {
+        if (mode.kind == ModeKind::rigid) continue;
+        CHECK(std::abs(mode.s.imag()) == Approx(std::abs(rate) / 2));
+        CHECK(mode.s.real() == Approx(mode.s.real() > 0 ? grows : decays).epsilon(1e-5));
+        Eigen::VectorXcd state(mode.u.size() + mode.w.size());  // a motion may pass through zero at the azimuth 0
+        state << mode.u, mode.w / mode.s;
+        (mode.s.real() > 0 ? growing : decaying).push_back(state.normalized());
+      }
+      for (const auto& shapes : {growing, decaying}) {
+        REQUIRE(shapes.size() == static_cast<std::size_t>(count));
+        Eigen::MatrixXcd columns(shapes.front().size(), count);
+        for (int k = 0; k < count; ++k) columns.col(k) = shapes[static_cast<std::size_t>(k)];
+        const auto lengths = Eigen::JacobiSVD<Eigen::MatrixXcd>(columns).singularValues();
+        CHECK(lengths[count - 1] > 0.1 * lengths[0]);  // independent
+      }
+    }
+}
+
+TEST_CASE("modes of slow unequal blades are those next to the modes of their mean state, the slowest first",
+          "[linearised]") {
+  for (const double rate : {0.31, 0.3}) {
+    CAPTURE(rate);
+    const std::string text = blades(3, 60, springs, fmt::format("rate: {}", rate), 0.3, 1.1);
+    const Turning turning(text, rate), mean(text, rate, true);
+    CHECK(turning.report.turning->unresolved == 0);
+    const std::vector<Complex> found = turning.exponents();
+    std::vector<Complex> of_mean = mean.exponents();
+    REQUIRE(found.size() == 5);
+    REQUIRE(of_mean.size() == 5);
+    CHECK(std::is_sorted(found.begin(), found.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); }));
+    for (const Complex s : found) {
+      const auto nearest = std::min_element(of_mean.begin(), of_mean.end(),
+                                            [&](Complex a, Complex b) { return std::abs(a - s) < std::abs(b - s); });
+      CAPTURE(s);
+      CHECK(std::abs(*nearest - s) < std::abs(rate));
+      of_mean.erase(nearest);
+    }
+  }
 }
 
 TEST_CASE("a rotor too slow for harmonics has the modes of its mean state", "[linearised]") {
