@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -24,51 +25,32 @@ class CampbellStates {
   void begin(Campbell& found) {
     const double last = options_.values.back();
     found_ = &found;
-    if (!options_.joint.empty()) {
-      found.gathered = with_modes(last, options_.modes, [&](const System& /*system*/, const ModesReport& report) {
-        static_cast<LinearisedSetting&>(found) = report;
+    const bool behind_joint = !options_.joint.empty();
+    const int count = behind_joint ? options_.modes + SpeedSweep::beyond : 1;
+    found.gathered = with_modes(last, count, [&](const System& system, const ModesReport& report) {
+      static_cast<LinearisedSetting&>(found) = report;
+      if (behind_joint) {
         harmonics_ = std::max(1, report.turning->harmonics);
         found.turning->unresolved = 0;
-      });
-      return;
-    }
-    found.gathered = with_modes(last, 1, [&](const System& /*system*/, const ModesReport& report) {
+        last_ = {count, sample_of(last, system, report, true)};
+        return;
+      }
       // Frequencies of whirl are taken in inertial axes if the motion is steady in these to a thousandth.
       const bool inertial = report.steadiness && report.steadiness->steady_in(ModeAxes::inertial);
       axes_ = inertial ? ModeAxes::inertial : report.axes;
       axis_ = options_.axis.isZero(0) ? fastest(report.about.state, last) : Vector3(options_.axis);
       check_turns(report.about.state, last);
-      static_cast<LinearisedSetting&>(found) = report;
       found.axes = *axes_;
     });
     found.axis = axis_;
   }
 
   SweepSample sample(double value, int count) {
-    SweepSample sample;
     count_ = count;
+    if (value == options_.values.back() && last_.count >= count) return last_.sample;
+    SweepSample sample;
     with_modes(value, count, [&](const System& system, const ModesReport& report) {
-      const State& state = report.about.state;
-      if (report.turning) note_harmonics(*report.turning);
-      sample.speed = report.turning ? report.turning->rate : speed(state);
-      sample.modes.M = report.equations->M;
-      sample.modes.all = report.found.all;
-      for (std::size_t k = 0; k < report.found.modes.size(); ++k) {
-        const Mode& mode = report.found.modes[k];
-        if (!(mode.s.imag() > 0)) continue;
-        if (report.turning) {
-          sample.modes.modes.push_back(mode);
-          sample.modes.whirl.push_back(report.turning_whirl(system, k));
-          continue;
-        }
-        const auto whirl = whirl_of(system, state, sample.modes.M, mode, axis_);
-        sample.modes.modes.push_back(mode);
-        // Forward whirl has the sense of the speed; without rotation there is neither forward nor backward whirl.
-        sample.modes.whirl.push_back(whirl && sample.speed != 0 ? std::copysign(1, sample.speed) * *whirl : NAN);
-      }
-      if (report.steadiness && !report.steadiness->steady_in(*axes_) &&
-          (found_->unsteady.empty() || found_->unsteady.back() != value))
-        found_->unsteady.push_back(value);
+      sample = sample_of(value, system, report, is_end(value));
     });
     return sample;
   }
@@ -88,6 +70,43 @@ class CampbellStates {
   }
 
  private:
+  struct Sampled {
+    int count = 0;  ///< number of modes that were asked for; 0: there is no sample
+    SweepSample sample;
+  };
+  struct NamedModes {
+    std::vector<Mode> modes;
+    std::vector<std::string> names;
+  };
+
+  bool is_end(double value) const { return value == options_.values.front() || value == options_.values.back(); }
+
+  SweepSample sample_of(double value, const System& system, const ModesReport& report, bool named) {
+    SweepSample sample;
+    const State& state = report.about.state;
+    if (report.turning) note_harmonics(*report.turning);
+    sample.speed = report.turning ? report.turning->rate : speed(state);
+    sample.modes.M = report.equations->M;
+    sample.modes.all = report.found.all;
+    for (std::size_t k = 0; k < report.found.modes.size(); ++k) {
+      const Mode& mode = report.found.modes[k];
+      if (!(mode.s.imag() > 0)) continue;
+      sample.modes.modes.push_back(mode);
+      if (report.turning) {
+        sample.modes.whirl.push_back(report.turning_whirl(system, k));
+        continue;
+      }
+      const auto whirl = whirl_of(system, state, sample.modes.M, mode, axis_);
+      // Forward whirl has the sense of the speed; without rotation there is neither forward nor backward whirl.
+      sample.modes.whirl.push_back(whirl && sample.speed != 0 ? std::copysign(1, sample.speed) * *whirl : NAN);
+    }
+    if (report.steadiness && !report.steadiness->steady_in(*axes_) &&
+        (found_->unsteady.empty() || found_->unsteady.back() != value))
+      found_->unsteady.push_back(value);
+    if (named) named_[value] = {report.found.modes, full_names(describe_modes(system, report))};
+    return sample;
+  }
+
   /// Returns the mode with the exponent of a track, or its conjugate, that is not taken.
   static std::optional<std::size_t> mode_of(const TrackedMode& track, const std::vector<Mode>& modes,
                                             const std::vector<char>& taken) {
@@ -104,28 +123,27 @@ class CampbellStates {
   }
 
   /// Returns the names of the tracked modes among all modes of a point.
-  std::vector<std::string> names_at(const SweepPoint& point) const {
+  std::vector<std::string> names_at(const SweepPoint& point) {
+    if (named_.count(point.value) == 0)  // the sweep ended early
+      with_modes(
+          point.value, count_,
+          [&](const System& system, const ModesReport& report) { sample_of(point.value, system, report, true); }, true);
+    const NamedModes& all = named_.at(point.value);
     std::vector<std::string> names(point.tracks.size());
-    with_modes(
-        point.value, count_,
-        [&](const System& system, const ModesReport& report) {
-          const std::vector<std::string> all = full_names(describe_modes(system, report));
-          std::vector<char> taken(all.size(), 0);
-          for (std::size_t i = 0; i < point.tracks.size(); ++i) {
-            const std::optional<std::size_t> mode = mode_of(point.tracks[i], report.found.modes, taken);
-            if (!mode) continue;
-            taken[*mode] = 1;
-            names[i] = all[*mode];
-          }
-        },
-        true);
+    std::vector<char> taken(all.names.size(), 0);
+    for (std::size_t i = 0; i < point.tracks.size(); ++i) {
+      const std::optional<std::size_t> mode = mode_of(point.tracks[i], all.modes, taken);
+      if (!mode) continue;
+      taken[*mode] = 1;
+      names[i] = all.names[*mode];
+    }
     return names;
   }
 
   /// Keeps the largest number of harmonics, the largest change by one more, and rates at which they do not suffice.
   void note_harmonics(const LinearisedSetting::Turning& turning) {
     LinearisedSetting::Turning& whole = *found_->turning;
-    if (turning.unresolved > 0) found_->unresolved.push_back(turning.rate);
+    if (turning.unresolved > 0) whole.unresolved_at.insert(turning.rate);
     whole.periodicity = std::max(whole.periodicity, turning.periodicity);
     whole.harmonics = std::max(whole.harmonics, turning.harmonics);
     whole.change = std::max(whole.change, turning.change);
@@ -144,7 +162,7 @@ class CampbellStates {
     options.search.count = count;
     options.axes = axes_;
     options.harmonics = harmonics_;
-    options.energies = energies;
+    options.energies = energies || is_end(value);
     if (options_.parameter.empty()) {
       set_rotation(session_.model(), value, options);
       use(session_.system(), compute_modes(session_, options));
@@ -229,7 +247,9 @@ class CampbellStates {
   std::optional<ModeAxes> axes_;
   int harmonics_ = 1;  ///< number that is tried first at each value: that of the last one
   Vector3 axis_ = Vector3::Zero();
-  int count_ = 0;  ///< number of modes that were computed at the last state
+  int count_ = 0;                       ///< number of modes that were computed at the last state
+  Sampled last_;                        ///< of the last value
+  std::map<double, NamedModes> named_;  ///< at both ends of the sweep
   Campbell* found_ = nullptr;
 };
 

@@ -36,9 +36,6 @@ struct Campbell : LinearisedSetting {
   SweptModes swept;
   Vector3 axis = Vector3::Zero();  ///< zero for a rotation behind a joint
   std::vector<double> unsteady;    ///< values at which the motion was not steady in these axes
-  /// Rates [rad/s] at which the motions about the periodic one were not resolved: the modes at these rates are those
-  /// about the mean state.
-  std::vector<double> unresolved;
   /// Name of each mode (mode_names.hpp) at the last value, among all modes of that value. A mode that is lost before it
   /// has its name at the first value, with the word "lost".
   std::vector<std::string> names;

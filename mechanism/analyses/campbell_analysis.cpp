@@ -158,13 +158,6 @@ std::string CampbellAnalysis::at(double value, double speed) const {
 std::string CampbellAnalysis::format(const Campbell& found) const {
   const SweptModes& swept = found.swept;
   std::string text = format_setting(found, "modes");
-  if (const auto fastest = std::max_element(found.unresolved.begin(), found.unresolved.end(),
-                                            [](double a, double b) { return std::abs(a) < std::abs(b); });
-      fastest != found.unresolved.end())
-    text += fmt::format(
-        "  at {}, the fastest {:.6g} rad/s, not all motions about the periodic motion were found: modes there are "
-        "those about the mean state\n",
-        counted(found.unresolved.size(), "rate"), *fastest);
   if (!found.turning && found.steadiness && found.unsteady.empty() && found.axes == ModeAxes::turning)
     text += "  frequencies and senses of whirl are those seen from what turns\n";
   if (!found.unsteady.empty())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct LinearisedSetting {
     /// Number of harmonics that did not suffice to resolve the motions about this vibration
     /// (HarmonicModes::unresolved).
     int unresolved = 0;
+    /// In a sweep: the rates [rad/s] at which they were not resolved, and modes are those about the mean state.
+    std::set<double> unresolved_at = {};
   };
   std::optional<Turning> turning;
   /// Delays that are neglected, i.e. taken as zero (describe_delays).

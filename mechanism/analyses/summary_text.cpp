@@ -188,6 +188,23 @@ std::string format_steps(long steps, long iterations, long records) {
 
 namespace {
 
+/// Names the motion about which small motions were computed.
+std::string format_about(const LinearisedSetting::Turning& turning) {
+  if (turning.unresolved > 0)
+    return fmt::format(
+        "with up to {} harmonics not all motions about it were found: modes are those about the mean state, around "
+        "which frequencies change over a turn",
+        turning.unresolved);
+  std::string text = "motions are about this periodic motion";
+  if (turning.unresolved_at.empty()) return text;
+  const double fastest = *std::max_element(turning.unresolved_at.begin(), turning.unresolved_at.end(),
+                                           [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return text + fmt::format(
+                    ", but at {}, the fastest {:.6g} rad/s, not all of them were found: modes there are those about "
+                    "the mean state",
+                    counted(turning.unresolved_at.size(), "rate"), fastest);
+}
+
 std::string format_vibration(const LinearisedSetting::Turning& turning) {
   if (turning.mean)
     return "  motions are about the mean state: vibrations by gravity across the axis and by unbalance are left out\n";
@@ -195,12 +212,7 @@ std::string format_vibration(const LinearisedSetting::Turning& turning) {
   return fmt::format(
       "  gravity across the axis and unbalance shake the mechanism periodically: node '{}' moves up to {:.3g} m from "
       "its place in the mean state, nodes turn up to {:.3g} rad ({} harmonics); {}\n",
-      turning.moved, turning.displacement, turning.rotation, turning.orbit_harmonics,
-      turning.unresolved == 0 ? "motions are about this periodic motion"
-                              : fmt::format("with up to {} harmonics not all motions about it were found: modes are "
-                                            "those about the mean state, around which "
-                                            "frequencies change over a turn",
-                                            turning.unresolved));
+      turning.moved, turning.displacement, turning.rotation, turning.orbit_harmonics, format_about(turning));
 }
 
 std::string format_turning(const LinearisedSetting::Turning& turning) {

@@ -98,7 +98,7 @@ SweepSample SpeedSweep::sample_at(double value) {
 }
 
 SweepPoint SpeedSweep::begin() {
-  count_ = modes_ + 8;
+  count_ = modes_ + beyond;
   SweepSample sample = sample_at(values_.front());
   const auto exhausted = [&] { return sample.modes.all || count_ > 2 * M_.rows(); };
   while (!exhausted() && static_cast<int>(sample.modes.modes.size()) < modes_ + 2) {

@@ -65,6 +65,8 @@ struct SweepEnded {};
 
 class SpeedSweep {
  public:
+  /// Number of modes that are computed at first besides those that are tracked.
+  static constexpr int beyond = 8;
   /// Computes modes at a value of the swept parameter: at least `count` of the slowest, of any kind, or all.
   using Solve = std::function<SweepSample(double value, int count)>;
   /// @param values  ascending, at least two @param modes  number of modes to track @param orders  multiples of the
