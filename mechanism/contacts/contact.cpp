@@ -13,7 +13,7 @@
 namespace bielle::mechanism {
 namespace {
 
-constexpr double apart = -1;  ///< value in place of a damping
+constexpr double apart = -1;  ///< takes the place of the damping of a pair that is apart
 
 }  // namespace
 

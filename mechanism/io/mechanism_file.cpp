@@ -47,7 +47,8 @@ std::set<std::string> paths_of_shapes(const YamlValue& root) {
   return paths;
 }
 
-/// Returns the values that the motion of the model follows from: a run may go on with other shapes.
+/// Returns the values on which the motion of the model depends. Shapes are excluded, because a run may continue with
+/// other ones.
 std::vector<std::pair<std::string, std::string>> digest_of_model(const YamlValue& root) {
   auto digest = root.digest({"mechanism", "parameters", "analysis", "output"});
   const std::set<std::string> shapes = paths_of_shapes(root);

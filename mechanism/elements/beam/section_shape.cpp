@@ -239,7 +239,8 @@ VectorX read_shape_dimensions(const std::string& shape, const YamlValue& value) 
   if (dimensions.maxCoeff() > most_size) refuse_size(value, dimensions.maxCoeff());
   if (is_made_of_walls(shape)) check_thin_parts(value, wall_area(shape, dimensions));
   for (const double size : dimensions)
-    if (size != 0 && size < least_size) refuse_size(value, size);  // (zero: the shape has fewer dimensions)
+    // A zero marks a dimension that the shape does not have.
+    if (size != 0 && size < least_size) refuse_size(value, size);
   return dimensions;
 }
 

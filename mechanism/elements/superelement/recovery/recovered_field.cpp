@@ -67,7 +67,7 @@ void RecoveredField::check(const StressRecovery& stress, const std::string& supe
 void RecoveredField::derive(const StressRecovery& stress, int row, const double* s, double* values) const {
   switch (kind_) {
     case Kind::displacement:
-      break;  // does not follow from stress
+      break;  // displacements do not follow from stress
     case Kind::stress:
       std::copy_n(s, 6, values);
       break;
