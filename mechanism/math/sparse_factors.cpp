@@ -183,7 +183,7 @@ void SparseFactors<Scalar>::try_minimum_degree() {
   std::swap(f.symbolic, other.symbolic);
   std::swap(f.numeric, other.numeric);
   std::swap(f.known_cost, other.known_cost);
-  f.room = 2 * known.entries;  // pivots of later matrices may leave the diagonal
+  f.room = 2 * known.entries;  // pivots of later matrices may leave the diagonal and cause more fill
 }
 
 template <class Scalar>
@@ -216,7 +216,7 @@ void SparseFactors<Scalar>::forget() {
   present_intermittent_.clear();
 }
 
-/// Whether some value of a range is not zero: compares bits of many values at a time.
+/// Returns whether a range contains a nonzero value. It combines the bits of many values at a time.
 template <class Scalar>
 bool SparseFactors<Scalar>::any_in(const std::vector<Scalar>& values, const Range& range) {
   constexpr std::size_t parts = sizeof(Scalar) / sizeof(double);

@@ -50,7 +50,7 @@ void ElasticCoupling::declare(Declaration& declaration) const {
 }
 
 CoordinateRate ElasticCoupling::deformation(const LocalState& state) const {
-  long double value = 0;  // angles of many turns cancel in the sum
+  long double value = 0;  // long double, because angles of many turns cancel in the sum
   double rate = 0;
   for (const Term& term : terms()) {
     const CoordinateRate c = term.joint->coordinate(term.coordinate, state.of(term.reference));

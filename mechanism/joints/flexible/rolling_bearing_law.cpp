@@ -11,8 +11,8 @@ namespace bielle::mechanism {
 namespace {
 
 using std::numbers::pi;
-constexpr int spread = 180;  ///< places of elements that are spread over the ring
-constexpr int slices = 9;    ///< places along a roller
+constexpr int spread = 180;  ///< number of positions on the ring if the elements are spread evenly
+constexpr int slices = 9;    ///< number of positions along a roller
 
 }  // namespace
 

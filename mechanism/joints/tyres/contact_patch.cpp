@@ -90,7 +90,7 @@ PairMeasureOf<order> turning_about(const NodeState& first, const NodeState& seco
 PairSlope calc_deflection(const NodeState& first, const NodeState& second, const JointFrames& frames, double radius,
                           const RoadProfile* road) {
   const RoadBelow<1> below = calc_road<1>(first, second, frames, radius, road);
-  // A wheel that lies flat has no lowest point, but a distance from the road.
+  // A wheel that lies flat has no lowest point. Its distance from the road is still defined.
   if (!(below.squared.value > flat_wheel * flat_wheel)) return -below.distance;
   return radius * sqrt(below.squared) - below.distance;
 }

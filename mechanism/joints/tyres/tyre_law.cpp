@@ -154,7 +154,7 @@ void SpringTyreLaw::add_slip(const Numbers& z, const TyreNumber& direction, Tyre
       eta.value / damped.value * (c_x.value * forces.u_x_rate.value + c_y.value * forces.u_y_rate.value);
 }
 
-/// eta, which fades until the tyre rolls at v_0.
+/// Returns eta, which decreases with the speed and is zero from v_0 on.
 TyreNumber SpringTyreLaw::standing_damping(const TyreNumber& V_r) const {
   const double w = V_r.value / speed, left = 1 - w * w;
   if (!(left > 0)) return {};
