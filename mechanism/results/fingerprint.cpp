@@ -47,7 +47,7 @@ std::string forces(const Component& component, const LocalState& state) {
     return "refuses";
   }
   std::string text = fmt::format("{:.10g}", r.norm());
-  // Forces do not show future events and break points.
+  // The events and break points are added, because the forces do not show them.
   Declaration declaration;
   component.declare(declaration);
   if (!declaration.event_functions.empty()) {

@@ -14,7 +14,7 @@ std::string quoted(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += c;
-    quoted += c == '\n' || c == '\r' ? ' ' : c;  // one line for each step
+    quoted += c == '\n' || c == '\r' ? ' ' : c;  // a step has only one line
   }
   return quoted + '"';
 }
