@@ -74,8 +74,8 @@ bool JointTwist::allows(std::size_t member, const RigidVelocity& motion) {
     const NodeState& own = state_.nodes[static_cast<std::size_t>(node)];
     const RigidVelocity at_rest{own.x, Vector3::Zero(), Vector3::Zero()};
     const VectorX rates = constraint_rates(member, node, motion), rest = constraint_rates(member, node, at_rest);
-    // `size` is the possible contribution of the whole motion to each row: at the node itself the motion may be zero,
-    // up to rounding.
+    // `size` is the largest contribution to each row that a motion of this speed can have. At the node itself the
+    // motion may be zero, up to rounding.
     const double speed = (motion.v.norm() + motion.omega.norm() * length_) / length_;
     VectorX size = rest.cwiseAbs();
     for (int k = 0; k < 6; ++k) {
