@@ -22,7 +22,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// all fields for node a and its j-th neighbour from itself on.
 struct FieldMatrices {
   Index fields;
-  std::vector<std::int64_t> first{0};  ///< and one more
+  std::vector<std::int64_t> first{0};  ///< first column of each node, and the end
   std::vector<std::int64_t> own;       ///< place of node a among its own neighbours
   std::unique_ptr<double[]> values;    ///< (fields, pairs)
 
@@ -140,7 +140,7 @@ class ReducedSum {
         made_(at_a_time * width_ * fields_),
         sum_(MatrixXd::Zero(n_, n_ * fields_)) {}
 
-  static constexpr Index at_a_time = 32;  // nodes: what they make stays in the cache
+  static constexpr Index at_a_time = 32;  // number of nodes whose products stay in the cache
 
   void add_nodes(Index begin, Index end) {
     for (Index a = begin; a < end; ++a) make(static_cast<int>(a), made_.data() + (a - begin) * width_ * fields_);
@@ -157,7 +157,7 @@ class ReducedSum {
   const MatrixXd& sum() const { return sum_; }
 
  private:
-  static constexpr Index block = 16;  // shapes: all fields of one are next to each other
+  static constexpr Index block = 16;  // number of shapes; all fields of a shape are next to each other
 
   /// Rows x, y, z of node a in g T: (fields, 3 n).
   void make(int a, double* out) {

@@ -211,7 +211,7 @@ class Estimate {
       sampled = std::min(sampled, static_cast<std::size_t>(BlockError<N>::sampling_rule().weights.size()));
     });
     terms_ = terms_of_order(order);
-    least_cells_ = 2 * static_cast<std::size_t>(terms_) / sampled + 1;  // two samples for each term
+    least_cells_ = 2 * static_cast<std::size_t>(terms_) / sampled + 1;  // for two samples per term
     std::size_t most_vertices = 0;
     for (int m = 0; m < static_cast<int>(solid.materials.size()); ++m) {
       around_.push_back(surroundings(solid, m));

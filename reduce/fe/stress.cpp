@@ -81,7 +81,7 @@ std::vector<double> cell_volumes(const Solid& solid, int threads) {
 /// The requested nodes with the numbers that the sum over their cells needs.
 struct StressSum {
   const RowMatrix& fields;
-  std::vector<double> volumes;  // each cell has one
+  std::vector<double> volumes;  // volume of each cell
   NodeShares shares;
   std::vector<int> row_of;  // row of the result for each point; -1: not requested
 

@@ -16,7 +16,8 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr Eigen::Index fewest_points = 10;  // points that tell directions inside
+// Smallest number of points whose shapes determine the directions of inertia.
+constexpr Eigen::Index fewest_points = 10;
 
 Eigen::MatrixXd sum_of(const std::array<Eigen::MatrixXd, 6>& components) {
   return components[0] + components[1] + components[2];
@@ -56,7 +57,7 @@ std::array<Eigen::MatrixXd, 6> equal_masses(NodalShapes points, const Eigen::Mat
   return inertia_of_points(points, product(points.displacement, shapes), {});
 }
 
-/// Replaces the moments of the nodes by those that the interfaces show in full.
+/// Replaces the moments of the nodes by those of the interfaces where these show nearly all of the deformation.
 void take_shown(const ShownMoments& shown, const Eigen::Matrix3d& axes, RestMoments& moments) {
   constexpr double in_full = 0.9;
   RestMoments principal = turned_moments(moments, axes);

@@ -91,7 +91,7 @@ ElasticModes elastic_modes_of(const MatrixStudy& study) {
   return {study.modes->eigenvalues.tail(count).unaryExpr(&signed_frequency), study.modes->vectors.rightCols(count)};
 }
 
-/// Modes that move a common place by more than rounding: the MAC of others is that of rounding.
+/// Returns which modes move a common place by more than rounding. The MAC of all others is only rounding.
 std::vector<bool> seen_modes(const Eigen::MatrixXd& u) {
   const Eigen::VectorXd lengths = u.colwise().norm();
   const double least = text_rounding * lengths.maxCoeff();
@@ -227,7 +227,8 @@ VerifiedSubject compare(MatrixSet a, MatrixSet b, int threads) {
     subject.lines.push_back(fmt::format("{} of the same number at another place",
                                         common.moved == 1 ? "1 node is" : fmt::format("{} nodes are", common.moved)));
   subject.lines.push_back(fmt::format("{} in common", counted(common.a.size(), "place")));
-  // Two places on a line tell bending in two planes and extension, but neither torsion nor order: three at least.
+  // Two places on a line show bending in two planes and extension, but neither torsion nor the order of bending. At
+  // least three places are needed.
   if (common.a.size() < 3) {
     list_frequencies(modes_a, modes_b, subject);
   } else {

@@ -91,7 +91,7 @@ const std::vector<CellInfo>& cell_table() {
 }
 
 const CellInfo& cell_info(CellType type) {
-  // Looked up for every face of a mesh: by number.
+  // Types are found by number, because this is called for every face of a mesh.
   static const std::vector<const CellInfo*> by_number = [] {
     std::vector<const CellInfo*> all;
     for (int k = 0; k <= static_cast<int>(CellType::pyramid13); ++k) all.push_back(find_type(k));

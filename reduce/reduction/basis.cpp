@@ -108,7 +108,7 @@ Basis make_basis(const Solid& solid, const BodyMatrices& matrices, const Ties& t
   basis.next = pairs.next;
   solutions.conservativeResize(Eigen::NoChange, kept + pairs.values.size());
   if (pairs.vectors.cols() > 0) solutions.rightCols(pairs.vectors.cols()) = pairs.vectors;
-  pairs.vectors.resize(0, 0);  // large, as all that counts points
+  pairs.vectors.resize(0, 0);  // frees memory: vectors with rows for all points are large
   basis.released = solutions.bottomRows(released);
   basis.shapes = held.expand(solutions);
   solutions.resize(0, 0);

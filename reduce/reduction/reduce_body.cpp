@@ -31,7 +31,7 @@ namespace bielle::reduce {
 
 namespace {
 
-constexpr Eigen::Index most_load_stiffnesses = 60;  // they grow with the cube of the directions
+constexpr Eigen::Index most_load_stiffnesses = 60;  // their memory grows with the cube of the number of directions
 
 /// K~ = T^T K T: Psi^T K Psi and omega^2. Psi^T K Phi = 0 and Psi^T K U = 0 hold by construction; the numerical errors
 /// are returned.

@@ -146,9 +146,9 @@ herr_t walk_object(hid_t root, const char* name, const H5O_info_t*, void* data) 
   return walk.damaged.empty() ? 0 : -1;
 }
 
-/// Fills memory, new and freed, with values that are not harmless. HDF5 may read behind the end of a damaged object, up
-/// to 2 MB for a text. A crash then depends on what memory holds there, and must not come later, in the program: in
-/// this process no memory looks harmless, neither new nor freed.
+/// Fills memory with values that cause a crash if they are used. HDF5 may read beyond the end of a damaged object, up
+/// to 2 MB for a text, and whether it crashes depends on the memory found there. The crash must occur in this process,
+/// and not later in the program; therefore both new and freed memory are filled.
 void fill_free_memory() {
   constexpr int never_an_address = 0x5a, behind = 8 << 20;
   mallopt(M_PERTURB, never_an_address);
@@ -170,7 +170,7 @@ void walk(const std::string& path) {
 /// Findings about a file that was checked.
 struct Finding {
   std::string fault;        ///< empty if there is none
-  bool as_written = false;  ///< it ends with the sum of its bytes
+  bool as_written = false;  ///< whether the file ends with the sum of its bytes
 };
 
 Finding check(const std::string& path, std::int64_t size) {
