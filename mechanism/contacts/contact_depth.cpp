@@ -9,7 +9,7 @@
 
 namespace bielle::mechanism {
 
-/// Height of the middle of a shape over a plane [m].
+/// Returns the height of the middle of a shape over a plane [m].
 double Contact::height_of_middle(const LocalState& state, int plane, int other) const {
   const NodeState &of_plane = state.node(local_node(plane)), &of_other = state.node(local_node(other));
   const Frame &P = shape(plane).frame, &O = shape(other).frame;

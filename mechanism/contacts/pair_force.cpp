@@ -87,7 +87,7 @@ Triple<T> velocity_at(const SeenFromFirst<T>& seen, const Triple<T>& place) {
   return seen.s_rate + cross(seen.turning, place - seen.s);
 }
 
-/// Velocity of a surface's material relative to its node.
+/// Returns the velocity of a surface's material relative to its node.
 template <class T>
 Triple<T> belt_at(const PlacedShape<T>& placed, const Triple<T>& place) {
   Triple<T> velocity, spin;
@@ -99,7 +99,7 @@ Triple<T> belt_at(const PlacedShape<T>& placed, const Triple<T>& place) {
   return velocity + cross(spin, place - placed.origin);
 }
 
-/// Relative velocity of the two surfaces' materials that is due to their motions on the bodies (belts).
+/// Returns the relative velocity of the two surfaces' materials that is due to their motions on the bodies (belts).
 template <class T>
 Triple<T> velocity_of_belts(const SeenFromFirst<T>& seen, const Triple<T>& place) {
   Triple<T> u;
@@ -124,7 +124,7 @@ class StepOfPair {
     constexpr double half_a_turn = 1e-6;
     if (value_of(trace) > half_a_turn) turn_ = (T(1) / trace) * turn_;
   }
-  /// Displacement of the second body's material at a place.
+  /// Returns the displacement of the second body's material at a place.
   Triple<T> way_to(const Triple<T>& place) const {
     if (!bristles_.known) return {};
     const Triple<T> arm = place - seen_.s;

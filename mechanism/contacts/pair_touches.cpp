@@ -87,7 +87,7 @@ class Gathered {
   }
 
  private:
-  /// The force that a crossing takes over from a corner is no longer part of the corner's load.
+  /// Removes the force that a crossing takes over from a corner from the corner's load.
   void unload(int number, const T& force) {
     if (number < 0) return;
     T& load = result_.touches[static_cast<std::size_t>(number)].load;

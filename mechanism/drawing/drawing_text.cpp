@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The numbers are finite, because JSON cannot represent others.
+/// Returns a vector as a list. The numbers are finite, because JSON cannot represent others.
 Json json_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
 /// Writes a place into an object; a position or rotation that is zero is left out.

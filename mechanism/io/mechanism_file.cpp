@@ -37,7 +37,7 @@ std::vector<std::pair<std::string, YamlValue>> named_entries(const YamlValue& se
   return entries;
 }
 
-/// Paths of the shapes by which nodes and elements are drawn: "elements.arm.shape".
+/// Returns the paths of the shapes by which nodes and elements are drawn: "elements.arm.shape".
 std::set<std::string> paths_of_shapes(const YamlValue& root) {
   std::set<std::string> paths;
   for (const char* section : {"nodes", "elements"})

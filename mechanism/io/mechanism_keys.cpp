@@ -66,7 +66,7 @@ namespace {
 
 const KeyTable& part_definition_keys();
 
-/// Sections of a model and of a part.
+/// Returns the sections of a model and of a part.
 std::vector<Key> section_keys() {
   using namespace keys;
   return {

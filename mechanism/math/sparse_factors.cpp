@@ -84,7 +84,7 @@ struct SparseFactors<Scalar>::Factors {
 
 namespace {
 
-/// scaled = diag(left) A diag(right)
+/// Sets scaled = diag(left) A diag(right).
 template <class Scalar>
 void scale_entries(const SparsePattern& pattern, const std::vector<Scalar>& values, const VectorX& left,
                    const VectorX& right, std::vector<Scalar>& scaled) {
@@ -281,7 +281,7 @@ void SparseFactors<Scalar>::solve(Eigen::Ref<Vector> b) const {
 
 namespace {
 
-/// Sign of a permutation.
+/// Returns the sign of a permutation.
 int sign_of(const int* permutation, int size) {
   std::vector<bool> seen(static_cast<std::size_t>(size), false);
   int sign = 1;

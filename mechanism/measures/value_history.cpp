@@ -16,7 +16,7 @@ struct StoredValues {
   double value(int k) const { return data[first_time + 1 + 2 * k]; }
   double secant(int k) const { return (value(k + 1) - value(k)) / length(k); }
   double length(int k) const { return time(k + 1) - time(k); }
-  /// Whether values k and k + 1 exist, with a smooth part of the motion between them.
+  /// Returns whether values k and k + 1 exist, with a smooth part of the motion between them.
   bool smooth(int k) const { return k >= 0 && k + 1 < count && length(k) > 0; }
   bool jumps(int k) const { return length(k) == 0 && value(k) != value(k + 1); }
   /// Returns the slope at value k of the parabola through it and its neighbours, or through the nearest three values on

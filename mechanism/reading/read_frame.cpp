@@ -47,8 +47,8 @@ Matrix3 read_axes(const YamlValue& value) {
   return R;
 }
 
-/// Numbers in files have a few digits: the rotation nearest to the matrix is used, unless the difference exceeds
-/// rounding.
+/// Reads a rotation matrix. Numbers in files have a few digits, so that the rotation nearest to the matrix is used,
+/// unless the difference exceeds rounding.
 Matrix3 read_matrix(const YamlValue& value) {
   const Matrix3 given = value.matrix(3, 3);
   if (const auto fault = rotation_fault(given))

@@ -16,7 +16,7 @@ namespace {
 /// change.
 constexpr int format = 9;
 
-/// The test state is near the start and has velocities, so that it shows the dependence of forces on them.
+/// Returns the test state. It is near the start and has velocities, so that it shows the dependence of forces on them.
 State displaced(const System& system, const State& start) {
   const double length = model_length(start);
   State state = start;

@@ -32,7 +32,7 @@ constexpr std::size_t large_column = 8192;
 constexpr std::size_t known_growth_bytes = std::size_t{1} << 30, unknown_growth_bytes = std::size_t{4} << 20;
 constexpr std::size_t most_growth_rows = std::size_t{1} << 20, unknown_growth_rows = 8192;
 
-/// Number of pieces of `piece` bytes that fit, at least one.
+/// Returns the number of pieces of `piece` bytes that fit, at least one.
 std::size_t pieces_in(std::size_t bytes, std::size_t piece, std::size_t most) {
   return std::clamp<std::size_t>(bytes / piece, 1, most);
 }

@@ -19,7 +19,7 @@ std::string quoted(const std::string& text) {
   return quoted + '"';
 }
 
-/// Path of the table, next to the results.
+/// Returns the path of the table, next to the results.
 std::string table_of(const std::string& results_path) {
   return std::filesystem::path(results_path).replace_extension(".steps.csv").string();
 }

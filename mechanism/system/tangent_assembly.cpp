@@ -38,8 +38,8 @@ class TangentAssembly::KeptEntries {
   }
 
  private:
-  /// A constraint does not depend on multipliers: that block is not in the pattern, except the diagonal entries of
-  /// constraints that may be out of the equations. No component adds to the constraints of others.
+  /// Adds a member's entries. A constraint does not depend on multipliers: that block is not in the pattern, except the
+  /// diagonal entries of constraints that may be out of the equations. No component adds to the constraints of others.
   void add(std::size_t member, const LocalPattern& pattern) {
     const LocalToGlobal& placement = placements_[member];
     const int n = placement.reduced_size();

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t wind_along = 0, wind_in_time = 1;  // argument numbers of the wind's formulas
 
-/// Pieces of the integral between the places along the beam at which coefficients, chord or twist have a kink.
+/// Returns the pieces of the integral between the places along the beam at which coefficients, chord or twist have a
+/// kink.
 std::vector<double> airfoil_pieces(const Airfoil& airfoil, const BeamSpan& span) {
   std::vector<double> places = airfoil.polars.break_points();
   for (const Expression* formula : {&airfoil.chord, &airfoil.twist})

@@ -17,11 +17,11 @@ namespace {
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Fields = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Quadratic shape functions of [0, 1] with nodes 0, 1/2, 1, and their derivatives.
+/// Returns the quadratic shape functions of [0, 1] with nodes 0, 1/2, 1.
 Vector3 shape(double t) { return {(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)}; }
 Vector3 shape_slope(double t) { return {4 * t - 3, 4 - 8 * t, 4 * t - 1}; }
 
-/// Products of functions of y and of z; node 3 j + i is at the i-th position along y and the j-th along z.
+/// Returns the products of functions of y and of z; node 3 j + i is at the i-th position along y and the j-th along z.
 Vector9 product(const Vector3& along_y, const Vector3& along_z) {
   Vector9 all;
   for (int j = 0; j < 3; ++j) all.segment<3>(3 * j) = along_z[j] * along_y;

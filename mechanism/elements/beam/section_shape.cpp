@@ -137,8 +137,9 @@ class Walls : public SectionShape {
   SaintVenant solution_;
 };
 
-/// Rectangles of i [width below, above, height, web, flange below, above], t [width, height, web, flange], l [width,
-/// height, thickness of the leg along y, along z], box [width, height, thickness of the walls across y, across z].
+/// Returns the rectangles of i [width below, above, height, web, flange below, above], t [width, height, web, flange],
+/// l [width, height, thickness of the leg along y, along z], box [width, height, thickness of the walls across y,
+/// across z].
 std::vector<SectionRectangle> walls(const std::string& shape, const VectorX& d) {
   if (shape == "i")
     return {{-d[0] / 2, d[0] / 2, 0, d[4]},

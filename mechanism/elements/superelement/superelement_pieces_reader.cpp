@@ -26,7 +26,7 @@ CutBody read_file(const YamlValue& entry, const std::string& path) {
   }
 }
 
-/// A damping ratio is that of the first mode of the whole body.
+/// Reads damping. A ratio is that of the first mode of the whole body.
 MatrixX read_damping(const YamlValue& damping, const Superelement& piece, const CutBody& body) {
   const auto ratio = damping.find("ratio");
   if (!ratio || damping.has("rayleigh")) return read_superelement_damping(damping, piece);

@@ -26,7 +26,7 @@ double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.c
 /// Returns the angle of a rotation without its axis.
 double angle_of(const Matrix3& R) { return std::acos(std::clamp((R.trace() - 1) / 2, -1.0, 1.0)); }
 
-/// Rotation from body axes to inertial ones, as given by the interface.
+/// Returns the rotation from body axes to inertial ones, as given by the interface.
 Matrix3 axes_of(const BodyPoint& point, const LocalState& state, std::size_t k) {
   return state.node(static_cast<int>(k)).R * point.R_ref.transpose();
 }

@@ -101,7 +101,7 @@ class CircuitReader {
  private:
   Entry own(const std::string& name) const { return {Section::hydraulics, name}; }
 
-  /// Names are those of results: each may only occur once in all of the hydraulics.
+  /// Reads each entry of a section. Names are those of results: each may only occur once in all of the hydraulics.
   template <class Read>
   void each(const char* key, const Read& read) {
     const auto entries = section_.find(key);

@@ -165,7 +165,7 @@ std::unique_ptr<Drive> make_force(const std::string& name, const YamlValue& entr
   return drive;
 }
 
-/// Whether the law is `torque: sought`.
+/// Returns whether the law is `torque: sought`.
 bool is_sought(const YamlValue& law) { return law.is_scalar() && law.text() == "sought"; }
 
 std::unique_ptr<Drive> make_sought(const std::string& name, const YamlValue& entry, const Joint& joint,

@@ -78,7 +78,7 @@ std::array<double, 2> read_of_both(const YamlValue& value, const char* expected)
   return {numbers[0], numbers[1]};
 }
 
-/// E*
+/// Reads the materials of a contact, and returns E*.
 double read_contact_modulus(const YamlValue& contact) {
   const YamlValue young = contact.at("young"), poisson = contact.at("poisson");
   const auto E = read_of_both(young, "expected a modulus, or two: of bush and journal"),

@@ -77,7 +77,7 @@ RollingBearingLaw::RollingBearingLaw(const RollingGeometry& geometry, double pre
   if (preload > 0) z_0_ = displacement_of(preload);
 }
 
-/// Bisection: the axial force grows with the displacement.
+/// Finds the displacement by bisection, because the axial force grows with it.
 double RollingBearingLaw::displacement_of(double preload) const {
   const auto force_at = [&](double z) {
     Vector6 e = Vector6::Zero();

@@ -69,7 +69,7 @@ Grip calc_grip(const TyreNumber& V, const TyreNumber& s, const TyreSlip& slip) {
   return {y.value * V, compose(V, s, g.value, -g.slope * rho / V.value, g.slope / V.value)};
 }
 
-/// t/t_0 of the brush model. @param q  force over mu N
+/// Returns t/t_0 of the brush model. @param q  force over mu N
 TyreNumber trail_factor(const TyreNumber& q) {
   if (q.value >= 1) return {};
   // d(p^3) = -dq, and p' = -1/(3 p^2), which is multiplied by p^3.

@@ -15,7 +15,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Tolerance for times of events [s]: far below the error of a step of size h, far above rounding.
+/// Returns the tolerance for times of events [s], which is far below the error of a step of size h, far above rounding.
 double tolerance_of(double h, double time) {
   return std::max(1e-10 * h, 16 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }

@@ -77,7 +77,7 @@ void StepNewton::move_and_follow(SchemeStep& step, double part) {
   equations_->follow(step);
 }
 
-/// Cost of the iterations so far [ns].
+/// Returns the cost of the iterations so far [ns].
 double StepNewton::spent(const StepReport& report) const {
   return policy_.cost(report.evaluations - evaluations_before_, report.solutions, report.factorisations);
 }

@@ -21,7 +21,7 @@
 namespace bielle::mechanism {
 namespace {
 
-/// Distance from a kink at which its two sides can be distinguished despite rounding [s].
+/// Returns the distance from a kink at which its two sides can be distinguished despite rounding [s].
 double just_off(double time, double h) {
   return 1e-12 * h + 8 * std::numeric_limits<double>::epsilon() * std::abs(time);
 }

@@ -249,8 +249,8 @@ class AccelerationEquations {
     return size <= accurate || (size <= rounding && size > 0.5 * before);
   }
 
-  /// Newton's method with the derivatives by multipliers, from the present state. Steps over kinks are halved if the
-  /// next one would be longer.
+  /// Searches by Newton's method with the derivatives by multipliers, from the present state. Steps over kinks are
+  /// halved if the next one would be longer.
   Search search() {
     constexpr int most = 50;
     Search result;
@@ -295,14 +295,14 @@ class AccelerationEquations {
     return result;
   }
 
-  /// Only multipliers measure the convergence: the forces depend on them.
+  /// Returns weights by which only multipliers measure the convergence, because the forces depend on them.
   VectorX weights() const {
     VectorX weights = VectorX::Zero(system_.size());
     weights.tail(system_.multipliers()).setOnes();
     return weights;
   }
 
-  /// Newton's method for the algebraic unknowns and all unknowns that depend on them.
+  /// Iterates by Newton's method for the algebraic unknowns and all unknowns that depend on them.
   /// @param search  search for balances, or nullptr: none
   /// @returns 0 if it has converged, otherwise the number of iterations
   int iterate_for_algebraic(BalanceSearch* search) {
@@ -330,7 +330,8 @@ class AccelerationEquations {
     }
   }
 
-  /// There may be no balance while the other unknowns have not converged: the state is then used unchanged.
+  /// Searches for balances. There may be none while the other unknowns have not converged; the state is then used
+  /// unchanged.
   void balance(BalanceSearch& search) {
     search.find(environment_, state_);
     evaluate();

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double twist_agreement = 1e-8;  // relative to the terms of the rates
 
-/// Basis of the motions of a body about a place: translations in units of a length, and rotations.
+/// Returns the k-th vector of a basis of the motions of a body about a place: translations in units of a length, and
+/// rotations.
 RigidVelocity unit_motion(int k, const Vector3& place, double length) {
   RigidVelocity motion{place, Vector3::Zero(), Vector3::Zero()};
   (k < 3 ? motion.v : motion.omega) = (k < 3 ? length : 1.0) * Vector3::Unit(k % 3);

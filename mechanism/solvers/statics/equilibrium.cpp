@@ -272,11 +272,11 @@ double Equilibrium::largest_work(const State& state, const VectorX& z) const {
   return largest;
 }
 
-/// The last solution has the component z = P P delta along motions that only StaticTangent holds, with P = (K + H)^-1 H
-/// and its small stiffness H: P is one for indifferent motions and almost zero for all others. If the load along z, z
-/// r, is a rounding error relative to the largest forces at their lever arms (weights of a rotor's blades, given with
-/// limited accuracy, that balance each other), it is neglected: the motion along z is zero, and the force H z (z r)/(z
-/// H z) is omitted from then on.
+/// Removes loads on loose motions that balance each other. The last solution has the component z = P P delta along
+/// motions that only StaticTangent holds, with P = (K + H)^-1 H and its small stiffness H: P is one for indifferent
+/// motions and almost zero for all others. If the load along z, z r, is a rounding error relative to the largest forces
+/// at their lever arms (weights of a rotor's blades, given with limited accuracy, that balance each other), it is
+/// neglected: the motion along z is zero, and the force H z (z r)/(z H z) is omitted from then on.
 void Equilibrium::leave_balanced_out(const State& state) {
   constexpr double share = 1e-7;  // relative to the largest
   const int n = system_.dofs();

@@ -25,8 +25,8 @@ constexpr std::array<PeakKind, 3> peak_kinds = {{{"von_mises", "largest von Mise
                                                  {"largest_principal", "largest principal stress", 1},
                                                  {"least_principal", "least principal stress", -1}}};
 
-/// If values are equal, the first in time is taken, then the first node: the result does not depend on the order of
-/// evaluation.
+/// Returns whether a peak exceeds another one. If values are equal, the first in time is taken, then the first node, so
+/// that the result does not depend on the order of evaluation.
 bool exceeds(const StressPeak& one, const StressPeak& other, double sign) {
   if (one.row < 0 || other.row < 0) return one.row >= 0 && other.row < 0;
   if (one.value != other.value) return sign * one.value > sign * other.value;
