@@ -49,8 +49,8 @@ Quadrature five_points() {
   return rule;
 }
 
-/// Factors of the stress components xx yy zz yz xz xy of one field in g_ab: products of gradients, and sums of two
-/// products for the shear components. Rows 6 p + s of a column for each pair a <= b of nodes; the diagonal of g is
+/// Sets the factors of the stress components xx yy zz yz xz xy of one field in g_ab: products of gradients, and sums of
+/// two products for the shear components. Rows 6 p + s of a column for each pair a <= b of nodes; the diagonal of g is
 /// halved.
 template <int N>
 void set_products(const Eigen::Matrix<double, N, 3>& d, Index p, MatrixXd& products) {
@@ -68,7 +68,7 @@ void set_products(const Eigen::Matrix<double, N, 3>& d, Index p, MatrixXd& produ
   }
 }
 
-/// Number of a pair of nodes of a cell, in the order of `set_products`.
+/// Returns the number of a pair of nodes of a cell, in the order of `set_products`.
 constexpr int pair_number(int a, int b, int nodes) {
   return a <= b ? a * nodes - a * (a - 1) / 2 + b - a : pair_number(b, a, nodes);
 }
@@ -116,8 +116,8 @@ void add_cells(const SolidBlock& block, const NodeGraph& graph, const RowMatrix&
   }
 }
 
-/// The numbers g_ab of all fields for node a and all its neighbours b: (fields, neighbours); the block of a itself is
-/// complete.
+/// Gathers the numbers g_ab of all fields for node a and all its neighbours b: (fields, neighbours); the block of a
+/// itself is complete.
 void gather(const NodeGraph& graph, const FieldMatrices& g, int a, double* row) {
   for (std::int64_t place = graph.starts[a]; place < graph.starts[a + 1]; ++place, row += g.fields) {
     const int b = graph.neighbours[place];
@@ -183,7 +183,7 @@ class ReducedSum {
   MatrixXd sum_;
 };
 
-/// T^T (g (x) I3) T of all fields: (n, n fields), in the layout of ReducedSum.
+/// Returns T^T (g (x) I3) T of all fields: (n, n fields), in the layout of ReducedSum.
 MatrixXd reduce(const NodeGraph& graph, const FieldMatrices& g, const RowMatrix& shapes, int threads) {
   std::vector<MatrixXd> sums(static_cast<std::size_t>(threads));
 #pragma omp parallel num_threads(threads)

@@ -34,7 +34,7 @@ Eigen::MatrixXd complete(std::array<Eigen::MatrixXd, 6>& components, const Eigen
   return rest;
 }
 
-/// Largest |v^T rest v| / v^T mass v of some motions v.
+/// Returns the largest |v^T rest v| / v^T mass v of some motions v.
 double largest_share(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& motions) {
   double result = 0;
   for (Eigen::Index k = 0; k < motions.cols(); ++k) {
@@ -50,7 +50,7 @@ bool add_up(const std::array<Eigen::MatrixXd, 6>& components, const Eigen::Matri
   return (scale.asDiagonal() * (mass - sum_of(components)) * scale.asDiagonal()).cwiseAbs().maxCoeff() < 1e-6;
 }
 
-/// S_kl of equal point masses at the points of the shapes.
+/// Returns S_kl of equal point masses at the points of the shapes.
 std::array<Eigen::MatrixXd, 6> equal_masses(NodalShapes points, const Eigen::MatrixXd& shapes, double mass) {
   points.masses.setConstant(points.points.cols(), mass / static_cast<double>(points.points.cols()));
   points.inertias.clear();

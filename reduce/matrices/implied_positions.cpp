@@ -136,7 +136,7 @@ double angle_of(const Eigen::Matrix3d& turn) {
   return std::atan2(axis.norm(), turn.trace() - 1);
 }
 
-/// Positions by u = theta x x with unit theta, up to a common displacement.
+/// Returns the positions by u = theta x x with unit theta, up to a common displacement.
 Eigen::Matrix3Xd positions_by(const NodalMotion& motion, const SixByThree& rotations) {
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(motion.nodes.size()));
   for (std::size_t a = 0; a < motion.nodes.size(); ++a) {
@@ -163,7 +163,7 @@ Eigen::Vector4d least_turn(const Eigen::Matrix4d& n) {
   return q.norm() > 1e-6 ? q.normalized() : Eigen::Vector4d(pairs.vectors.col(3));
 }
 
-/// Sum of the distances of points from their median.
+/// Returns the sum of the distances of points from their median.
 double spread_of(const Eigen::Matrix3Xd& points) {
   const Eigen::Vector3d centre(median_of(points.row(0)), median_of(points.row(1)), median_of(points.row(2)));
   return (points.colwise() - centre).colwise().norm().sum();

@@ -84,7 +84,7 @@ void find_geometric(MatrixStudy& study) {
   study.geometric = product(pseudo_inverse(set.shapes->displacement), wanted);
 }
 
-/// Six unknowns that determine a combination of six motions best: by pivoting, so that they are far apart.
+/// Finds six unknowns that determine a combination of six motions best: by pivoting, so that they are far apart.
 Unknowns find_references(const MatrixStudy& study, const Eigen::MatrixXd& motions) {
   const bool nodal = study.set.scalars() < study.size();
   const Eigen::VectorXd diagonal = study.stiffness.diagonal(), mass = study.mass.diagonal();

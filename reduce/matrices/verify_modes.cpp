@@ -51,7 +51,7 @@ void tell_held_frequencies(const MatrixStudy& study, VerifiedSubject& subject) {
     subject.lines.push_back(fmt::format("{:>10}  {}", "sum", shares(found->effective_mass.colwise().sum())));
 }
 
-/// Size of the entries besides the diagonal, relative to it.
+/// Returns the size of the entries besides the diagonal, relative to it.
 double besides_diagonal(const SparseColumns& A) {
   const Eigen::VectorXd root = Eigen::VectorXd(A.diagonal()).cwiseAbs().cwiseSqrt().cwiseMax(1e-300);
   double largest = 0;

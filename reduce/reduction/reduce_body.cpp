@@ -70,7 +70,7 @@ ReducedStiffness reduce_stiffness(const BodyMatrices& matrices, const Basis& bas
   return result;
 }
 
-/// (phi^T M U)^2, U rigid motions about the centre.
+/// Returns (phi^T M U)^2, U rigid motions about the centre.
 Eigen::MatrixXd effective_masses(const Superelement& body) {
   const Eigen::Index kept = body.interface_directions(), modes = body.modes();
   const Eigen::MatrixXd participation =

@@ -23,8 +23,8 @@ namespace bielle {
 
 namespace {
 
-/// The check reads metadata only, a few kB per dataset, in a second or two for the largest files. Texts are
-/// read completely.
+/// Returns the limits of the check, which reads metadata only, a few kB per dataset, in a second or two for the largest
+/// files. Texts are read completely.
 ChildLimits limits_of_a_walk(std::uint64_t size) {
   return {.seconds = 3 + static_cast<int>(size / 10'000'000), .memory = 3 * size + 200'000'000};
 }
@@ -52,7 +52,8 @@ std::string name_of(hid_t object) {
 
 std::string unreadable_text(hid_t object) { return fmt::format("a text at {} cannot be read", name_of(object)); }
 
-/// The lengths of texts are stored elsewhere in the file. If they are damaged, HDF5 clears gigabytes before it fails.
+/// Reads texts. Their lengths are stored elsewhere in the file. If they are damaged, HDF5 clears gigabytes before it
+/// fails.
 /// @returns whether they could be read
 bool read_texts(hid_t type, hid_t space, std::size_t count, const auto& read) {
   if (H5Tis_variable_str(type) <= 0) {
@@ -188,7 +189,7 @@ Finding check(const std::string& path, std::int64_t size) {
   return {};
 }
 
-/// A file is checked once until it is written again.
+/// Returns the findings about a file. It is checked only once until it is written again.
 Finding finding_about(const std::string& path) {
   static std::mutex guard;
   static std::map<Identity, Finding> findings;
