@@ -32,7 +32,8 @@ struct Subject {
   /// SI value of one unit of each unknown (or of its rate).
   VectorX position_units() const;
   VectorX rate_units() const;
-  /// Random states: everything moved by `size` times the scales; with size = 1 also the whole model somewhere in space.
+  /// Returns a random state: everything is moved by `size` times the scales. With size = 1 the whole model is also
+  /// placed somewhere in space.
   State random_state(double size, unsigned seed) const;
 };
 

@@ -1,5 +1,5 @@
-// Generalised-alpha of index 3 on a mass that a hinge leads in a circle, written down apart from the program: in the
-// plane, where the group is commutative. Linearised about steady rotation it tells how errors grow from step to step.
+// Generalised-alpha of index 3 for a mass that is guided by a hinge, implemented independently of the program in the
+// plane, where the group is commutative. Linearised about steady rotation, it shows how errors grow from step to step.
 #pragma once
 
 #include <algorithm>

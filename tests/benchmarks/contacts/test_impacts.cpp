@@ -16,7 +16,8 @@ namespace {
 
 constexpr double stiffness = 1e6;
 
-/// Restitution of a ball of 1 kg that flies against a plane at a speed. @param expected  slow ones part late
+/// Restitution of a ball of 1 kg that flies against a plane at a speed. @param expected  expected restitution, which
+/// determines the time of separation
 double restitution_of(const std::string& law, double speed, double expected, double tolerance = 0) {
   const double T = impact_time(1, stiffness, 1.5, speed), gap = 0.5 * speed * T;
   const std::string text =

@@ -84,7 +84,7 @@ TEST_CASE("energy balances in a closed circuit: what is missing falls with the s
 TEST_CASE("the fluid: volumes, modulus and work by their closed forms") {
   Fluid fluid;
   fluid.air_fraction = 0.005;
-  // ../README of the formula: effective moduli by direct evaluation of -v/v' in quadruple precision.
+  // Reference: effective moduli by direct evaluation of -v/v' in quadruple precision.
   CHECK(fluid.effective_modulus(1e3) == Approx(6.289e3).epsilon(1e-3));
   CHECK(fluid.effective_modulus(1e6) == Approx(7.4899e8).epsilon(1e-4));
   CHECK(fluid.effective_modulus(20e6) == Approx(1.3950e9).epsilon(1e-4));

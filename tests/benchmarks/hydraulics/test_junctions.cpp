@@ -75,7 +75,7 @@ TEST_CASE("a pump into a junction that a relief valve drains: the pressure of th
     });
     CHECK(lowest == Approx(p).epsilon(1e-9));
     CHECK(highest == Approx(p).epsilon(1e-9));
-    // A volume in place of the junction comes to the same.
+    // A volume in place of the junction gives the same result.
     CHECK(at_end(circuit("volumes: {j: {volume: 1e-5}}", valve), {.h = 1e-3, .end = 0.1, .tolerance = tolerance},
                  {"hydraulics/j/pressure"})[0] == Approx(p).epsilon(1e-6));
   }
@@ -114,7 +114,7 @@ TEST_CASE("junctions that float together until a valve opens rise together") {
 }
 
 TEST_CASE("valves that check, that follow with a time constant, and pumps that draw") {
-  // A check valve opens over 0.5 bar from none.
+  // A check valve opens over a range of 0.5 bar, which begins at 0.
   const auto checked = [&](double flow) {
     double low = 0, high = 1e6;
     for (int k = 0; k < 100; ++k) {
@@ -196,7 +196,7 @@ TEST_CASE("pressures that seem to be in bar give a warning") {
   CHECK(has("accumulators.s.precharge", "90 bar"));
   CHECK(has("lines.r.relief.pressure", "210 bar"));
   CHECK(has("lines.p.pipe.pressure", "200 bar"));
-  // Relative to the atmosphere none is a pressure of its own; formulas of t are not judged.
+  // If pressures are relative to the atmosphere, a pressure of 0 is plausible; formulas of t are not checked.
   CHECK(warnings(hydraulics("  ambient_pressure: 0\n  supplies: {a: {pressure: 0}, b: {pressure: 2e7}, c: {pressure: "
                             "\"200*t\"}, d: {pressure: -5e4}}\n"))
             .empty());

@@ -143,7 +143,7 @@ TEST_CASE("an open clutch lets its flywheels pass each other, also at the same r
       CHECK_THAT(read(session, "axle/rate"), WithinAbs(0, 1e-11));
       CHECK(read(session, "axle/clutch_sticks") == 1);
     });
-  // At rest, without a load, and then closed.
+  // The wheel is at rest without a load, and then the clutch closes.
   const auto events =
       events_of(wheel("clutch: {capacity: \"if(t > 0.2, 30, 0)\"}", 0, "0"), 0.01, 0.4, [](const Session& session) {
         CHECK_THAT(read(session, "axle/coordinate"), WithinAbs(0, 1e-12));

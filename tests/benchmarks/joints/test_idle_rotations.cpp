@@ -1,5 +1,5 @@
-// Rotations without inertia that nothing needs: models that hold them by other means, or that have inertia there, move
-// in the same way.
+// Rotations without inertia on which nothing acts: models that hold them by other means, or that have inertia there,
+// move in the same way.
 #include <algorithm>
 #include <string>
 

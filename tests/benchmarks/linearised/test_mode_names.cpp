@@ -200,7 +200,7 @@ TEST_CASE("names of a turbine are the same however it is drawn", "[linearised]")
   CHECK(std::set<std::string>(names.begin(), names.end()).size() == names.size());
   CHECK(names_of(across, behind_shaft(across, 2, 10)) == names);
   CHECK(names_of(skew, behind_shaft(skew, 2, 10)) == names);
-  // Without gravity the tower tells the vertical.
+  // Without gravity the axis of the tower defines the vertical.
   CHECK(names_of(without, behind_shaft(without, 2, 10)) == names);
   CHECK(names_of(model, behind_shaft(model, -2, 10)) == names);
 }

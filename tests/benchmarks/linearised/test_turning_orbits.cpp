@@ -174,7 +174,7 @@ TEST_CASE("slow rotors under gravity have the modes of their nonlinear equations
 }
 
 TEST_CASE("slow blades have the exponents that a search around a frequency finds among all copies", "[linearised]") {
-  // The search knows nothing of the mean state, and takes the copy with the largest harmonic.
+  // The search does not use the mean state, and takes the copy with the largest harmonic.
   const double rate = 0.3;
   const Turning turning(blades(3, 60, springs, "rate: 0.3"), rate);
   CHECK(turning.report.turning->harmonics > 8);

@@ -168,7 +168,7 @@ TEST_CASE("forces and moments of any two shapes do not jump") {
         const auto [x, A] = pose(s);
         const Pressed from = pressed(one, placed_at(*b, x, A), law);
         size = std::max(size, from.force.norm());
-        // A short straight way from there, in pieces.
+        // The shape moves a short way from there along a straight line, in pieces.
         const Vector3 along = 0.01 * (k % 2 ? u : v), spin = 0.02 * turn;
         const auto jump = [&](int pieces) {
           double most = 0;

@@ -161,8 +161,8 @@ TEST_CASE("rotation vectors have their derivatives near zero and near half a tur
     const LocalState local = joints.local(*ball, state);
     for (std::size_t k = 0; k < 3; ++k)
       CHECK_THAT(ball->coordinate(k, local).value, Catch::WithinAbs(psi[static_cast<Eigen::Index>(k)], 1e-7));
-    // Steps stay on this side of half a turn, 2 h in two rotations: rounding of log_so3 there, 1e-8 in the worst case
-    // (see test_rotation_singularities.cpp), over h bounds what differences can tell.
+    // The difference steps stay below half a turn, with 2 h in two rotations. The accuracy of differences is limited by
+    // the rounding of log_so3 there, 1e-8 in the worst case (see test_rotation_singularities.cpp), divided by h.
     const double left = M_PI - angle, h = std::min(0.02, 0.2 * left);
     check_coordinates(joints, *ball, state, std::max(1e-9, 1e-12 / h), h);
   }

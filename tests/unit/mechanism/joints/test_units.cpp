@@ -38,7 +38,7 @@ joints:
       folder.file("model.yaml", text + (section == "joints" ? "" : section + ":\n") + "  it: {" + entry + "}\n"));
 }
 
-/// Everything that the components of `it` tell of themselves, with the frames and starts of a joint.
+/// Returns the descriptions of all components of `it`, with the frames and starts of a joint.
 std::string description_of(const std::string& section, const std::string& entry) {
   const MechanismFile file = with_entry(section, entry);
   const System system(file.model);

@@ -233,7 +233,7 @@ TEST_CASE("of two orderings the one that makes fewer operations of the matrix is
 }
 
 TEST_CASE("minimum degree is left where pivots leave the diagonal later") {
-  // First the diagonal is large, and minimum degree is taken; then the constraints have none.
+  // At first the diagonal is large, and minimum degree is chosen. Later the constraints have no diagonal.
   Random random(5);
   constexpr int loops = 24, size = 35 * loops;
   MatrixX A = four_bars(random, loops);
@@ -245,7 +245,7 @@ TEST_CASE("minimum degree is left where pivots leave the diagonal later") {
   REQUIRE(lu.factor(before.values, scale) == FactorStatus::good);
   REQUIRE(lu.cost().operations == cost_by(before, 0).operations);
   REQUIRE(lu.factor(after.values, scale) == FactorStatus::good);
-  // Twice the entries that column minimum degree needed then, at most.
+  // The bound is twice the number of entries that column minimum degree needed before.
   CHECK(lu.cost().entries <= 2 * cost_by(before, 1).entries + 2 * size);
   VectorX x = b;
   lu.solve(x);

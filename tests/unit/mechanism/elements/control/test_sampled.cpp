@@ -318,7 +318,7 @@ TEST_CASE("a sampled value that is no number ends the motion and names the state
   };
   CHECK_THAT(message("sampled: \"exp(5000*main.angle)\""),
              Contains("states.r.sampled") && Contains("t = 0.1") && Contains("larger than anything"));
-  // States 0, 1, 1e60, 1e120, .. beyond all numbers.
+  // The states 0, 1, 1e60, 1e120, .. soon exceed all numbers.
   CHECK_THAT(message("sampled: [1], state_space: {A: [[1e60]], B: [[1]]}"),
              Contains("t = 0.7 s") && Contains("'r'") && Contains("not a finite number"));
 }

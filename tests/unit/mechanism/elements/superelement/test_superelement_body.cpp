@@ -236,7 +236,8 @@ TEST_CASE("rotations that an interface does not keep carry no moment") {
   turned.nodes[1].Omegadot.setConstant(11);
   CHECK(error(forces_alone.residual(turned), forces_alone.residual(state)) == 0);
 
-  // Free about z of the body: no moment about the node's image of it, at any spin about it.
+  // The interface is free about z of the body. There is no moment about the image of this axis at the node, for any
+  // spin about it.
   const SuperelementAlone free_about_z(chains[2].reduced().body);
   const State tilted = free_about_z.random_state(random, 0.05, 3);
   const VectorX r = free_about_z.residual(tilted);

@@ -287,7 +287,7 @@ TEST_CASE("a lock that steps cannot end on closes with the next one") {
   CHECK(motion.log().steps == 10);
   CHECK(session.node("first").Omega.z() == Approx(6).epsilon(1e-6));
   CHECK(session.node("second").Omega.z() == Approx(6).epsilon(1e-6));
-  // It closes at 0.5 s, and opens at 0.7 s, without a torque that tells.
+  // The clutch closes at 0.5 s and opens at 0.7 s; its torque is zero at the end.
   CHECK(session.read("joints/clutch/coordinate")[0] == Approx(-14 * 0.5).epsilon(1e-6));
   CHECK(session.read("joints/clutch/lock_force")[0] == 0);
 }

@@ -34,7 +34,7 @@ struct Struck {
 };
 
 double velocity_of(const ReadyModel& model, const State& state) { return model.node(state, "a").v.x(); }
-/// Velocity beyond that of the rest of the load.
+/// Returns a function for the velocity less that due to the rest of the load.
 std::function<double(const ReadyModel&, const State&)> velocity_beyond(double rest) {
   return [=](const ReadyModel& model, const State& state) { return velocity_of(model, state) - rest; };
 }
