@@ -29,7 +29,7 @@ T friction_slope(const FrictionLaw& law, const T& squared) {
   return compose(squared, sliding.h, 0.5 * sliding.slope_over_speed);
 }
 
-/// Positions and rates of the second shape as the first node sees them, along the increments
+/// Positions and rates of the second shape relative to the first node, along the increments
 /// [ds; dphi (R_12 -> exp(dphi~) R_12); d(sdot); d(turning)].
 template <class T>
 struct SeenFromFirst {
@@ -108,7 +108,7 @@ Triple<T> velocity_of_belts(const SeenFromFirst<T>& seen, const Triple<T>& place
   return u;
 }
 
-/// The motion from the last accepted state to this one, seen from the first body.
+/// The motion from the last accepted state to this one, relative to the first body.
 template <class T>
 class StepOfPair {
  public:

@@ -279,7 +279,7 @@ const Measure& measure_of(const YamlValue& value, const FormulaText& formula, Mo
   return model.add_measure(make_combined(formula.written, read, value, {}), false);
 }
 
-/// In the order of NodeQuantity.
+/// The words of the quantities, in the order of NodeQuantity.
 const std::vector<std::string> quantity_words = {"position",         "velocity", "rotation",
                                                  "angular_velocity", "turn",     "turn_rate"};
 

@@ -69,7 +69,7 @@ const Activity& activity_named_by(const YamlValue& value, Model& model) {
     names.insert(names.end(), all.begin(), all.end());
     const std::vector<Component*> components = model.components_of({section, name});
     if (components.empty()) continue;
-    // A place of the hydraulics may have the name of what is meant.
+    // A place of the hydraulics may have the same name as the entry that is meant.
     if (section == Section::hydraulics && !found.empty() && !is_releasable_line(*components.front())) continue;
     found.push_back({section, name});
     sections.emplace_back(section_name(section));

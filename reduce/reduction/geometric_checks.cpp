@@ -63,9 +63,9 @@ void add_turned_rows(const Interface& interface, const Eigen::MatrixXd& rotation
   }
 }
 
-/// Adds a check of objectivity. The elastic energy in linear coordinates eps, q = eps - g(eps), g_j = eps^T K_j eps /
-/// 2, must not depend on which of two close frames describes the body: sym[K~ (W_a + N_a)] = 0 for all a, with W_a the
-/// rows above and N_a the rows (K_j U a)^T.
+/// Adds a check of objectivity. The elastic energy in linear coordinates eps, q = eps - g(eps),
+/// g_j = eps^T K_j eps / 2, must not depend on which of two close frames describes the body:
+/// sym[K~ (W_a + N_a)] = 0 for all a, with W_a the rows above and N_a the rows (K_j U a)^T.
 void add_objectivity_check(const Superelement& body, std::vector<Check>& checks) {
   const bool whole = std::all_of(body.interfaces.begin(), body.interfaces.end(), [](const Interface& interface) {
     const auto kept = std::count(interface.kept.begin(), interface.kept.begin() + 3, true);

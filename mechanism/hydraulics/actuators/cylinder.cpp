@@ -89,11 +89,11 @@ void Cylinder::declare(Declaration& declaration) const {
   references_.declare(declaration);
   declaration.stiffness = true;
   declaration.damping = geometry_.friction || geometry_.stop_damping > 0;
-  declaration.mass = tank_.has_value();  // for the row of a start that follows from the load
+  declaration.mass = tank_.has_value();  // the row of a start that follows from the load contains accelerations
   declaration.starts_by_state = tank_.has_value();
   declaration.memory = {0, 0};
   if (geometry_.stop_stiffness == 0) return;
-  declaration.kinks = true;  // at zero total force of a stop
+  declaration.kinks = true;  // the force of a stop has a kink at zero
   declaration.event_functions = {{"the long end of its stroke is reached"}, {"the short end of its stroke is reached"}};
 }
 

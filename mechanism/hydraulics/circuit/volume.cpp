@@ -43,7 +43,7 @@ void Volume::declare(Declaration& declaration) const {
   declaration.first_order = {fluid_content, pressure, space};
   declaration.stiffness = declaration.damping = true;
   declaration.starts_by_state = true;
-  declaration.memory = {0};  // whether it has begun
+  declaration.memory = {0};  // tells whether the volume has begun
 }
 
 double Volume::pressure_by_state(const LocalState& own) const {

@@ -19,7 +19,7 @@ struct PlannedWrite {
   const Component* component;
   int place;
   double constant;
-  std::optional<YamlValue> formula;  ///< in place of the constant
+  std::optional<YamlValue> formula;  ///< takes the place of the constant
   bool switches;
   std::string description;          ///< empty: it is part of another write's description
   const Lockable* locks = nullptr;  ///< locks at the present value, which takes the place of the constant

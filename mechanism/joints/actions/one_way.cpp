@@ -177,7 +177,7 @@ void ElasticOneWay::declare(Declaration& declaration) const {
   opening.begins_on = 1;  // a motion may begin without elongation
   declare_one_way(declaration, opening);
   declaration.damping = damping_ > 0;
-  declaration.kinks = true;  // at zero total force
+  declaration.kinks = true;  // the force has a kink at zero
 }
 
 ElasticOneWay::Contact ElasticOneWay::contact(const LocalState& state, double q, double rate) const {

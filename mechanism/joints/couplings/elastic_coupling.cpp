@@ -44,7 +44,7 @@ void ElasticCoupling::declare(Declaration& declaration) const {
   declaration.stiffness = true;
   declaration.damping = stops_.damping > 0;
   if (!plays()) return;
-  declaration.kinks = true;  // at zero total force
+  declaration.kinks = true;  // the force has a kink at zero
   declaration.memory = {0};  // side of the contact
   stops_.declare_events("flanks touch, forwards", "flanks touch, backwards", declaration);
 }

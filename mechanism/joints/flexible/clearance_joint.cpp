@@ -19,7 +19,7 @@ ClearanceJoint::ClearanceJoint(std::string type, std::string name, JointFrames f
 void ClearanceJoint::declare(Declaration& declaration) const {
   Joint::declare(declaration);
   declaration.stiffness = declaration.damping = true;
-  declaration.kinks = true;                       // at zero total force
+  declaration.kinks = true;                       // the force has a kink at zero
   const double time = declaration.memory.back();  // the time is the last entry
   declaration.memory.pop_back();
   for (const Place& place : places_) {

@@ -16,7 +16,7 @@ ElasticGearMesh::ElasticGearMesh(std::string name, std::array<int, 3> nodes, std
 void ElasticGearMesh::declare(Declaration& declaration) const {
   GearMesh::declare(declaration);
   declaration.damping = spring_.damping > 0;
-  declaration.kinks = true;  // at zero total force
+  declaration.kinks = true;  // the force has a kink at zero
   const double touch = plays() ? 0 : 1;
   declaration.memory.insert(declaration.memory.end(), {touch, touch});  // whether each flank touches
   if (plays()) declaration.event_functions = {{"teeth touch, forwards"}, {"teeth touch, backwards"}};

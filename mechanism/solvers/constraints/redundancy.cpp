@@ -213,7 +213,7 @@ bool stands_in_singular_position(const System& system, const Environment& enviro
   if (system.dofs() == 0) return false;
   VectorX v(system.dofs());
   for (Eigen::Index k = 0; k < v.size(); ++k)
-    v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // not aligned with any direction
+    v[k] = std::sin(1 + 1.7 * static_cast<double>(k));  // the direction is not aligned with any axis
   try {
     State moving = state;
     system.set_rates(moving, v, VectorX::Zero(v.size()));

@@ -337,8 +337,8 @@ StepReport TimeIntegration::attempt_settled(double h, double end, bool kink) {
   return report;
 }
 
-/// Components update their memory at the end of the trial. Samples that change values begin another branch: they are
-/// taken when it begins, so that the accepted state is the one just before them.
+/// Accepts the trial, at whose end components update their memory. Samples that change values begin another branch.
+/// They are taken when it begins, so that the accepted state is the one just before them.
 /// @returns whether the motion goes on on another branch
 bool TimeIntegration::accept_trial() {
   State& trial = step_.trial();

@@ -18,7 +18,7 @@ struct FieldKind {
   const char* description;
 };
 
-/// In the order of RecoveredField::Kind.
+/// The kinds of fields, in the order of RecoveredField::Kind.
 constexpr std::array<FieldKind, 6> field_kinds = {
     {{"displacement", 3, "m", "displacement of the nodes of the superelement's mesh, body axes"},
      {"stress", 6, "Pa", "xx yy zz yz xz xy at the stress nodes of the superelement's file, body axes"},
