@@ -13,7 +13,7 @@ const std::string contact_law =
     "stiffness: 3, damping: 0.1, friction: {coefficient: 0.4, static: 0.6, stribeck_velocity: 2, velocity: 1.5, "
     "viscous: 0.1}";
 
-/// Two nodes turned against each other, 1.4 m apart along z.
+/// Returns two nodes turned against each other, 1.4 m apart along z.
 Sample touching(const std::string& variant, const std::string& shapes, std::vector<BadValue> bad,
                 const std::string& law = contact_law) {
   Sample sample{Section::joints, "contact", variant,

@@ -20,7 +20,7 @@ struct Body {
   mechanism::Vector3 inertia{0.004, 0.004, 0.004};
 };
 
-/// A model of bodies and joints. @param joints  text of the section's entries
+/// Returns a model of bodies and joints. @param joints  text of the section's entries
 inline std::string contact_model(const std::vector<Body>& bodies, const std::string& joints,
                                  const std::string& gravity = "[0, 0, 0]") {
   std::string nodes = "nodes:\n", elements = "elements:\n";

@@ -13,8 +13,8 @@ using namespace bielle::test;
 
 namespace {
 
-/// A mass of 500 kg above the ground, lifted and lowered by a cylinder in a closed circuit: a machine on a flywheel
-/// pumps from one chamber to the other, past an accumulator, a check valve and a leaking piston.
+/// Returns a mass of 500 kg above the ground, lifted and lowered by a cylinder in a closed circuit: a machine on a
+/// flywheel pumps from one chamber to the other, past an accumulator, a check valve and a leaking piston.
 std::string closed_circuit(const std::string& conserves) {
   return R"yaml(
 gravity: [0, 0, -9.81]

@@ -19,13 +19,15 @@ namespace {
 
 constexpr double rho = 850, viscosity = 0.04, discharge = 0.7, tank = 101325, pumped = 1e-4;
 
-/// Flow of an orifice of the area A at the difference D, laminar below a Reynolds number of 150 of a round hole.
+/// Returns the flow of an orifice of the area A at the difference D, laminar below a Reynolds number of 150 of a round
+/// hole.
 double orifice(double A, double D) {
   const double D_h = std::sqrt(4 * A / M_PI), D_t = 0.5 * rho * std::pow(150 * viscosity / rho / (discharge * D_h), 2);
   return discharge * A * std::sqrt(2 / rho) * D / std::pow(D * D + D_t * D_t, 0.25);
 }
 
-/// The difference at which a relief valve of 10 mm that opens from 1 to 1.1 MPa passes a flow: by bisection of its law.
+/// Returns the difference at which a relief valve of 10 mm that opens from 1 to 1.1 MPa passes a flow: by bisection of
+/// its law.
 double relief(double flow) {
   double low = 1e6, high = 1e7;
   for (int k = 0; k < 100; ++k) {
@@ -36,7 +38,7 @@ double relief(double flow) {
   return low;
 }
 
-/// The difference at which an orifice passes a flow.
+/// Returns the difference at which an orifice passes a flow.
 double orifice_drop(double A, double flow) {
   double low = 0, high = 1e9;
   for (int k = 0; k < 200; ++k) (orifice(A, 0.5 * (low + high)) < flow ? low : high) = 0.5 * (low + high);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double locked_at = 0.4137, unlocked_at = 0.7;
 
-/// A valve between two supplies.
+/// Returns a valve between two supplies.
 std::string valve(const std::string& keys, const std::string& more = "",
                   const std::string& events =
                       "shut: {when: clock, crosses: 0.4137, do: [{lock: gate}]}, open: {when: "

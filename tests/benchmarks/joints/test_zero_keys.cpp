@@ -17,7 +17,7 @@ using namespace bielle::mechanism;
 
 namespace {
 
-/// A measure `m` at the end of 0.2 s, or in equilibrium.
+/// Returns a measure `m` at the end of 0.2 s, or in equilibrium.
 double measured(const std::string& text, bool in_motion = true) {
   const MechanismFile file = read_mechanism_text(text, "model.yaml");
   Session session(file.model);

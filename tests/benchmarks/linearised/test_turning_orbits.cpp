@@ -19,7 +19,7 @@ struct Hub {
   double mass, ky, kz, cy, cz;
 };
 
-/// Blades of 2 kg with lag hinges at 0.2 m, in a vertical plane, at 6 rad/s.
+/// Returns blades of 2 kg with lag hinges at 0.2 m, in a vertical plane, at 6 rad/s.
 std::string blades(int count, double spring, const std::optional<Hub>& hub, const std::string& drive = "rate: 6") {
   constexpr double mass = 2, arm = 0.4, own = 0.06, hinge = 0.2;
   std::string nodes, bodies, hinges;
@@ -52,7 +52,7 @@ std::string blades(int count, double spring, const std::optional<Hub>& hub, cons
 
 constexpr Hub springs{20, 9000, 14000, 30, 50};
 
-/// A mass of 1 kg at 0.5 m on a rotor that turns freely in a hub on springs.
+/// Returns a mass of 1 kg at 0.5 m on a rotor that turns freely in a hub on springs.
 std::string unbalanced(const std::string& damping = "", const std::string& drive = "") {
   std::string text =
       "nodes: {hub: {fixed: [z, rx, ry, rz]}, rotor: {}, p: {position: [0.5, 0, 0]}}\n"
@@ -88,7 +88,7 @@ struct Turning {
       if (mode.kind != ModeKind::rigid) list.push_back(mode.s);
     return list;
   }
-  /// The periodic motion.
+  /// Returns the periodic motion.
   PeriodicOrbit orbit() const {
     const StandingState& about = report.about;
     const System& system = model.session.system();
@@ -103,7 +103,7 @@ struct Turning {
   }
 };
 
-/// Distance of an exponent, or its conjugate, from another one modulo i rate.
+/// Returns the distance of an exponent, or its conjugate, from another one modulo i rate.
 double distance(Complex s, Complex exact, double rate) {
   const auto apart = [&](Complex a) { return Complex(a.real(), std::remainder(a.imag(), rate)); };
   return std::min(std::abs(apart(s - exact)), std::abs(apart(std::conj(s) - exact)));

@@ -14,7 +14,8 @@ using bielle::test::ReadyModel;
 
 namespace {
 
-/// A point mass that a hinge on a massless frame holds. If `direct`, the body's node is at the mass, else at the pivot.
+/// Returns a point mass that a hinge on a massless frame holds. If `direct`, the body's node is at the mass, else at
+/// the pivot.
 std::string pendulum(bool direct) {
   const std::string head = "gravity: [0, -9.81, 0]\n";
   // The rod has no inertia about the mass. A body with almost no inertia rotates about z nevertheless.

@@ -11,7 +11,7 @@ using bielle::mechanism::Vector3;
 
 namespace {
 
-/// A wedge of 40 degrees with its ridge along y, closed but for its ends: two flanks and a bottom.
+/// Returns a wedge of 40 degrees with its ridge along y, closed but for its ends: two flanks and a bottom.
 /// @param seam  distance of the left flank's upper corners from those of the right one
 std::vector<Vector3> wedge(double seam = 0) {
   const double half = 20 * M_PI / 180, x = std::tan(half);
@@ -21,7 +21,7 @@ std::vector<Vector3> wedge(double seam = 0) {
           a + off, left_b,  left_a,  left_a, left_b,  right_b, left_a,  right_b, right_a};
 }
 
-/// The same triangles from the last to the first.
+/// Returns the same triangles from the last to the first.
 std::vector<Vector3> reversed(const std::vector<Vector3>& corners) {
   std::vector<Vector3> result;
   for (std::size_t k = corners.size(); k >= 3; k -= 3)

@@ -50,7 +50,7 @@ struct Joints {
   }
 };
 
-/// The two nodes anywhere and turned at will; rates, multipliers of order one.
+/// Returns a state with both nodes anywhere and rotated at random; rates and multipliers are of order one.
 State random_state(const System& system, Random& random) {
   State state = system.start(0);
   for (std::size_t k = 1; k < state.nodes.size(); ++k) {
@@ -64,7 +64,7 @@ State random_state(const System& system, Random& random) {
   return state;
 }
 
-/// The state moved along the local unknowns of a joint without scalars but its multipliers.
+/// Returns the state moved along the local unknowns of a joint without scalars but its multipliers.
 State moved(const LocalState& local, const VectorX& step) {
   State state = local.global();
   const Slots& slots = local.slots();

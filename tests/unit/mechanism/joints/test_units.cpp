@@ -18,7 +18,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A model of three nodes with the entry `it` of some section.
+/// Returns a model of three nodes with the entry `it` of some section.
 MechanismFile with_entry(const std::string& section, const std::string& entry) {
   const TemporaryFolder folder;
   folder.file("round.csv", "0,1\n1,1.05\n2.1,1\n3.1,0.95\n4.2,1\n5.2,1.02\n");

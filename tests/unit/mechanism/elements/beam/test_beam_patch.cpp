@@ -51,7 +51,7 @@ double patch_error(const Vector3& K0, const Vector6& eps, const Matrix6& C, cons
   return error;
 }
 
-/// The nearest to C0 that makes f of eps, f.eps > 0.
+/// Returns the nearest to C0 that makes f of eps, f.eps > 0.
 Matrix6 fitted(const Matrix6& C0, const Vector6& eps, const Vector6& f) {
   const Vector6 g = C0 * eps;
   return C0 - g * g.transpose() / eps.dot(g) + f * f.transpose() / eps.dot(f);
@@ -127,7 +127,7 @@ TEST_CASE("a beam rolls up exactly: once with three elements, to two turns with 
 
 namespace {
 
-/// A curved cantilever under two loads whose parts are switched by the parameter t.
+/// Returns a curved cantilever under two loads whose parts are switched by the parameter t.
 std::string loaded_arc(bool follower) {
   return std::string(
              "nodes: {root: {position: [0, 0, 0], fixed: true}, tip: {position: [2, 1, 0]}}\n"

@@ -36,7 +36,8 @@ Matrix3 resultants(const SectionShape& s,
 
 using Sum = std::function<void(double, Vector2)>;
 
-/// Midpoint rule over the points of a box that the shape contains. Sides of the walls are multiples of the cells.
+/// Returns the midpoint rule over the points of a box that the shape contains. Sides of the walls are multiples of the
+/// cells.
 std::function<void(const Sum&)> over_cells(const SectionShape& s, const Vector2& low, const Vector2& high,
                                            double cell) {
   return [&s, low, high, cell](const Sum& add) {

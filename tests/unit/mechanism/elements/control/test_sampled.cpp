@@ -19,7 +19,7 @@ namespace test_sampled {
 
 double held_value(Session& session, const std::string& name) { return session.read("measures/" + name)[0]; }
 
-/// A rotor of 0.5 kg m^2 under the torque u = -kp (q - 1) - kd q' of instants every T, from rest.
+/// Returns a rotor of 0.5 kg m^2 under the torque u = -kp (q - 1) - kd q' of instants every T, from rest.
 std::string controlled(const std::string& more, double kp = 20, double kd = 3) {
   return rotor("parameters: {kp: " + std::to_string(kp) + ", kd: " + std::to_string(kd) +
                "}\n"

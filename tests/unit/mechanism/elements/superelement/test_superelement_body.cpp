@@ -32,7 +32,7 @@ State carried(const State& state, const Frame& motion, const Vector3& v = Vector
   return result;
 }
 
-/// The residual in the node axes, in which rigid motions have no effect.
+/// Returns the residual in the node axes, in which rigid motions have no effect.
 VectorX turned_back(const VectorX& r, const Matrix3& R, int nodes) {
   VectorX result = r;
   for (int k = 0; k < nodes; ++k) result.segment<3>(6 * k) = R.transpose() * r.segment<3>(6 * k);

@@ -21,8 +21,8 @@ int redundant_in(const Session& session) {
   return count;
 }
 
-/// Rotors of 0.5 and 0.2 kg m^2 on one axle: the second turns in bearings on the ground or on the first; the joint
-/// `clutch` is between the two in both cases. A torque of 3 N m turns the first.
+/// Returns rotors of 0.5 and 0.2 kg m^2 on one axle: the second turns in bearings on the ground or on the first; the
+/// joint `clutch` is between the two in both cases. A torque of 3 N m turns the first.
 std::string rotors(bool both_on_ground) {
   return R"yaml(
 nodes:

@@ -12,7 +12,7 @@ using namespace bielle::test;
 
 namespace {
 
-/// A mass of 1 kg on a spring of (2 pi)^2 N/m along x: period 1 s. `force` acts along x.
+/// Returns a mass of 1 kg on a spring of (2 pi)^2 N/m along x: period 1 s. `force` acts along x.
 std::string oscillator(const std::string& force, double start) {
   return "nodes: {m: {position: [" + std::to_string(1 + start) + R"yaml(, 0, 0], fixed: [y, z, rx, ry, rz]}}
 elements:

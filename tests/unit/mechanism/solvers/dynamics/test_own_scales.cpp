@@ -53,7 +53,7 @@ elements: {mass: {type: rigid_body, node: mass, mass: 1, inertia: [1, 1, 1]}}
   }
 };
 
-/// The first first-order unknown at the end of each of 100 steps.
+/// Returns the first first-order unknown at the end of each of 100 steps.
 std::vector<double> values(const Ready& model, const NewtonOptions& options) {
   TimeIntegration integration = model.integration(options);
   integration.start(1e-3);
